@@ -1,0 +1,131 @@
+!> Numbers and words as text: what messages, readers and tables share.
+module dondolo_text
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: to_text, to_table, lower, join
+
+   !> Shortest readable text of a number, for messages
+   interface to_text
+      module procedure :: real_to_text
+      module procedure :: integer_to_text
+   end interface to_text
+
+contains
+
+   !> Shortest decimal that reads back as the same number
+   pure function real_to_text(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=48) :: buffer
+      real(wp) :: again
+      integer :: digits, stat
+
+      if (.not. abs(value) <= huge(value)) then
+         text = 'NaN'
+         if (value > 0.0_wp) text = 'Infinity'
+         if (value < 0.0_wp) text = '-Infinity'
+         return
+      end if
+      do digits = 1, precision(value) + 3
+         write (buffer, '(es48.'//integer_to_text(digits - 1)//'e4)') value
+         read (buffer, *, iostat=stat) again
+         if (stat == 0 .and. again == value) exit
+      end do
+      text = plain(trim(adjustl(buffer)))
+   end function real_to_text
+
+   !> Rewrite d.dddE+0xx as a plain decimal where that is short
+   pure function plain(scientific) result(text)
+      !> Number as written by an ES edit descriptor with four exponent digits
+      character(len=*), intent(in) :: scientific
+      !> The same number, easier to read
+      character(len=:), allocatable :: text
+
+      character(len=:), allocatable :: digits, sign
+      integer :: mark, exponent, point
+
+      mark = index(scientific, 'E')
+      read (scientific(mark + 1:), *) exponent
+      sign = ''
+      if (scientific(1:1) == '-') sign = '-'
+      digits = scientific(len(sign) + 1:len(sign) + 1)//scientific(len(sign) + 3:mark - 1)
+      if (exponent < -4 .or. exponent > 15) then
+         text = scientific(:len(sign) + 1)
+         if (len(digits) > 1) text = text//'.'//digits(2:)
+         text = text//'e'//integer_to_text(exponent)
+         return
+      end if
+      if (exponent < 0) digits = repeat('0', -exponent)//digits
+      point = max(exponent, 0) + 1
+      if (len(digits) < point) digits = digits//repeat('0', point - len(digits))
+      text = sign//digits(:point)
+      if (len(digits) > point) text = text//'.'//digits(point + 1:)
+   end function plain
+
+   !> An integer without blanks
+   pure function integer_to_text(value) result(text)
+      !> Number
+      integer, intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=16) :: buffer
+
+      write (buffer, '(i0)') value
+      text = trim(buffer)
+   end function integer_to_text
+
+   !> A number as it stands in result tables: 17 significant digits, which read back exactly
+   pure function to_table(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text, e.g. 1.2500000000000000E+00 (three exponent digits only where needed)
+      character(len=:), allocatable :: text
+
+      character(len=48) :: buffer
+
+      if (value == 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)) then
+         write (buffer, '(es24.16e2)') value
+      else
+         write (buffer, '(es25.16e3)') value
+      end if
+      text = trim(adjustl(buffer))
+   end function to_table
+
+   !> Lower case
+   pure function lower(text) result(lowered)
+      !> Any text
+      character(len=*), intent(in) :: text
+      !> The same with A-Z in lower case
+      character(len=len(text)) :: lowered
+
+      integer :: i
+
+      lowered = text
+      do i = 1, len(text)
+         if (text(i:i) >= 'A' .and. text(i:i) <= 'Z') lowered(i:i) = achar(iachar(text(i:i)) + 32)
+      end do
+   end function lower
+
+   !> Words in quotes, separated by commas: 'a', 'b', 'c'
+   pure function join(words) result(text)
+      !> Words
+      character(len=*), intent(in) :: words(:)
+      !> The list, for messages that say what is allowed
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, size(words)
+         if (i > 1) text = text//', '
+         text = text//''''//trim(words(i))//''''
+      end do
+   end function join
+
+end module dondolo_text

@@ -1,0 +1,89 @@
+!> An accelerogram: ground acceleration at equal steps of time, linear in between.
+!>
+!> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
+module dondolo_record
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: record_type, new_record
+   public :: largest_acceleration
+
+   !> Largest ground acceleration that is taken for a measurement [m/s2]: a thousand times gravity
+   real(wp), parameter :: largest_acceleration = 1.0e4_wp
+
+   !> An accelerogram
+   type :: record_type
+      !> Name: the stem of its file, unless given
+      character(len=:), allocatable :: name
+      !> Time between two samples [s]
+      real(wp) :: dt = 0.0_wp
+      !> Ground acceleration at times 0, dt, 2 dt, ... [m/s2]
+      real(wp), allocatable :: acceleration(:)
+   contains
+      !> Peak ground acceleration [m/s2]
+      procedure :: pga
+      !> Time of the last sample [s]
+      procedure :: duration
+   end type record_type
+
+contains
+
+   !> Make a record and check that it can be one
+   subroutine new_record(record, acceleration, dt, name, error)
+      !> The record
+      type(record_type), intent(out) :: record
+      !> Ground acceleration at equal steps [m/s2]
+      real(wp), intent(in) :: acceleration(:)
+      !> Time step [s]
+      real(wp), intent(in) :: dt
+      !> Name of the record
+      character(len=*), intent(in) :: name
+      !> Fewer than two samples, a step that is not positive, a value that is no acceleration
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. (dt > 0.0_wp .and. ieee_is_finite(dt))) then
+         call raise_input(error, 'time step dt = '//to_text(dt)//': must be positive')
+         return
+      end if
+      if (size(acceleration) < 2) then
+         call raise_input(error, to_text(size(acceleration))//' samples: a record needs at least two')
+         return
+      end if
+      do i = 1, size(acceleration)
+         if (abs(acceleration(i)) <= largest_acceleration) cycle
+         call raise_input(error, 'sample '//to_text(i)//' = '//to_text(acceleration(i))//' m/s2: '// &
+            & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
+         return
+      end do
+      record%name = name
+      record%dt = dt
+      record%acceleration = acceleration
+   end subroutine new_record
+
+   !> Peak ground acceleration [m/s2]
+   pure function pga(self)
+      !> The record
+      class(record_type), intent(in) :: self
+      !> max |a| [m/s2]
+      real(wp) :: pga
+
+      pga = maxval(abs(self%acceleration))
+   end function pga
+
+   !> Time of the last sample [s]
+   pure function duration(self)
+      !> The record
+      class(record_type), intent(in) :: self
+      !> (n - 1) dt [s]
+      real(wp) :: duration
+
+      duration = real(size(self%acceleration) - 1, wp)*self%dt
+   end function duration
+
+end module dondolo_record
