@@ -1,0 +1,102 @@
+!> What a motion leaves: the peak and what happened, and the time history where it was asked for.
+module dondolo_response
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: response_type, trace_type
+
+   !> Result of one history
+   type :: response_type
+      !> Engineering demand parameter: largest rotation / capacity, equation (6) of Nale et al.;
+      !> equal to the limit for a collapse
+      real(wp) :: edp = 0.0_wp
+      !> Did it reach the limit?
+      logical :: collapsed = .false.
+      !> Impacts located before the end of the record; chains of bounces that are closed at once are not counted
+      integer :: impacts = 0
+      !> Time of the largest rotation, or of reaching the limit [s]
+      real(wp) :: time_of_peak = 0.0_wp
+   end type response_type
+
+   !> Time history: rows at every sample and before and after every impact
+   type :: trace_type
+      !> Number of rows
+      integer :: rows = 0
+      !> Time [s]
+      real(wp), allocatable :: time(:)
+      !> Scaled ground acceleration [m/s2]
+      real(wp), allocatable :: acceleration(:)
+      !> Rotation, side * q [rad]
+      real(wp), allocatable :: rotation(:)
+      !> Angular velocity, side * q' [rad/s]
+      real(wp), allocatable :: velocity(:)
+   contains
+      !> Add a row
+      procedure :: add
+      !> Give back the room that was not used
+      procedure :: trim_rows
+   end type trace_type
+
+contains
+
+   !> Add a row
+   pure subroutine add(self, time, acceleration, rotation, velocity)
+      !> The history
+      class(trace_type), intent(inout) :: self
+      !> Time [s]
+      real(wp), intent(in) :: time
+      !> Scaled ground acceleration [m/s2]
+      real(wp), intent(in) :: acceleration
+      !> Signed rotation [rad]
+      real(wp), intent(in) :: rotation
+      !> Signed angular velocity [rad/s]
+      real(wp), intent(in) :: velocity
+
+      if (.not. allocated(self%time)) call resize(self, 1024)
+      if (self%rows == size(self%time)) call resize(self, 2*self%rows)
+      self%rows = self%rows + 1
+      self%time(self%rows) = time
+      self%acceleration(self%rows) = acceleration
+      self%rotation(self%rows) = rotation
+      self%velocity(self%rows) = velocity
+   end subroutine add
+
+   !> Give back the room that was not used
+   pure subroutine trim_rows(self)
+      !> The history
+      class(trace_type), intent(inout) :: self
+
+      call resize(self, self%rows)
+   end subroutine trim_rows
+
+   !> Room for a number of rows; the present rows are kept as far as they fit
+   pure subroutine resize(self, room)
+      !> The history
+      class(trace_type), intent(inout) :: self
+      !> Rows there shall be room for
+      integer, intent(in) :: room
+
+      call resize_column(self%time, self%rows, room)
+      call resize_column(self%acceleration, self%rows, room)
+      call resize_column(self%rotation, self%rows, room)
+      call resize_column(self%velocity, self%rows, room)
+   end subroutine resize
+
+   !> Room in one column
+   pure subroutine resize_column(column, rows, room)
+      !> The column
+      real(wp), allocatable, intent(inout) :: column(:)
+      !> Rows in use
+      integer, intent(in) :: rows
+      !> Rows there shall be room for
+      integer, intent(in) :: room
+
+      real(wp), allocatable :: wider(:)
+
+      allocate(wider(room))
+      if (allocated(column)) wider(:min(rows, room)) = column(:min(rows, room))
+      call move_alloc(wider, column)
+   end subroutine resize_column
+
+end module dondolo_response

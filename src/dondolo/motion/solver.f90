@@ -1,0 +1,57 @@
+!> How a motion is to be computed: tolerances and the rotation that counts as collapse.
+module dondolo_solver
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: solver_type, check_solver, check_limit
+
+   !> Settings of the computation
+   type :: solver_type
+      !> Relative tolerance of a step
+      real(wp) :: rtol = 1.0e-8_wp
+      !> Absolute tolerance of a step, in units of q_c (rotation) and p q_c (velocity)
+      real(wp) :: atol = 1.0e-10_wp
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp) :: edp_limit = 1.0_wp
+   end type solver_type
+
+contains
+
+   !> Check the ranges of the settings
+   subroutine check_solver(solver, error)
+      !> Settings
+      type(solver_type), intent(in) :: solver
+      !> `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), parameter :: loosest = 1.0e-2_wp, tightest_rtol = 10.0_wp*epsilon(1.0_wp), tightest_atol = tiny(1.0_wp)
+
+      if (.not. (solver%rtol >= tightest_rtol .and. solver%rtol <= loosest)) then
+         call raise_input(error, 'rtol = '//to_text(solver%rtol)//': must lie between '// &
+            & to_text(tightest_rtol)//' and '//to_text(loosest))
+      else if (.not. (solver%atol >= tightest_atol .and. solver%atol <= loosest)) then
+         call raise_input(error, 'atol = '//to_text(solver%atol)//': must be positive and at most '//to_text(loosest))
+      else if (.not. (solver%edp_limit > 0.0_wp .and. solver%edp_limit <= huge(1.0_wp))) then
+         call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be positive')
+      end if
+   end subroutine check_solver
+
+   !> Check that a mechanism can reach the limit rotation
+   subroutine check_limit(solver, mechanism, error)
+      !> Settings
+      type(solver_type), intent(in) :: solver
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The limit lies beyond its geometric end
+      type(error_type), allocatable, intent(out) :: error
+
+      if (solver%edp_limit*mechanism%capacity < mechanism%geometric_end()) return
+      call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be less than '// &
+         & to_text(mechanism%geometric_end()/mechanism%capacity)//', where the upper block of this wall lies flat')
+   end subroutine check_limit
+
+end module dondolo_solver

@@ -1,0 +1,108 @@
+!> A mechanism: what the motion needs to know of a wall, and nothing more.
+!>
+!> Every mechanism has one rotation q >= 0 and a side s = +1 or -1 (docs/theory.md, section 1):
+!>
+!>     J(q) q'' + C(q) q'^2 + G(q) = -s L(q) u_g''(t) + Q(q)
+!>
+!> All terms are per metre of wall length.
+module dondolo_mechanism
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: mechanism_type
+
+   !> One-degree-of-freedom rocking mechanism
+   type, abstract :: mechanism_type
+      !> Can it rock to both sides? If so the side changes at every impact
+      logical :: two_sided = .false.
+      !> Rotation q_c at which the restoring moment G - Q vanishes [rad]
+      real(wp) :: capacity = 0.0_wp
+      !> Speed after an impact / speed before it, 0 <= e < 1
+      real(wp) :: restitution = 0.0_wp
+   contains
+      !> J, C, G, L and Q at a rotation
+      procedure(terms_interface), deferred :: terms
+      !> Potential energy V with V' = G - Q
+      procedure(potential_interface), deferred :: potential
+      !> Rotation that the geometry cannot pass
+      procedure(rotation_interface), deferred :: geometric_end
+      !> Ground acceleration at which it begins to rock
+      procedure :: trigger_acceleration
+      !> Frequency parameter p
+      procedure :: frequency_parameter
+   end type mechanism_type
+
+   abstract interface
+
+      !> The terms of the equation of motion
+      pure subroutine terms_interface(self, q, j, c, g, l, load)
+         import :: mechanism_type, wp
+         !> The mechanism
+         class(mechanism_type), intent(in) :: self
+         !> Rotation [rad]
+         real(wp), intent(in) :: q
+         !> Inertia J [kg m2]
+         real(wp), intent(out) :: j
+         !> C = 1/2 dJ/dq [kg m2]
+         real(wp), intent(out) :: c
+         !> Restoring moment of gravity G [N m]
+         real(wp), intent(out) :: g
+         !> Excitation lever L [kg m]
+         real(wp), intent(out) :: l
+         !> Generalised force Q of carried loads [N m]
+         real(wp), intent(out) :: load
+      end subroutine terms_interface
+
+      !> Potential energy of gravity and of carried loads
+      pure function potential_interface(self, q) result(v)
+         import :: mechanism_type, wp
+         !> The mechanism
+         class(mechanism_type), intent(in) :: self
+         !> Rotation [rad]
+         real(wp), intent(in) :: q
+         !> V [J]
+         real(wp) :: v
+      end function potential_interface
+
+      !> A rotation that is a property of the mechanism
+      pure function rotation_interface(self) result(q)
+         import :: mechanism_type, wp
+         !> The mechanism
+         class(mechanism_type), intent(in) :: self
+         !> Rotation [rad]
+         real(wp) :: q
+      end function rotation_interface
+
+   end interface
+
+contains
+
+   !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 4)
+   pure function trigger_acceleration(self) result(a)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: self
+      !> Trigger acceleration [m/s2]
+      real(wp) :: a
+
+      real(wp) :: j, c, g, l, load
+
+      call self%terms(0.0_wp, j, c, g, l, load)
+      a = (g - load)/l
+   end function trigger_acceleration
+
+   !> Frequency parameter, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block
+   !> (docs/theory.md, section 4)
+   pure function frequency_parameter(self) result(p)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: self
+      !> p [rad/s]
+      real(wp) :: p
+
+      real(wp) :: j, c, g, l, load
+
+      call self%terms(0.0_wp, j, c, g, l, load)
+      p = sqrt((g - load)/(j*sin(self%capacity)))
+   end function frequency_parameter
+
+end module dondolo_mechanism

@@ -1,0 +1,97 @@
+!> Restitution: which model, times which factor, gives which speed ratio at an impact.
+module dondolo_restitution
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : join, to_text
+   implicit none
+   private
+
+   public :: restitution_type
+   public :: restitution_models
+
+   !> Names of the models
+   character(len=10), parameter :: restitution_models(4) = &
+      & [character(len=10) :: 'default', 'sorrentino', 'impulse', 'constant']
+
+   !> What the user asks of the impacts
+   type :: restitution_type
+      !> Model, one of restitution_models
+      character(len=:), allocatable :: model
+      !> Speed ratio of the model 'constant', 0 <= value < 1; not allocated: not given
+      real(wp), allocatable :: value
+      !> Factor on the speed ratio of every model (experiments on two-block walls: 0.84 to 0.90,
+      !> Graziotti et al. 2016)
+      real(wp) :: factor = 1.0_wp
+   contains
+      !> The speed ratio of an impact
+      procedure :: speed_ratio
+   end type restitution_type
+
+contains
+
+   !> Speed after an impact / speed before it: the model's value times the factor. A coefficient of the
+   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 2)
+   subroutine speed_ratio(self, ratio, error, sorrentino, impulse)
+      !> What the user asks
+      class(restitution_type), intent(in) :: self
+      !> Speed ratio e, 0 <= e < 1
+      real(wp), intent(out) :: ratio
+      !> A model that the mechanism does not have; a ratio of 1 or more
+      type(error_type), allocatable, intent(out) :: error
+      !> Speed ratio of the model 'sorrentino'; absent: the mechanism has no such model
+      real(wp), intent(in), optional :: sorrentino
+      !> Speed ratio of the model 'impulse'; absent: the mechanism has no such model.
+      !> The default is 'sorrentino' where there is one
+      real(wp), intent(in), optional :: impulse
+
+      real(wp) :: coefficient
+      logical :: known
+
+      ratio = 0.0_wp
+      coefficient = 0.0_wp
+      known = any(self%model == restitution_models)
+      select case (self%model)
+      case ('default')
+         if (present(impulse)) coefficient = impulse
+         if (present(sorrentino)) coefficient = sorrentino
+      case ('sorrentino')
+         known = present(sorrentino)
+         if (known) coefficient = sorrentino
+      case ('impulse')
+         known = present(impulse)
+         if (known) coefficient = impulse
+      case ('constant')
+         if (.not. allocated(self%value)) then
+            call raise_input(error, 'restitution_value: must be given with restitution = ''constant''')
+            return
+         end if
+         coefficient = self%value
+         if (.not. (coefficient >= 0.0_wp .and. coefficient < 1.0_wp)) then
+            call raise_input(error, 'restitution_value = '//to_text(coefficient)// &
+               & ': must be at least 0 and less than 1')
+            return
+         end if
+      end select
+      if (.not. known) then
+         call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
+            & join(pack(restitution_models, [.true., present(sorrentino), present(impulse), .true.])))
+         return
+      end if
+      if (allocated(self%value) .and. self%model /= 'constant') then
+         call raise_input(error, 'restitution_value = '//to_text(self%value)// &
+            & ': only with restitution = ''constant''')
+         return
+      end if
+      if (.not. (self%factor > 0.0_wp .and. self%factor <= huge(self%factor))) then
+         call raise_input(error, 'restitution_factor = '//to_text(self%factor)//': must be positive')
+         return
+      end if
+      ratio = max(0.0_wp, self%factor*coefficient)
+      if (.not. ratio < 1.0_wp) then
+         call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
+            & ': makes the speed ratio of an impact '//to_text(ratio)//', must be less than 1')
+         ratio = 0.0_wp
+      end if
+   end subroutine speed_ratio
+
+end module dondolo_restitution

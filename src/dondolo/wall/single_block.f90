@@ -1,0 +1,97 @@
+!> One block that rotates about its base corner: the terms shared by the one-sided and the free-standing wall.
+!>
+!> Equation (1) of Nale et al. in the common form (docs/theory.md, section 2):
+!>
+!>     J = I_0    C = 0    G = M g R sin(alpha - q)    L = M R cos(alpha - q)    Q = 0    q_c = alpha
+module dondolo_single_block
+   use dondolo_block, only : block_type
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   implicit none
+   private
+
+   public :: single_block_type
+
+   !> One rocking block
+   type, extends(mechanism_type) :: single_block_type
+      !> Slenderness angle alpha [rad]
+      real(wp) :: alpha
+      !> Inertia about the corner I_0 [kg m2/m]
+      real(wp) :: inertia
+      !> M R [kg]
+      real(wp) :: lever
+      !> M g R [N]
+      real(wp) :: weight_moment
+   contains
+      !> Take geometry and gravity
+      procedure :: take_block
+      procedure :: terms
+      procedure :: potential
+      procedure :: geometric_end
+   end type single_block_type
+
+contains
+
+   !> Take the geometry of a block and the gravity it stands in
+   pure subroutine take_block(self, block, gravity)
+      !> The mechanism
+      class(single_block_type), intent(inout) :: self
+      !> The block
+      type(block_type), intent(in) :: block
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+
+      self%alpha = block%alpha
+      self%capacity = block%alpha
+      self%inertia = block%corner_inertia
+      self%lever = block%mass*block%radius
+      self%weight_moment = block%mass*gravity*block%radius
+   end subroutine take_block
+
+   !> Terms of equation (1)
+   pure subroutine terms(self, q, j, c, g, l, load)
+      !> The mechanism
+      class(single_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> Inertia J [kg m2]
+      real(wp), intent(out) :: j
+      !> C = 1/2 dJ/dq [kg m2]
+      real(wp), intent(out) :: c
+      !> Restoring moment of gravity G [N m]
+      real(wp), intent(out) :: g
+      !> Excitation lever L [kg m]
+      real(wp), intent(out) :: l
+      !> Generalised force Q of carried loads [N m]
+      real(wp), intent(out) :: load
+
+      j = self%inertia
+      c = 0.0_wp
+      g = self%weight_moment*sin(self%alpha - q)
+      l = self%lever*cos(self%alpha - q)
+      load = 0.0_wp
+   end subroutine terms
+
+   !> Potential energy V = M g R cos(alpha - q)
+   pure function potential(self, q) result(v)
+      !> The mechanism
+      class(single_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> V [J]
+      real(wp) :: v
+
+      v = self%weight_moment*cos(self%alpha - q)
+   end function potential
+
+   !> A block that turns about one corner is never stopped by its own geometry
+   pure function geometric_end(self) result(q)
+      !> The mechanism
+      class(single_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp) :: q
+
+      q = huge(self%alpha)
+   end function geometric_end
+
+end module dondolo_single_block

@@ -1,0 +1,219 @@
+!> Two-block wall: a strip held at its base and at its top that breaks at an intermediate hinge and folds out.
+!>
+!> Equation (3) of Nale et al. (Sorrentino, Masiani and Griffith 2008) in the common form (docs/theory.md,
+!> section 2). q is the rotation of the lower block; the hinges at base and top stay on one vertical line, so that
+!> sin(beta2) = R1 sin(beta1)/R2 with beta1 = alpha1 - q.
+module dondolo_two_block
+   use dondolo_block, only : block_type
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_restitution, only : restitution_type
+   implicit none
+   private
+
+   public :: two_block_type, new_two_block
+   public :: two_block_sorrentino, two_block_impulse
+
+   !> Smallest cos(beta2)^2 that the terms are evaluated with: trial points of an integrator may leave
+   !> the geometry, where the terms must stay finite for the step to be rejected by its error
+   real(wp), parameter :: smallest_square = 1.0e-9_wp
+
+   !> Two blocks hinged to each other
+   type, extends(mechanism_type) :: two_block_type
+      !> Lower block
+      type(block_type) :: lower
+      !> Upper block
+      type(block_type) :: upper
+      !> Gravity [m/s2]
+      real(wp) :: gravity
+      !> Vertical load N on the top [N/m]
+      real(wp) :: overburden
+      !> Lever b - e of that load about the top hinge [m]
+      real(wp) :: load_lever
+   contains
+      procedure :: terms
+      procedure :: potential
+      procedure :: geometric_end
+   end type two_block_type
+
+contains
+
+   !> Make the mechanism of a two-block wall
+   subroutine new_two_block(mechanism, lower, upper, overburden, eccentricity, restitution, gravity, error)
+      !> The mechanism
+      type(two_block_type), intent(out) :: mechanism
+      !> Block below the intermediate hinge
+      type(block_type), intent(in) :: lower
+      !> Block above it
+      type(block_type), intent(in) :: upper
+      !> Vertical load N on the top [N/m]
+      real(wp), intent(in) :: overburden
+      !> Its distance from the centreline towards the active top hinge [m], -b <= e <= b
+      real(wp), intent(in) :: eccentricity
+      !> Model of restitution: 'default' and 'sorrentino' are equation (4) repaired
+      type(restitution_type), intent(in) :: restitution
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> A model that does not exist for this mechanism, a speed ratio of 1 or more
+      type(error_type), allocatable, intent(out) :: error
+
+      mechanism%two_sided = .true.
+      mechanism%lower = lower
+      mechanism%upper = upper
+      mechanism%gravity = gravity
+      mechanism%overburden = overburden
+      mechanism%load_lever = lower%b - eccentricity
+      mechanism%capacity = moment_root(mechanism)
+      call restitution%speed_ratio(mechanism%restitution, error, &
+         & sorrentino=two_block_sorrentino(lower, upper), impulse=two_block_impulse(lower, upper))
+   end subroutine new_two_block
+
+   !> Terms of equation (3), in the forms without 0/0 at q = alpha1
+   pure subroutine terms(self, q, j, c, g, l, load)
+      !> The mechanism
+      class(two_block_type), intent(in) :: self
+      !> Rotation of the lower block [rad]
+      real(wp), intent(in) :: q
+      !> Inertia J [kg m2]
+      real(wp), intent(out) :: j
+      !> C = 1/2 dJ/dq [kg m2]
+      real(wp), intent(out) :: c
+      !> Restoring moment of gravity G [N m]
+      real(wp), intent(out) :: g
+      !> Excitation lever L [kg m]
+      real(wp), intent(out) :: l
+      !> Generalised force Q of the overburden [N m]
+      real(wp), intent(out) :: load
+
+      real(wp) :: sin1, cos1, a, cos2, k, b1, b2, c1, c2, m2r2, cos_psi
+
+      associate (lower => self%lower, upper => self%upper)
+         sin1 = lower%radius*sin(lower%alpha - q)
+         cos1 = lower%radius*cos(lower%alpha - q)
+         a = sin1/upper%radius
+         cos2 = sqrt(max(1.0_wp - a**2, smallest_square))
+         k = cos1/(upper%radius*cos2)
+         m2r2 = upper%mass*upper%radius**2
+
+         b1 = k**2
+         b2 = 4.0_wp*a**2*(1.0_wp + k)
+         c1 = k*(1.0_wp - k**2)*a/cos2
+         c2 = -4.0_wp*a*(1.0_wp + k)*cos1/upper%radius + 2.0_wp*a**2*(1.0_wp - k**2)*a/cos2
+
+         j = lower%corner_inertia + b1*upper%corner_inertia + b2*m2r2
+         c = c1*upper%corner_inertia + c2*m2r2
+         g = self%gravity*sin1*(lower%mass + upper%mass*(2.0_wp + k))
+         l = (lower%mass + upper%mass)*cos1
+         load = 0.0_wp
+         if (self%overburden > 0.0_wp) then
+            ! cos(psi) with psi = alpha2 - beta2
+            cos_psi = cos(upper%alpha)*cos2 + sin(upper%alpha)*a
+            load = -self%overburden*(2.0_wp*sin1*(1.0_wp + k) - self%load_lever*k*cos_psi)
+         end if
+      end associate
+   end subroutine terms
+
+   !> Potential energy of both blocks and of the overburden
+   pure function potential(self, q) result(v)
+      !> The mechanism
+      class(two_block_type), intent(in) :: self
+      !> Rotation of the lower block [rad]
+      real(wp), intent(in) :: q
+      !> V [J]
+      real(wp) :: v
+
+      real(wp) :: rise1, rise2, a, cos2, sin_psi
+
+      associate (lower => self%lower, upper => self%upper)
+         a = lower%radius*sin(lower%alpha - q)/upper%radius
+         cos2 = sqrt(max(1.0_wp - a**2, smallest_square))
+         rise1 = lower%radius*cos(lower%alpha - q)
+         rise2 = upper%radius*cos2
+         sin_psi = sin(upper%alpha)*cos2 - cos(upper%alpha)*a
+         v = self%gravity*(lower%mass*rise1 + upper%mass*(2.0_wp*rise1 + rise2)) &
+            & + self%overburden*(2.0_wp*(rise1 + rise2) - self%load_lever*sin_psi)
+      end associate
+   end function potential
+
+   !> The rotation at which the upper block lies flat, R1 sin(q - alpha1) = R2
+   pure function geometric_end(self) result(q)
+      !> The mechanism
+      class(two_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp) :: q
+
+      real(wp), parameter :: right_angle = acos(0.0_wp)
+
+      q = self%lower%alpha + right_angle
+      if (self%upper%radius < self%lower%radius) &
+         & q = self%lower%alpha + asin(self%upper%radius/self%lower%radius)
+   end function geometric_end
+
+   !> Rotation at which G - Q vanishes: alpha1, or less where an overburden pushes out before
+   pure function moment_root(mechanism) result(root)
+      !> The mechanism, its capacity not yet known
+      type(two_block_type), intent(in) :: mechanism
+      !> Capacity rotation [rad]
+      real(wp) :: root
+
+      real(wp) :: below, above, j, c, g, l, load
+
+      root = mechanism%lower%alpha
+      if (.not. (mechanism%overburden > 0.0_wp .and. mechanism%load_lever > 0.0_wp)) return
+      below = 0.0_wp
+      above = root
+      do
+         root = 0.5_wp*(below + above)
+         if (root <= below .or. root >= above) exit
+         call mechanism%terms(root, j, c, g, l, load)
+         if (g - load > 0.0_wp) then
+            below = root
+         else
+            above = root
+         end if
+      end do
+   end function moment_root
+
+   !> Equation (4) of Nale et al. with its lost term restored and centroidal inertias (docs/theory.md,
+   !> section 3): balance of angular momentum of both blocks about the new base hinge
+   pure function two_block_sorrentino(lower, upper) result(eta)
+      !> Lower block
+      type(block_type), intent(in) :: lower
+      !> Upper block
+      type(block_type), intent(in) :: upper
+      !> Ratio of the angular velocities after and before an impact
+      real(wp) :: eta
+
+      real(wp) :: t, sin1, cos1, tan2, m1r1, m2r1, common
+
+      sin1 = sin(lower%alpha)
+      cos1 = cos(lower%alpha)
+      tan2 = tan(upper%alpha)
+      t = tan2/tan(lower%alpha)
+      m1r1 = lower%mass*lower%radius**2
+      m2r1 = upper%mass*lower%radius**2
+      common = m1r1 + lower%central_inertia - upper%central_inertia*t
+      eta = (common - 2.0_wp*m1r1*sin1**2 + m2r1*(2.0_wp + sin1*cos1/tan2 - sin1**2*(4.0_wp + t))) &
+         & /(common + m2r1*(2.0_wp + sin1*cos1*(1.0_wp/tan2 + tan2)))
+   end function two_block_sorrentino
+
+   !> Inelastic impact of the two-body chain with the horizontal impulse of the top support
+   !> (docs/theory.md, section 3)
+   pure function two_block_impulse(lower, upper) result(eta)
+      !> Lower block
+      type(block_type), intent(in) :: lower
+      !> Upper block
+      type(block_type), intent(in) :: upper
+      !> Ratio of the angular velocities after and before an impact
+      real(wp) :: eta
+
+      real(wp) :: t, inertia
+
+      t = tan(upper%alpha)/tan(lower%alpha)
+      inertia = lower%corner_inertia + t**2*upper%corner_inertia &
+         & + 4.0_wp*sin(upper%alpha)**2*(1.0_wp + t)*upper%mass*upper%radius**2
+      eta = 1.0_wp - 2.0_wp*lower%b**2*(lower%mass + upper%mass*(2.0_wp + t)**2)/inertia
+   end function two_block_impulse
+
+end module dondolo_two_block
