@@ -81,7 +81,7 @@ module dondolo_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace)
+   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The accelerogram
@@ -94,6 +94,8 @@ contains
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
+      !> Rotation from which the wall is released at the start, less than the limit [rad]; absent: it starts at rest
+      real(wp), intent(in), optional :: release
 
       type(scene_type) :: scene
       type(motion_type) :: motion
@@ -108,11 +110,15 @@ contains
       scene%v_unit = mechanism%frequency_parameter()*mechanism%capacity
       motion%step = record%dt
       last = size(record%acceleration) - 1
+      if (present(release)) motion%q = release
+      motion%peak = motion%q
       if (present(trace)) call add_row(motion, record, scale, trace)
 
       do
-         call wait(scene, record, last, motion, ending, trace)
-         if (ending == at_rest) exit
+         if (motion%q == 0.0_wp) then
+            call wait(scene, record, last, motion, ending, trace)
+            if (ending == at_rest) exit
+         end if
          call rock(mechanism, scene, record, last, motion, ending, trace)
          if (ending /= at_rest) exit
       end do
