@@ -1,4 +1,4 @@
-!> Fits of fragility curves against closed forms and published data (docs/theory.md, section 5).
+!> Fits of fragility curves against closed forms and published data (docs/theory.md, section 6).
 program test_fragility
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite

@@ -4,7 +4,7 @@
 !> level x_j the binomial likelihood (Baker 2015) is that of a probit regression on ln x, P = Phi(b0 + b1 ln x), with
 !> beta = 1/b1 and theta = exp(-b0/b1). It is concave, and has a finite maximum with b1 > 0 only if collapses and
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
-!> (docs/theory.md, section 5).
+!> (docs/theory.md, section 6).
 module dondolo_fragility
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : dp
