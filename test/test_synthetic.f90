@@ -15,8 +15,8 @@ program test_synthetic
    call test_random()
    call test_model()
    call test_record_of_model()
-   call test_statistics(6.0_wp, 10.0_wp, 'rock', 'M 6 R 10 rock')
-   call test_statistics(5.5_wp, 20.0_wp, 'deep', 'M 5.5 R 20 deep')
+   call test_statistics(5.8_wp, 8.0_wp, 'rock', 'M 5.8 R 8 rock')
+   call test_statistics(5.0_wp, 15.0_wp, 'deep', 'M 5 R 15 deep')
    call test_suite()
    call finish()
 
