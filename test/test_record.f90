@@ -174,8 +174,8 @@ contains
       if (allocated(error)) return
       call check(size(table%columns) == 3, 'three columns')
       call check(table%rows() == 3, 'three rows')
-      call check(table%column('name') == 1 .and. table%column('HEIGHT_m') == 2 .and. table%column('a "b", c') == 3, 'columns' &
-         & )
+      call check(table%column('name') == 1 .and. table%column('HEIGHT_m') == 2 .and. table%column('a "b", c') == 3, &
+         & 'columns')
       call check(table%column('a') == 0 .and. table%column('') == 0, 'no such column')
       call check_text(table%get_text(1, 1), 'x', 'cell 1 1')
       call check_text(table%get_text(1, 3), 'plain', 'cell 1 3')
@@ -301,7 +301,7 @@ contains
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.03,1'//lf//'0.04,1'//lf, ': line 3: time 0.03 after 0.01: ')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.04,1'//lf, ': line 4: time 0.04 after 0.02: ')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.02,1'//lf//'.03,1', &
-         & ': times must be equally spaced')
+         & ': line 4: time 0.02 after 0.02: times must be equally spaced')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.005,1'//lf, &
          & ': line 3: time 0.005 after 0.01: times must increase')
       call check_bad_file('1,0'//lf//'1,1'//lf//'1,2'//lf, ': line 2: all times are 1')
@@ -438,7 +438,7 @@ contains
          & ': line 13: the file ends after 5 values: the header states 6')
       call check_bad_stated(dyna(step, 'NDATA: 4', units, peak, kind)//values, ': line 13: more values than the 4')
       call check_bad_stated(dyna(step, count, units, 'PGA_CM/S^2: 0.26', kind)//values, &
-         & ': line 6: PGA_CM/S^2 = 0.26: the largest value is')
+         & ': line 6: PGA_CM/S^2 = 0.26: must be the largest value, 0.25')
       call check_bad_stated(dyna(step, count, 'UNITS: cm/s', peak, kind)//values, &
          & ': line 5: units = ''cm/s'': must be one of')
       call check_bad_stated(dyna(step, count, 'UNITS: ', peak, kind)//values, ': the file does not state its units')
