@@ -1,16 +1,22 @@
-!> How a motion is to be computed: tolerances and the rotation that counts as collapse.
+!> How a motion is to be computed: engine, tolerances, and the rotation that counts as collapse.
 module dondolo_solver
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : join, to_text
    implicit none
    private
 
    public :: solver_type, check_solver, check_limit
+   public :: engine_names
+
+   !> Names of the engines; 'auto' takes the one that suits the task
+   character(len=4), parameter :: engine_names(2) = [character(len=4) :: 'auto', 'rk45']
 
    !> Settings of the computation
    type :: solver_type
+      !> Engine, one of engine_names
+      character(len=16) :: engine = 'auto'
       !> Relative tolerance of a step
       real(wp) :: rtol = 1.0e-8_wp
       !> Absolute tolerance of a step, in units of q_c (rotation) and p q_c (velocity)
@@ -30,7 +36,9 @@ contains
 
       real(wp), parameter :: loosest = 1.0e-2_wp, tightest_rtol = 10.0_wp*epsilon(1.0_wp), tightest_atol = tiny(1.0_wp)
 
-      if (.not. (solver%rtol >= tightest_rtol .and. solver%rtol <= loosest)) then
+      if (.not. any(solver%engine == engine_names)) then
+         call raise_input(error, 'engine = '''//trim(solver%engine)//''': must be one of '//join(engine_names))
+      else if (.not. (solver%rtol >= tightest_rtol .and. solver%rtol <= loosest)) then
          call raise_input(error, 'rtol = '//to_text(solver%rtol)//': must lie between '// &
             & to_text(tightest_rtol)//' and '//to_text(loosest))
       else if (.not. (solver%atol >= tightest_atol .and. solver%atol <= loosest)) then

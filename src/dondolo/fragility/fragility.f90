@@ -1,0 +1,352 @@
+!> Fragility curve: the lognormal fitted to stripes by maximum likelihood.
+!>
+!> P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al. With z_j collapses among n_j histories at
+!> level x_j the binomial likelihood (Baker 2015) is that of a probit regression on ln x, P = Phi(b0 + b1 ln x), with
+!> beta = 1/b1 and theta = exp(-b0/b1). It is concave, and has a finite maximum with b1 > 0 only if collapses and
+!> survivals overlap and collapses become more frequent; otherwise there is a status and no number
+!> (docs/theory.md, section 5).
+module dondolo_fragility
+   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_kinds, only : dp
+   use dondolo_lapack, only : dpotrf, dpotri, dpotrs
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: fragility_type, fit_fragility
+   public :: normal_cdf
+
+   !> A fitted fragility curve, or why there is none
+   type :: fragility_type
+      !> 'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated',
+      !> 'single_level' or 'decreasing'; the first two have a curve
+      character(len=12) :: status = 'no_collapse'
+      !> Median, in the unit of the levels
+      real(dp) :: theta = 0.0_dp
+      !> Dispersion: standard deviation of the logarithm
+      real(dp) :: beta = 0.0_dp
+      !> Covariance of ln theta and beta, from the Fisher information
+      real(dp) :: covariance(2, 2) = 0.0_dp
+      !> Logarithm of the likelihood, binomial coefficients included
+      real(dp) :: log_likelihood = 0.0_dp
+      !> Levels between which half of the histories begin to collapse; 0 or huge where the side is open
+      real(dp) :: bracket(2) = [0.0_dp, huge(0.0_dp)]
+   contains
+      !> Is there a curve?
+      procedure :: has_fit
+      !> Standard error of ln theta
+      procedure :: se_ln_theta
+      !> Standard error of beta
+      procedure :: se_beta
+      !> Probability of collapse at a level
+      procedure :: probability
+   end type fragility_type
+
+   real(dp), parameter :: root_half = sqrt(0.5_dp), ln_2 = log(2.0_dp)
+   real(dp), parameter :: root_2_over_pi = sqrt(2.0_dp/acos(-1.0_dp))
+
+contains
+
+   !> Fit a lognormal fragility curve
+   subroutine fit_fragility(fragility, levels, collapses, histories, error)
+      !> The curve
+      type(fragility_type), intent(out) :: fragility
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses at each level; need not be whole numbers (weighted counts)
+      real(dp), intent(in) :: collapses(:)
+      !> Histories at each level
+      real(dp), intent(in) :: histories(:)
+      !> Counts that cannot be
+      type(error_type), allocatable, intent(out) :: error
+
+      real(dp) :: x(size(levels)), b(2), information(2, 2), jacobian(2, 2)
+      real(dp) :: centre, spread
+      integer :: stat
+
+      call check_counts(levels, collapses, histories, error)
+      if (allocated(error)) return
+      call set_bracket(fragility, levels, collapses, histories)
+      fragility%status = status_without_fit(levels, collapses, histories)
+      if (fragility%status /= 'ok') return
+
+      ! ln x centred and scaled, so that the equations are well conditioned
+      x = log(levels)
+      centre = sum(histories*x)/sum(histories)
+      spread = sqrt(sum(histories*(x - centre)**2)/sum(histories))
+      x = (x - centre)/spread
+      call maximise(x, collapses, histories, b, information, stat)
+      if (stat /= 0) then
+         call raise_failure(error, 'the fit of the fragility curve did not converge')
+         return
+      end if
+
+      fragility%beta = spread/b(2)
+      fragility%theta = exp(centre - fragility%beta*b(1))
+      if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = 'extrapolated'
+      fragility%log_likelihood = log_likelihood(b, x, collapses, histories) &
+         & + sum(log_gamma(histories + 1.0_dp) - log_gamma(collapses + 1.0_dp) &
+         & - log_gamma(histories - collapses + 1.0_dp))
+
+      ! Covariance of b by inversion of the information, then of (ln theta, beta) by the delta method
+      call dpotrf('U', 2, information, 2, stat)
+      if (stat == 0) call dpotri('U', 2, information, 2, stat)
+      information(2, 1) = information(1, 2)
+      jacobian(1, :) = [-spread/b(2), spread*b(1)/b(2)**2]
+      jacobian(2, :) = [0.0_dp, -spread/b(2)**2]
+      fragility%covariance = matmul(jacobian, matmul(information, transpose(jacobian)))
+   end subroutine fit_fragility
+
+   !> Newton's method with halved steps on the concave log likelihood
+   subroutine maximise(x, z, n, b, information, stat)
+      !> Predictor
+      real(dp), intent(in) :: x(:)
+      !> Collapses
+      real(dp), intent(in) :: z(:)
+      !> Histories
+      real(dp), intent(in) :: n(:)
+      !> Intercept and slope at the maximum
+      real(dp), intent(out) :: b(2)
+      !> Fisher information of b there
+      real(dp), intent(out) :: information(2, 2)
+      !> 0: converged
+      integer, intent(out) :: stat
+
+      integer, parameter :: most_steps = 200
+      real(dp) :: gradient(2), hessian(2, 2), change(2), height, trial_height
+      real(dp), dimension(size(x)) :: eta, up, down, weight
+      integer :: i, k
+
+      b = 0.0_dp
+      height = log_likelihood(b, x, z, n)
+      do i = 1, most_steps
+         eta = b(1) + b(2)*x
+         up = mills(-eta)
+         down = mills(eta)
+         weight = z*up - (n - z)*down
+         gradient = [sum(weight), sum(weight*x)]
+         weight = z*up*(up + eta) + (n - z)*down*(down - eta)
+         hessian = outer(weight, x)
+         call dpotrf('U', 2, hessian, 2, stat)
+         if (stat /= 0) return
+         change = gradient
+         call dpotrs('U', 2, 1, hessian, 2, change, 2, stat)
+         do k = 1, 60
+            trial_height = log_likelihood(b + change, x, z, n)
+            if (trial_height >= height) exit
+            change = 0.5_dp*change
+         end do
+         if (k <= 60) b = b + change
+         height = max(height, trial_height)
+         if (k > 60 .or. all(abs(change) <= 4.0_dp*epsilon(b)*maxval(abs(b)))) exit
+      end do
+      if (i > most_steps) stat = 1
+      eta = b(1) + b(2)*x
+      ! phi^2/(P (1 - P)) is the product of the two Mills ratios.
+      information = outer(n*mills(eta)*mills(-eta), x)
+   end subroutine maximise
+
+   !> Sum over the levels of weight (1, x)(1, x)^T
+   pure function outer(weight, x) result(matrix)
+      !> Weights
+      real(dp), intent(in) :: weight(:)
+      !> Predictor
+      real(dp), intent(in) :: x(:)
+      !> The sum
+      real(dp) :: matrix(2, 2)
+
+      matrix(1, 1) = sum(weight)
+      matrix(1, 2) = sum(weight*x)
+      matrix(2, 1) = matrix(1, 2)
+      matrix(2, 2) = sum(weight*x**2)
+   end function outer
+
+   !> Log likelihood without the binomial coefficients
+   pure function log_likelihood(b, x, z, n) result(height)
+      !> Intercept and slope
+      real(dp), intent(in) :: b(2)
+      !> Predictor
+      real(dp), intent(in) :: x(:)
+      !> Collapses
+      real(dp), intent(in) :: z(:)
+      !> Histories
+      real(dp), intent(in) :: n(:)
+      !> sum z ln P + (n - z) ln(1 - P)
+      real(dp) :: height
+
+      height = sum(z*log_normal_cdf(b(1) + b(2)*x) + (n - z)*log_normal_cdf(-b(1) - b(2)*x))
+   end function log_likelihood
+
+   !> Standard normal distribution function
+   elemental function normal_cdf(t) result(p)
+      !> Argument
+      real(dp), intent(in) :: t
+      !> Phi(t)
+      real(dp) :: p
+
+      p = 0.5_dp*erfc(-t*root_half)
+   end function normal_cdf
+
+   !> ln Phi(t), accurate in both tails
+   elemental function log_normal_cdf(t) result(lnp)
+      !> Argument
+      real(dp), intent(in) :: t
+      !> ln Phi(t)
+      real(dp) :: lnp
+
+      if (t < 0.0_dp) then
+         lnp = log(erfc_scaled(-t*root_half)) - 0.5_dp*t**2 - ln_2
+      else
+         lnp = log(normal_cdf(t))
+      end if
+   end function log_normal_cdf
+
+   !> Inverse Mills ratio phi(t)/(1 - Phi(t)), accurate in both tails
+   elemental function mills(t) result(ratio)
+      !> Argument
+      real(dp), intent(in) :: t
+      !> The ratio
+      real(dp) :: ratio
+
+      if (t > -5.0_dp) then
+         ratio = root_2_over_pi/erfc_scaled(t*root_half)
+      else
+         ! erfc_scaled overflows far to the left, where 1 - Phi is 1 to rounding.
+         ratio = 0.5_dp*root_2_over_pi*exp(-0.5_dp*t**2)/normal_cdf(-t)
+      end if
+   end function mills
+
+   !> 'ok' if the likelihood has a finite maximum with b1 > 0, else why not
+   pure function status_without_fit(levels, z, n) result(status)
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses
+      real(dp), intent(in) :: z(:)
+      !> Histories
+      real(dp), intent(in) :: n(:)
+      !> The status
+      character(len=12) :: status
+
+      real(dp) :: score, x(size(levels))
+      logical :: counted(size(levels))
+
+      counted = n > 0.0_dp
+      x = log(levels)
+      ! Derivative of the likelihood with respect to the slope where the slope is zero: it has the sign of b1.
+      score = sum((x - sum(n*x)/sum(n))*(z - n*sum(z)/sum(n)))
+      status = 'ok'
+      if (.not. any(z > 0.0_dp)) then
+         status = 'no_collapse'
+      else if (.not. any(z < n)) then
+         status = 'all_collapse'
+      else if (minval(levels, counted) == maxval(levels, counted)) then
+         status = 'single_level'
+      else if (score <= 16.0_dp*epsilon(score)*sum(n)) then
+         status = 'decreasing'
+      else if (minval(levels, z > 0.0_dp) >= maxval(levels, z < n)) then
+         status = 'separated'
+      end if
+   end function status_without_fit
+
+   !> The levels between which collapse becomes more likely than survival
+   pure subroutine set_bracket(fragility, levels, z, n)
+      !> The curve
+      type(fragility_type), intent(inout) :: fragility
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses
+      real(dp), intent(in) :: z(:)
+      !> Histories
+      real(dp), intent(in) :: n(:)
+
+      logical :: above(size(levels))
+
+      above = 2.0_dp*z >= n .and. n > 0.0_dp
+      if (any(above)) fragility%bracket(2) = minval(levels, above)
+      above = above .or. n <= 0.0_dp
+      if (.not. all(above)) fragility%bracket(1) = maxval(levels, .not. above)
+   end subroutine set_bracket
+
+   !> Check levels and counts
+   subroutine check_counts(levels, z, n, error)
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses
+      real(dp), intent(in) :: z(:)
+      !> Histories
+      real(dp), intent(in) :: n(:)
+      !> The first thing that is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (size(levels) == 0) then
+         call raise_input(error, 'levels: must be given')
+         return
+      end if
+      if (size(z) /= size(levels) .or. size(n) /= size(levels)) then
+         call raise_input(error, to_text(size(levels))//' levels, '//to_text(size(z))//' collapses, '// &
+            & to_text(size(n))//' histories: must be as many')
+         return
+      end if
+      do i = 1, size(levels)
+         if (.not. (levels(i) > 0.0_dp .and. levels(i) <= huge(levels))) then
+            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
+            return
+         end if
+         if (.not. (n(i) >= 0.0_dp .and. n(i) <= huge(n))) then
+            call raise_input(error, 'histories = '//to_text(n(i))//': must not be negative')
+            return
+         end if
+         if (.not. (z(i) >= 0.0_dp .and. z(i) <= n(i))) then
+            call raise_input(error, 'collapses = '//to_text(z(i))//': must lie between 0 and the histories, '// &
+               & to_text(n(i)))
+            return
+         end if
+      end do
+      if (.not. sum(n) > 0.0_dp) call raise_input(error, 'histories: there are none')
+   end subroutine check_counts
+
+   !> Is there a curve?
+   elemental function has_fit(self)
+      !> The curve
+      class(fragility_type), intent(in) :: self
+      !> True if theta, beta and what follows from them have values
+      logical :: has_fit
+
+      has_fit = self%status == 'ok' .or. self%status == 'extrapolated'
+   end function has_fit
+
+   !> Standard error of ln theta
+   elemental function se_ln_theta(self) result(se)
+      !> The curve
+      class(fragility_type), intent(in) :: self
+      !> Its standard error
+      real(dp) :: se
+
+      se = sqrt(self%covariance(1, 1))
+   end function se_ln_theta
+
+   !> Standard error of beta
+   elemental function se_beta(self) result(se)
+      !> The curve
+      class(fragility_type), intent(in) :: self
+      !> Its standard error
+      real(dp) :: se
+
+      se = sqrt(self%covariance(2, 2))
+   end function se_beta
+
+   !> Probability of collapse at a level, equation (5) of Nale et al.
+   elemental function probability(self, level) result(p)
+      !> The curve; must have a fit
+      class(fragility_type), intent(in) :: self
+      !> Level of intensity
+      real(dp), intent(in) :: level
+      !> P(C | IM = level)
+      real(dp) :: p
+
+      p = normal_cdf(log(level/self%theta)/self%beta)
+   end function probability
+
+end module dondolo_fragility

@@ -1,0 +1,216 @@
+!> Multiple stripe analysis: every record at every level of intensity, and who collapses.
+!>
+!> Section 3.3 of Nale et al. Histories are independent, so they run in parallel; each is computed by one thread
+!> from data that no thread changes, so the result is the same to the bit for any number of threads.
+module dondolo_stripes
+   use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_thread_num
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_intensity, only : intensity, level_unit, check_im
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_response, only : response_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_text, only : join, to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: stripes_type, multiple_stripe
+   public :: check_levels, check_polarity, polarity_names, progress_interface
+
+   !> Polarities a record can be used with
+   character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
+
+   !> Result of a multiple stripe analysis
+   type :: stripes_type
+      !> Intensity measure
+      character(len=:), allocatable :: im
+      !> Levels of intensity, in g for accelerations
+      real(wp), allocatable :: levels(:)
+      !> Record of each history of a stripe
+      integer, allocatable :: record(:)
+      !> Its polarity: +1 as recorded, -1 reversed
+      integer, allocatable :: polarity(:)
+      !> Factor on the record (histories, levels), without the sign of the polarity
+      real(wp), allocatable :: scale(:, :)
+      !> Responses (histories, levels)
+      type(response_type), allocatable :: response(:, :)
+   contains
+      !> Collapses in each stripe
+      procedure :: collapses
+   end type stripes_type
+
+   abstract interface
+      !> Hears how far the work is; called by one thread only
+      subroutine progress_interface(done, total)
+         !> Histories computed
+         integer, intent(in) :: done
+         !> Histories in all
+         integer, intent(in) :: total
+      end subroutine progress_interface
+   end interface
+
+contains
+
+   !> Run a multiple stripe analysis of one wall
+   subroutine multiple_stripe(stripes, wall, records, levels, im, polarity, solver, threads, error, progress)
+      !> Result
+      type(stripes_type), intent(out) :: stripes
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Levels of intensity, positive and increasing, in g for accelerations
+      real(wp), intent(in) :: levels(:)
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
+      character(len=*), intent(in) :: polarity
+      !> Engine, tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> What cannot be run: `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      integer :: i, j, k, histories, total, done, now, team
+
+      call check_im(im, error)
+      if (.not. allocated(error)) call check_levels(levels, error)
+      if (.not. allocated(error)) call check_polarity(polarity, error)
+      if (.not. allocated(error)) call check_solver(solver, error)
+      if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
+      if (allocated(error)) return
+      stripes%im = im
+      stripes%levels = levels
+      call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
+      call choose_scales(stripes, records, wall%gravity, error)
+      if (allocated(error)) return
+
+      histories = size(stripes%record)
+      total = histories*size(levels)
+      allocate(stripes%response(histories, size(levels)))
+      team = threads
+      if (team == 0) team = omp_get_max_threads()
+      done = 0
+      ! High levels take longest: they go first, so that no thread is left alone with them at the end.
+      !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
+      !$omp & shared(stripes, records, wall, solver, histories, total, done)
+      do k = total - 1, 0, -1
+         i = modulo(k, histories) + 1
+         j = k/histories + 1
+         call simulate_rk45(wall%mechanism, records(stripes%record(i)), &
+            & real(stripes%polarity(i), wp)*stripes%scale(i, j), solver, stripes%response(i, j))
+         !$omp atomic capture
+         done = done + 1
+         now = done
+         !$omp end atomic
+         if (present(progress)) then
+            if (omp_get_thread_num() == 0) call progress(now, total)
+         end if
+      end do
+      !$omp end parallel do
+      if (present(progress)) call progress(total, total)
+   end subroutine multiple_stripe
+
+   !> Which records run with which polarity
+   subroutine choose_polarities(stripes, records, polarity, two_sided)
+      !> Result: record and polarity are set
+      type(stripes_type), intent(inout) :: stripes
+      !> Number of records
+      integer, intent(in) :: records
+      !> 'as_recorded', 'reversed' or 'both'
+      character(len=*), intent(in) :: polarity
+      !> Is the wall symmetric?
+      logical, intent(in) :: two_sided
+
+      integer :: i
+
+      stripes%record = [(i, i=1, records)]
+      stripes%polarity = spread(merge(-1, 1, polarity == 'reversed'), 1, records)
+      if (polarity == 'both' .and. .not. two_sided) then
+         stripes%record = [stripes%record, stripes%record]
+         stripes%polarity = [stripes%polarity, -stripes%polarity]
+      end if
+   end subroutine choose_polarities
+
+   !> Factors that bring every record to every level; a record without motion stays as it is
+   subroutine choose_scales(stripes, records, gravity, error)
+      !> Result: scale is set
+      type(stripes_type), intent(inout) :: stripes
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> A record scaled beyond all measure
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: value
+      integer :: i, highest
+
+      highest = size(stripes%levels)
+      allocate(stripes%scale(size(stripes%record), highest), source=0.0_wp)
+      do i = 1, size(stripes%record)
+         associate (record => records(stripes%record(i)))
+            value = intensity(record, stripes%im)
+            if (.not. value > 0.0_wp) cycle
+            stripes%scale(i, :) = stripes%levels*level_unit(stripes%im, gravity)/value
+            if (stripes%scale(i, highest)*record%pga() <= largest_acceleration) cycle
+            call raise_input(error, 'levels = '//to_text(stripes%levels(highest))//': scales record '// &
+               & record%name//' beyond '//to_text(largest_acceleration)//' m/s2')
+            return
+         end associate
+      end do
+   end subroutine choose_scales
+
+   !> Check levels of intensity
+   subroutine check_levels(levels, error)
+      !> Levels
+      real(wp), intent(in) :: levels(:)
+      !> None at all, or not positive and increasing
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (size(levels) == 0) then
+         call raise_input(error, 'levels: must be given')
+         return
+      end if
+      do i = 1, size(levels)
+         if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
+            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
+            return
+         end if
+         if (i == 1) cycle
+         if (levels(i) > levels(i - 1)) cycle
+         call raise_input(error, 'levels = '//to_text(levels(i - 1))//', '//to_text(levels(i))// &
+            & ': must increase strictly')
+         return
+      end do
+   end subroutine check_levels
+
+   !> Check the name of a polarity
+   subroutine check_polarity(polarity, error)
+      !> Name
+      character(len=*), intent(in) :: polarity
+      !> Not one of polarity_names
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. any(polarity == polarity_names)) &
+         & call raise_input(error, 'polarity = '''//polarity//''': must be one of '//join(polarity_names))
+   end subroutine check_polarity
+
+   !> Collapses in each stripe
+   pure function collapses(self) result(counts)
+      !> Stripes
+      class(stripes_type), intent(in) :: self
+      !> Number of collapses at each level
+      integer :: counts(size(self%levels))
+
+      counts = count(self%response%collapsed, dim=1)
+   end function collapses
+
+end module dondolo_stripes

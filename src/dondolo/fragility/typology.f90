@@ -1,0 +1,69 @@
+!> Typological fragility: the curve of a population of walls.
+!>
+!> The weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a finite fit takes
+!> part with its raw fractions. A lognormal is then fitted to the weighted counts (docs/theory.md, section 5).
+module dondolo_typology
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_kinds, only : dp
+   implicit none
+   private
+
+   public :: typology_type, combine_walls
+
+   !> The curve of a population
+   type :: typology_type
+      !> Levels of intensity
+      real(dp), allocatable :: levels(:)
+      !> Sum of the weights of the walls
+      real(dp) :: weight = 0.0_dp
+      !> Weighted mean of the walls' fractions of collapse at each level
+      real(dp), allocatable :: mean_fraction(:)
+      !> Weighted mean of the walls' curves at each level
+      real(dp), allocatable :: mean_curve(:)
+      !> Lognormal fitted to the weighted counts; its standard errors take the walls' histories for independent
+      type(fragility_type) :: fit
+   end type typology_type
+
+contains
+
+   !> Combine the walls of a population
+   subroutine combine_walls(typology, levels, collapses, histories, curves, weights, error)
+      !> The curve of the population
+      type(typology_type), intent(out) :: typology
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses (levels, walls)
+      integer, intent(in) :: collapses(:, :)
+      !> Histories of a stripe of each wall
+      integer, intent(in) :: histories(:)
+      !> Curve of each wall
+      type(fragility_type), intent(in) :: curves(:)
+      !> Weight of each wall, not negative and not all zero
+      real(dp), intent(in) :: weights(:)
+      !> Counts that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      real(dp) :: share(size(weights)), z(size(levels)), n(size(levels)), fraction(size(levels))
+      integer :: i
+
+      allocate(typology%mean_fraction(size(levels)), typology%mean_curve(size(levels)), source=0.0_dp)
+      typology%levels = levels
+      typology%weight = sum(weights)
+      share = weights/typology%weight
+      z = 0.0_dp
+      n = 0.0_dp
+      do i = 1, size(weights)
+         fraction = real(collapses(:, i), dp)/real(histories(i), dp)
+         typology%mean_fraction = typology%mean_fraction + share(i)*fraction
+         if (curves(i)%has_fit()) fraction = curves(i)%probability(levels)
+         typology%mean_curve = typology%mean_curve + share(i)*fraction
+         ! Weights of mean 1, so that the counts of the population are those of its walls together.
+         z = z + share(i)*real(size(weights)*collapses(:, i), dp)
+         n = n + share(i)*real(size(weights)*histories(i), dp)
+      end do
+      ! Rounding must not leave more collapses than histories.
+      call fit_fragility(typology%fit, levels, min(z, n), n, error)
+   end subroutine combine_walls
+
+end module dondolo_typology

@@ -1,0 +1,112 @@
+!> Where a polynomial first falls to zero: how events are found inside a step.
+!>
+!> A polynomial in Bernstein form, sum_j c_j B_j(x) on 0 <= x <= 1, lies between the smallest and the largest of
+!> its coefficients and has no more roots than they have changes of sign. So a root that exists is never missed,
+!> however close two of them lie, and coefficients of one sign prove that there is none.
+module dondolo_bernstein
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: first_descent, nowhere
+
+   !> Answer of first_descent where the polynomial stays positive
+   real(wp), parameter :: nowhere = 2.0_wp
+
+   !> Width below which an interval that may hold two roots is called a touch
+   real(wp), parameter :: narrowest = 4.0_wp*epsilon(1.0_wp)
+
+contains
+
+   !> First x in (0, 1] at which a polynomial that starts positive falls to zero. Roots at x = 0 itself are
+   !> divided out: they are where the step began, not an event
+   pure function first_descent(coefficients) result(x)
+      !> Bernstein coefficients
+      real(wp), intent(in) :: coefficients(0:)
+      !> The place, or `nowhere`
+      real(wp) :: x
+
+      real(wp) :: c(0:ubound(coefficients, 1))
+      integer :: j, n
+
+      n = ubound(c, 1)
+      c = coefficients
+      do while (c(0) == 0.0_wp .and. n > 0)
+         do j = 0, n - 1
+            c(j) = c(j + 1)*real(n, wp)/real(j + 1, wp)
+         end do
+         n = n - 1
+      end do
+      x = descent_between(c(:n), 0.0_wp, 1.0_wp)
+   end function first_descent
+
+   !> First descent of a polynomial given on part of the unit interval: halve until a root stands alone
+   pure recursive function descent_between(c, start, width) result(x)
+      !> Bernstein coefficients on the part
+      real(wp), intent(in) :: c(0:)
+      !> Where the part begins
+      real(wp), intent(in) :: start
+      !> Its width
+      real(wp), intent(in) :: width
+      !> The place, or `nowhere`
+      real(wp) :: x
+
+      real(wp) :: left(0:ubound(c, 1)), right(0:ubound(c, 1))
+      integer :: j, n
+
+      n = ubound(c, 1)
+      x = nowhere
+      if (all(c > 0.0_wp)) return
+      if (c(0) <= 0.0_wp .or. width < narrowest) then
+         x = start
+      else if (c(n) <= 0.0_wp .and. count(c(:n - 1) > 0.0_wp .neqv. c(1:) > 0.0_wp) == 1) then
+         x = start + width*single_root(c)
+      else
+         ! de Casteljau at the middle
+         right = c
+         do j = 0, n
+            left(j) = right(0)
+            right(:n - j - 1) = 0.5_wp*(right(:n - j - 1) + right(1:n - j))
+         end do
+         x = descent_between(left, start, 0.5_wp*width)
+         if (x >= nowhere) x = descent_between(right, start + 0.5_wp*width, 0.5_wp*width)
+      end if
+   end function descent_between
+
+   !> The only root of a polynomial that is positive at 0 and not at 1: bisection, hastened by Newton's step
+   !> where that stays in the bracket
+   pure function single_root(c) result(x)
+      !> Bernstein coefficients
+      real(wp), intent(in) :: c(0:)
+      !> The root
+      real(wp) :: x
+
+      real(wp) :: below, above, next, b(0:ubound(c, 1)), slope
+      integer :: j, n, iteration
+
+      n = ubound(c, 1)
+      below = 0.0_wp
+      above = 1.0_wp
+      x = c(0)/(c(0) - c(n))
+      do iteration = 1, 2*digits(x)
+         b = c
+         slope = 0.0_wp
+         do j = n, 1, -1
+            if (j == 1) slope = real(n, wp)*(b(1) - b(0))
+            b(:j - 1) = (1.0_wp - x)*b(:j - 1) + x*b(1:j)
+         end do
+         if (b(0) > 0.0_wp) then
+            below = x
+         else
+            above = x
+         end if
+         next = 0.5_wp*(below + above)
+         if (slope < 0.0_wp) next = x - b(0)/slope
+         if (abs(next - x) <= 2.0_wp*epsilon(x)*x) exit
+         if (.not. (next > below .and. next < above)) next = 0.5_wp*(below + above)
+         if (next <= below .or. next >= above) exit
+         x = next
+      end do
+   end function single_root
+
+end module dondolo_bernstein

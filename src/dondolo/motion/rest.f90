@@ -1,0 +1,215 @@
+!> When a wall at rest begins to rock, and when a chain of ever smaller bounces ends at rest.
+!>
+!> Both follow from the moments at q = 0 and from the accelerogram alone (docs/theory.md, section 4), so every
+!> engine takes these decisions here.
+module dondolo_rest
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_record, only : record_type
+   implicit none
+   private
+
+   public :: rest_type, new_rest
+
+   !> A wall near q = 0
+   type :: rest_type
+      !> Can it rock to both sides?
+      logical :: two_sided
+      !> Speed after an impact / speed before it
+      real(wp) :: restitution
+      !> Restoring moment G(0) - Q(0) [N m]
+      real(wp) :: moment
+      !> Excitation lever L(0) [kg m]
+      real(wp) :: lever
+      !> Inertia J(0) [kg m2]
+      real(wp) :: inertia
+      !> Rotation up to which the bounds of a chain hold [rad]
+      real(wp) :: height
+      !> Relative change of the terms up to that rotation
+      real(wp) :: slack
+   contains
+      !> When rocking begins
+      procedure :: next_start
+      !> Moment that pushes the wall back to rest
+      procedure :: inward_moment
+      !> Does a chain of bounces end at rest, whatever happens in between?
+      procedure :: chain_ends
+      !> Lower bound of the inward moment within the height of a chain
+      procedure, private :: least_moment
+   end type rest_type
+
+   !> Largest relative change of the terms within the height of a chain
+   real(wp), parameter :: largest_slack = 4.0e-3_wp
+
+   !> What the bounds of a chain leave in hand for the change of the terms within its height; it covers moments
+   !> that rise up to tenfold
+   real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
+
+contains
+
+   !> What a mechanism is like near rest
+   pure function new_rest(mechanism) result(rest)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Its rest
+      type(rest_type) :: rest
+
+      real(wp) :: j0, c0, g0, l0, load0, j, c, g, l, load
+
+      call mechanism%terms(0.0_wp, j0, c0, g0, l0, load0)
+      rest%two_sided = mechanism%two_sided
+      rest%restitution = mechanism%restitution
+      rest%moment = g0 - load0
+      rest%lever = l0
+      rest%inertia = j0
+      rest%height = 1.0e-3_wp*mechanism%capacity
+      do
+         call mechanism%terms(rest%height, j, c, g, l, load)
+         ! The term C q'^2 takes at most 2 |C| height/J of the moment from a bounce of that height.
+         rest%slack = abs((g - load)/rest%moment - 1.0_wp) + abs(l/l0 - 1.0_wp) + abs(j/j0 - 1.0_wp) &
+            & + 2.0_wp*max(abs(c0), abs(c))*rest%height/j0
+         if (rest%slack <= largest_slack) exit
+         rest%height = 0.5_wp*rest%height
+      end do
+   end function new_rest
+
+   !> Moment at q = 0 that pushes the wall back to rest: G(0) - Q(0) + s L(0) u_g''
+   elemental function inward_moment(self, side, acceleration) result(moment)
+      !> The wall
+      class(rest_type), intent(in) :: self
+      !> Side, +1 or -1
+      real(wp), intent(in) :: side
+      !> Ground acceleration [m/s2]
+      real(wp), intent(in) :: acceleration
+      !> Inward moment; negative: the wall is pushed out [N m]
+      real(wp) :: moment
+
+      moment = self%moment + side*self%lever*acceleration
+   end function inward_moment
+
+   !> The instant at which a wall at rest begins to rock: where the inward moment of one of its sides first falls
+   !> below zero, in closed form inside a sample interval
+   pure subroutine next_start(self, record, scale, interval, time, side, found)
+      !> The wall at rest
+      class(rest_type), intent(in) :: self
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Sample interval, from 1; in: where to look from, out: where rocking begins
+      integer, intent(inout) :: interval
+      !> Time since the first sample of the interval [s]
+      real(wp), intent(inout) :: time
+      !> Side that opens
+      real(wp), intent(out) :: side
+      !> Does rocking begin before the end of the record?
+      logical, intent(out) :: found
+
+      real(wp) :: here, next, trigger
+
+      trigger = self%moment/self%lever
+      associate (a => record%acceleration)
+         here = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/record%dt))
+         do
+            next = scale*a(interval + 1)
+            side = -sign(1.0_wp, merge(here, next, opens(here)))
+            found = opens(here) .or. opens(next)
+            if (found) exit
+            if (interval == size(a) - 1) return
+            interval = interval + 1
+            time = 0.0_wp
+            here = next
+         end do
+         if (.not. opens(here)) time = time + (record%dt - time)*((-side*trigger - here)/(next - here))
+      end associate
+
+   contains
+
+      !> Does an acceleration overcome the restoring moment?
+      pure logical function opens(acceleration)
+         !> Ground acceleration [m/s2]
+         real(wp), intent(in) :: acceleration
+
+         opens = -acceleration > trigger .or. (self%two_sided .and. acceleration > trigger)
+      end function opens
+
+   end subroutine next_start
+
+   !> Does the chain of bounces after an impact end at rest, whatever happens in between?
+   !>
+   !> While every inward moment stays positive the energy E = 1/2 J q'^2 + U of a flight grows only as that
+   !> moment does, dE/dt <= E d(ln m)/dt, and is multiplied by e^2 at each impact. So, with V the product of all
+   !> rises of the moments, no bounce is faster than w e^n sqrt(V), and the chain is over after at most
+   !>
+   !>     2 w sqrt(V) (1/a_1 + e/a_2)/(1 - e^2)
+   !>
+   !> with a_1, a_2 the least inward decelerations of the side now active and of the other (the same one for a
+   !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
+   pure function chain_ends(self, record, scale, interval, time, side, speed, peak) result(ends)
+      !> The wall
+      class(rest_type), intent(in) :: self
+      !> The accelerogram; zero after its last sample
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Sample interval of the impact
+      integer, intent(in) :: interval
+      !> Its time since the first sample of the interval [s]
+      real(wp), intent(in) :: time
+      !> Side after the impact
+      real(wp), intent(in) :: side
+      !> Speed w after the impact [rad/s]
+      real(wp), intent(in) :: speed
+      !> Largest rotation so far, which the chain must not exceed [rad]
+      real(wp), intent(in) :: peak
+      !> True only if it is certain
+      logical :: ends
+
+      real(wp) :: from(2), to(2), least(2), growth, elapsed, duration, rise
+      integer :: i
+
+      ends = .false.
+      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution)
+         growth = 1.0_wp
+         elapsed = -time
+         from = 0.0_wp
+         if (interval < n) from = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
+         from = self%least_moment(side, from(1))
+         least = from
+         do i = interval, n
+            to = self%least_moment(side, 0.0_wp)
+            if (i < n) to = self%least_moment(side, scale*a(i + 1))
+            least = min(least, to)
+            if (.not. all(least > 0.0_wp)) return
+            growth = growth*max(1.0_wp, to(1)/from(1), to(2)/from(2))
+            rise = 0.5_wp*speed**2*margin*growth*self%inertia/minval(least)
+            if (rise > min(self%height, peak) .or. growth > largest_growth) return
+            duration = 2.0_wp*speed*sqrt(margin*growth)*self%inertia*(1.0_wp/least(1) + e/least(2))/(1.0_wp - e**2)
+            elapsed = elapsed + dt
+            if (duration <= elapsed) exit
+            from = to
+         end do
+         ends = .true.
+      end associate
+   end function chain_ends
+
+   !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
+   pure function least_moment(self, side, acceleration) result(moments)
+      !> The wall
+      class(rest_type), intent(in) :: self
+      !> Side now active
+      real(wp), intent(in) :: side
+      !> Ground acceleration [m/s2]
+      real(wp), intent(in) :: acceleration
+      !> Moment of this side, moment of the other; the same one twice for a one-sided wall [N m]
+      real(wp) :: moments(2)
+
+      real(wp) :: push
+
+      push = side*self%lever*acceleration
+      moments(1) = (1.0_wp - self%slack)*self%moment + push - self%slack*abs(push)
+      moments(2) = moments(1)
+      if (self%two_sided) moments(2) = moments(1) - 2.0_wp*push
+   end function least_moment
+
+end module dondolo_rest
