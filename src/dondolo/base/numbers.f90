@@ -1,0 +1,179 @@
+!> Numbers out of text, strictly: the whole text is one number, or it is refused.
+!>
+!> Fortran's own list-directed READ takes '3*1.0', '1/' and '1,5' for numbers; here the characters are checked first.
+module dondolo_numbers
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: parse_real, parse_integer
+
+   !> Powers of ten that are exact in real64, hence in every working precision
+   real(wp), parameter :: power(0:22) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, &
+      & 1e8_wp, 1e9_wp, 1e10_wp, 1e11_wp, 1e12_wp, 1e13_wp, 1e14_wp, 1e15_wp, 1e16_wp, 1e17_wp, 1e18_wp, &
+      & 1e19_wp, 1e20_wp, 1e21_wp, 1e22_wp]
+
+   !> Largest integer up to which all integers are exact in real64
+   integer(int64), parameter :: largest_exact = 9007199254740992_int64
+
+   !> Below this one more digit surely fits a 64-bit integer
+   integer(int64), parameter :: room_for_digit = 100000000000000000_int64
+
+   !> Exponents beyond this overflow or underflow in any precision
+   integer, parameter :: largest_exponent = 99999
+
+contains
+
+   !> Read a decimal number: [sign] digits [. digits] [e|d [sign] digits], blanks around it allowed
+   !>
+   !> Up to 2**53 units times or over an exact power of ten, one multiplication or division rounds correctly
+   !> (Clinger 1990, How to read floating point numbers accurately); all else goes to the compiler's READ.
+   pure subroutine parse_real(text, value, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Its number, 0 unless ok
+      real(wp), intent(out) :: value
+      !> The text is one finite number
+      logical, intent(out) :: ok
+
+      integer(int64) :: units
+      integer :: first, last, i, digits, decimals, exponent, stat
+      logical :: exact, minus
+
+      value = 0.0_wp
+      ok = .false.
+      call inner(text, first, last)
+      i = first
+      minus = .false.
+      if (i <= last) then
+         minus = text(i:i) == '-'
+         if (minus .or. text(i:i) == '+') i = i + 1
+      end if
+      units = 0
+      exact = .true.
+      digits = 0
+      decimals = 0
+      call take_digits(text(:last), i, units, exact, digits)
+      if (i <= last) then
+         if (text(i:i) == '.') then
+            i = i + 1
+            decimals = digits
+            call take_digits(text(:last), i, units, exact, digits)
+            decimals = digits - decimals
+         end if
+      end if
+      if (digits == 0) return
+      exponent = 0
+      if (i <= last) then
+         if (scan(text(i:i), 'eEdD') == 0) return
+         call take_exponent(text(i + 1:last), exponent, ok)
+         if (.not. ok) return
+      end if
+      ok = .true.
+      exponent = exponent - decimals
+      if (exact .and. units <= largest_exact .and. abs(exponent) <= ubound(power, 1)) then
+         value = real(units, wp)
+         if (exponent >= 0) then
+            value = value*power(exponent)
+         else
+            value = value/power(-exponent)
+         end if
+         if (minus) value = -value
+         return
+      end if
+      read (text(first:last), *, iostat=stat) value
+      ok = stat == 0 .and. abs(value) <= huge(value)
+      if (.not. ok) value = 0.0_wp
+   end subroutine parse_real
+
+   !> Read an integer: [sign] digits, blanks around it allowed
+   pure subroutine parse_integer(text, value, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Its number, 0 unless ok
+      integer, intent(out) :: value
+      !> The text is one integer that fits
+      logical, intent(out) :: ok
+
+      integer(int64) :: units
+      integer :: first, last, i, digits
+      logical :: exact, minus
+
+      value = 0
+      ok = .false.
+      call inner(text, first, last)
+      i = first
+      minus = .false.
+      if (i <= last) then
+         minus = text(i:i) == '-'
+         if (minus .or. text(i:i) == '+') i = i + 1
+      end if
+      units = 0
+      exact = .true.
+      digits = 0
+      call take_digits(text(:last), i, units, exact, digits)
+      ok = digits > 0 .and. i > last .and. exact .and. units <= huge(value)
+      if (ok) value = int(merge(-units, units, minus))
+   end subroutine parse_integer
+
+   !> Bounds of a text without the blanks and tabs around it; last < first if nothing is left
+   pure subroutine inner(text, first, last)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position of its first character that is no blank
+      integer, intent(out) :: first
+      !> Position of its last character that is no blank
+      integer, intent(out) :: last
+
+      character(len=*), parameter :: blanks = ' '//achar(9)
+
+      last = verify(text, blanks, back=.true.)
+      first = max(verify(text, blanks), 1)
+   end subroutine inner
+
+   !> Add decimal digits to an integer, up to the first other character
+   pure subroutine take_digits(text, i, units, exact, digits)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position: where to begin, then the first character that is no digit
+      integer, intent(inout) :: i
+      !> The digits so far, as an integer
+      integer(int64), intent(inout) :: units
+      !> All digits so far are in `units`
+      logical, intent(inout) :: exact
+      !> How many digits so far
+      integer, intent(inout) :: digits
+
+      integer :: digit
+
+      do while (i <= len(text))
+         digit = iachar(text(i:i)) - iachar('0')
+         if (digit < 0 .or. digit > 9) exit
+         if (units < room_for_digit) then
+            units = 10_int64*units + int(digit, int64)
+         else
+            exact = .false.
+         end if
+         digits = digits + 1
+         i = i + 1
+      end do
+   end subroutine take_digits
+
+   !> Read what follows the letter of an exponent
+   pure subroutine take_exponent(text, exponent, ok)
+      !> Text after the letter
+      character(len=*), intent(in) :: text
+      !> Exponent of ten
+      integer, intent(out) :: exponent
+      !> It is [sign] digits, and not beyond all precisions
+      logical, intent(out) :: ok
+
+      ok = .false.
+      exponent = 0
+      if (scan(text, ' '//achar(9)) > 0) return
+      call parse_integer(text, exponent, ok)
+      ok = ok .and. abs(exponent) <= largest_exponent
+   end subroutine take_exponent
+
+end module dondolo_numbers

@@ -1,0 +1,150 @@
+!> A text file as a whole: read at once, with an index of its lines.
+module dondolo_text_file
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: text_file_type, read_text_file
+
+   !> Byte order mark that some programs put before UTF-8 text
+   character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+
+   !> What may follow the last line: NUL, tab, line feed, carriage return, Ctrl-Z (end of file under DOS), blank
+   character(len=*), parameter :: padding = achar(0)//achar(9)//achar(10)//achar(13)//achar(26)//' '
+
+   !> The text of a file and where its lines are
+   type :: text_file_type
+      !> Path of the file
+      character(len=:), allocatable :: file
+      !> Everything in it, line ends included
+      character(len=:), allocatable :: text
+      !> Position of the first character of each line
+      integer, allocatable :: first(:)
+      !> Position of the last character of each line, without the line end (first - 1 if the line is empty)
+      integer, allocatable :: last(:)
+   contains
+      !> Number of lines
+      procedure :: lines
+      !> The text of one line
+      procedure :: line
+      !> Where a line is, for messages
+      procedure :: place
+   end type text_file_type
+
+contains
+
+   !> Read a text file: lines end in LF or CRLF; a byte order mark and Ctrl-Z at the end are dropped
+   subroutine read_text_file(file, text, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Its text
+      type(text_file_type), intent(out) :: text
+      !> The file is missing, unreadable, empty or too large
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: bytes
+      integer :: unit, stat
+      logical :: exists
+
+      text%file = file
+      inquire (file=file, exist=exists)
+      if (.not. exists) then
+         call raise_input(error, file//': no such file')
+         return
+      end if
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=stat)
+      if (stat /= 0) then
+         call raise_input(error, file//': cannot be opened for reading')
+         return
+      end if
+      inquire (unit=unit, size=bytes)
+      if (bytes >= int(huge(stat), int64)) then
+         close (unit)
+         call raise_input(error, file//': larger than 2 GiB or no file')
+         return
+      end if
+      allocate (character(len=max(bytes, 0_int64)) :: text%text)
+      stat = 0
+      if (bytes > 0) read (unit, iostat=stat) text%text
+      close (unit)
+      if (stat /= 0) then
+         call raise_input(error, file//': cannot be read')
+         return
+      end if
+      call index_lines(text)
+      if (text%lines() == 0) call raise_input(error, file//': the file is empty')
+   end subroutine read_text_file
+
+   !> Find the lines of a text
+   pure subroutine index_lines(text)
+      !> Text file, its `text` known
+      type(text_file_type), intent(inout) :: text
+
+      character(len=*), parameter :: line_feed = achar(10), return = achar(13)
+      integer :: begin, finish, count, i
+
+      begin = 1
+      if (len(text%text) >= 3) then
+         if (text%text(1:3) == byte_order_mark) begin = 4
+      end if
+      finish = verify(text%text, padding, back=.true.)
+      count = 0
+      if (finish >= begin) count = 1
+      do i = begin, finish
+         if (text%text(i:i) == line_feed) count = count + 1
+      end do
+      allocate (text%first(count), text%last(count))
+      if (count == 0) return
+      count = 1
+      text%first(1) = begin
+      do i = begin, finish
+         if (text%text(i:i) /= line_feed) cycle
+         text%last(count) = i - 1
+         count = count + 1
+         text%first(count) = i + 1
+      end do
+      text%last(count) = finish
+      do i = 1, count - 1
+         if (text%last(i) < text%first(i)) cycle
+         if (text%text(text%last(i):text%last(i)) == return) text%last(i) = text%last(i) - 1
+      end do
+   end subroutine index_lines
+
+   !> Number of lines
+   pure function lines(self)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Number of lines; empty lines after the last text do not count
+      integer :: lines
+
+      lines = size(self%first)
+   end function lines
+
+   !> The text of one line
+   pure function line(self, i)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Number of the line; a number beyond the last gives an empty text
+      integer, intent(in) :: i
+      !> Its text without the line end
+      character(len=:), allocatable :: line
+
+      line = ''
+      if (i <= self%lines()) line = self%text(self%first(i):self%last(i))
+   end function line
+
+   !> Where a line is, for messages
+   pure function place(self, i)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Number of the line
+      integer, intent(in) :: i
+      !> 'file: line 7'
+      character(len=:), allocatable :: place
+
+      place = self%file//': line '//to_text(i)
+   end function place
+
+end module dondolo_text_file

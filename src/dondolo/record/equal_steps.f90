@@ -1,0 +1,132 @@
+!> Are printed times equally spaced, as far as their print can tell?
+!>
+!> A print rounds: to its last decimal, or to its number of significant digits, whichever is coarser for a given
+!> time. Steps may differ by that much and by 1 % of a step, so that a missing or doubled sample is always found
+!> where the print resolves a quarter of a step.
+module dondolo_equal_steps
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_record_format, only : raise_at
+   use dondolo_text, only : to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: check_equal_steps
+
+   !> Part of a step by which times may be off beyond their rounding
+   real(wp), parameter :: slack = 0.01_wp
+
+   !> Part of a step that the print must resolve
+   real(wp), parameter :: resolved = 0.25_wp
+
+contains
+
+   !> Check the times of a file and find the time step
+   subroutine check_equal_steps(text, begin, time, first, last, dt, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Line of the first time; the others stand in the lines after it
+      integer, intent(in) :: begin
+      !> Times [s]
+      real(wp), intent(in) :: time(:)
+      !> Position in the file's text of the first character of each time
+      integer, intent(in) :: first(:)
+      !> Position of the last character of each time
+      integer, intent(in) :: last(:)
+      !> Time step: the mean one [s]
+      real(wp), intent(out) :: dt
+      !> Times decrease or are not equally spaced
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, n, decimals, digits
+      real(wp) :: rounding, rounding_of_last
+
+      dt = 0.0_wp
+      n = size(time)
+      if (n < 2) then
+         call raise_at(error, text, begin, '1 sample: a record needs at least two')
+         return
+      end if
+      do i = 2, n
+         if (time(i) >= time(i - 1)) cycle
+         call raise_at(error, text, begin + i - 1, 'time '//to_text(time(i))//' after '//to_text(time(i - 1))// &
+            & ': times must increase')
+         return
+      end do
+      dt = (time(n) - time(1))/real(n - 1, wp)
+      if (.not. dt > 0.0_wp) then
+         call raise_at(error, text, begin + 1, 'all times are '//to_text(time(1))//': must increase')
+         return
+      end if
+      call print_of_times(text, first, last, decimals, digits)
+      rounding_of_last = rounding_of(time(n), dt, decimals, digits)
+      do i = 2, n
+         rounding = rounding_of(time(i), dt, decimals, digits)
+         if (abs(time(i) - time(i - 1) - dt) <= rounding + slack*dt .and. &
+            & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= max(rounding, rounding_of_last) + slack*dt) cycle
+         call raise_at(error, text, begin + i - 1, 'time '//to_text(time(i))//' after '//to_text(time(i - 1))// &
+            & ': times must be equally spaced, the mean step is '//to_text(dt))
+         return
+      end do
+   end subroutine check_equal_steps
+
+   !> By how much the print of a time may have moved it
+   pure function rounding_of(time, dt, decimals, digits) result(rounding)
+      !> Time [s]
+      real(wp), intent(in) :: time
+      !> Time step [s]
+      real(wp), intent(in) :: dt
+      !> Decimals of the print
+      integer, intent(in) :: decimals
+      !> Significant digits of the print
+      integer, intent(in) :: digits
+      !> One unit of the last printed digit, bounded where the print never resolves a step [s]
+      real(wp) :: rounding
+
+      rounding = 10.0_wp**(-decimals)
+      if (rounding > resolved*dt) then
+         rounding = resolved*dt
+         return
+      end if
+      if (abs(time) > 0.0_wp) rounding = max(rounding, 10.0_wp**(floor(log10(abs(time))) + 1 - digits))
+   end function rounding_of
+
+   !> How times are printed
+   pure subroutine print_of_times(text, first, last, decimals, digits)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Position of the first character of each time
+      integer, intent(in) :: first(:)
+      !> Position of the last character of each time
+      integer, intent(in) :: last(:)
+      !> Most decimals of any
+      integer, intent(out) :: decimals
+      !> Most significant digits of any
+      integer, intent(out) :: digits
+
+      integer :: i, k, mark, after, exponent, significant
+      logical :: point
+
+      decimals = 0
+      digits = 1
+      do i = 1, size(first)
+         mark = scan(text%text(first(i):last(i)), 'eEdD')
+         exponent = 0
+         if (mark > 0) read (text%text(first(i) + mark:last(i)), *) exponent
+         if (mark == 0) mark = last(i) - first(i) + 2
+         point = .false.
+         after = 0
+         significant = 0
+         do k = first(i), first(i) + mark - 2
+            if (text%text(k:k) == '.') point = .true.
+            if (index('0123456789', text%text(k:k)) == 0) cycle
+            if (point) after = after + 1
+            if (significant > 0 .or. text%text(k:k) /= '0') significant = significant + 1
+         end do
+         decimals = max(decimals, after - exponent)
+         digits = max(digits, significant)
+      end do
+   end subroutine print_of_times
+
+end module dondolo_equal_steps

@@ -1,0 +1,136 @@
+!> PEER strong motion files (.AT2): three lines of text, a line with count and time step, then the values.
+!>
+!> The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older files, `7999    .0050    NPTS, DT`.
+module dondolo_format_peer
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_text, only : lower
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: peer_format_type
+
+   !> The PEER format
+   type, extends(format_type) :: peer_format_type
+   contains
+      !> Name of the format, for messages
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_peer
+   end type peer_format_type
+
+   !> Line that states quantity and units
+   integer, parameter :: quantity_line = 3
+
+   !> Line that states count and time step
+   integer, parameter :: count_line = 4
+
+contains
+
+   !> Name of the format, for messages
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'PEER AT2'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> The third line states units and the fourth count and step
+      logical :: recognised
+
+      recognised = index(lower(text%line(quantity_line)), 'in units of') > 0 .and. &
+         & index(lower(text%line(count_line)), 'npts') > 0 .and. index(lower(text%line(count_line)), 'dt') > 0
+   end function recognises
+
+   !> Read a PEER file
+   subroutine read_peer(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: line
+      integer :: count, at
+      logical :: ok
+
+      line = adjustl(lower(text%line(quantity_line)))
+      if (index(line, 'acceleration') /= 1) then
+         call raise_at(error, text, quantity_line, ''''//trim(text%line(quantity_line))// &
+            & ''': must be ACCELERATION TIME SERIES IN UNITS OF ...')
+         return
+      end if
+      at = index(line, 'in units of') + len('in units of')
+      samples%units = first_word(line(at:), ' ,.;')
+      call read_count(lower(text%line(count_line)), count, samples%dt, ok)
+      if (.not. ok) then
+         call raise_at(error, text, count_line, ''''//trim(text%line(count_line))// &
+            & ''': must be NPTS= count, DT= step SEC, both positive')
+         return
+      end if
+      call read_block(text, count_line + 1, count, samples%values, error)
+   end subroutine read_peer
+
+   !> Find count and time step in the fourth line
+   subroutine read_count(line, count, dt, ok)
+      !> The line, in lower case
+      character(len=*), intent(in) :: line
+      !> Number of values
+      integer, intent(out) :: count
+      !> Time step [s]
+      real(wp), intent(out) :: dt
+      !> Both were found and are positive
+      logical, intent(out) :: ok
+
+      character(len=*), parameter :: separators = ' ,='//achar(9)
+      character(len=:), allocatable :: number, rest
+      integer :: at
+
+      number = first_word(line, separators)
+      call parse_integer(number, count, ok)
+      if (ok) then
+         rest = line(index(line, number) + len(number):)
+      else
+         call parse_integer(first_word(line(index(line, 'npts') + len('npts'):), separators), count, ok)
+         rest = line(index(line, 'dt') + len('dt'):)
+      end if
+      ok = ok .and. count > 0
+      dt = 0.0_wp
+      if (.not. ok) return
+      number = first_word(rest, separators)
+      at = index(number, 'sec')
+      if (at > 0) number = number(:at - 1)
+      call parse_real(number, dt, ok)
+      ok = ok .and. dt > 0.0_wp
+   end subroutine read_count
+
+   !> First word of a text
+   pure function first_word(text, separators) result(word)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Characters that separate words
+      character(len=*), intent(in) :: separators
+      !> The word, empty if there is none
+      character(len=:), allocatable :: word
+
+      integer :: first, length
+
+      word = ''
+      first = verify(text, separators)
+      if (first == 0) return
+      length = scan(text(first:), separators) - 1
+      if (length < 0) length = len(text) - first + 1
+      word = text(first:first + length - 1)
+   end function first_word
+
+end module dondolo_format_peer

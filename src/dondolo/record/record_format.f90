@@ -1,0 +1,134 @@
+!> What every format of accelerogram files must provide. A new format is one new file with an extension of
+!> `format_type`, and one line in dondolo_record_reader.
+module dondolo_record_format
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_real
+   use dondolo_text, only : to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: format_type, samples_type, read_block, raise_at
+
+   !> What a file says, before units are converted
+   type :: samples_type
+      !> Values, in the file's units
+      real(wp), allocatable :: values(:)
+      !> Time step [s], 0 if the file does not state it
+      real(wp) :: dt = 0.0_wp
+      !> Units, empty if the file does not state them
+      character(len=:), allocatable :: units
+   end type samples_type
+
+   !> A format of accelerogram files
+   type, abstract :: format_type
+   contains
+      !> Name of the format, for messages
+      procedure(name_of), deferred, nopass :: name
+      !> Is a text in this format, judged by its content?
+      procedure(recognises_text), deferred, nopass :: recognises
+      !> Read a text in this format
+      procedure(read_text), deferred, nopass :: read
+   end type format_type
+
+   abstract interface
+      !> Name of the format, for messages
+      pure function name_of() result(name)
+         implicit none
+         !> Name
+         character(len=:), allocatable :: name
+      end function name_of
+
+      !> Is a text in this format, judged by its content?
+      function recognises_text(text) result(recognised)
+         import :: text_file_type
+         implicit none
+         !> The file
+         type(text_file_type), intent(in) :: text
+         !> It is to be read by this format's reader, which may still find it wrong
+         logical :: recognised
+      end function recognises_text
+
+      !> Read a text in this format
+      subroutine read_text(text, samples, error)
+         import :: text_file_type, samples_type, error_type
+         implicit none
+         !> The file
+         type(text_file_type), intent(in) :: text
+         !> What it says
+         type(samples_type), intent(out) :: samples
+         !> What is wrong, with file and line
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine read_text
+   end interface
+
+contains
+
+   !> Read numbers separated by blanks, tabs and line ends, from a line to the end of the file
+   subroutine read_block(text, first_line, count, values, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Line of the first number
+      integer, intent(in) :: first_line
+      !> How many there must be
+      integer, intent(in) :: count
+      !> The numbers
+      real(wp), allocatable, intent(out) :: values(:)
+      !> A text that is no number, or another count
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: blanks = ' '//achar(9)
+      integer :: line, at, finish, last, found
+      logical :: ok
+
+      ! A header may state any count; the text bounds how many numbers there can be
+      allocate (values(max(0, min(count, len(text%text)))))
+      found = 0
+      do line = first_line, text%lines()
+         at = text%first(line)
+         last = text%last(line)
+         do
+            finish = verify(text%text(at:last), blanks)
+            if (finish == 0) exit
+            at = at + finish - 1
+            finish = scan(text%text(at:last), blanks)
+            if (finish == 0) then
+               finish = last
+            else
+               finish = at + finish - 2
+            end if
+            found = found + 1
+            if (found > count) then
+               call raise_at(error, text, line, 'more values than the '//to_text(count)//' that the header states')
+               return
+            end if
+            call parse_real(text%text(at:finish), values(found), ok)
+            if (.not. ok) then
+               call raise_at(error, text, line, 'value '//to_text(found)//' = '''//text%text(at:finish)// &
+                  & ''': must be a number')
+               return
+            end if
+            at = finish + 1
+         end do
+      end do
+      if (found == count) return
+      call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
+         & to_text(count))
+   end subroutine read_block
+
+   !> Report what is wrong in a line of a file
+   subroutine raise_at(error, text, line, message)
+      !> Error to allocate
+      type(error_type), allocatable, intent(out) :: error
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Number of the line
+      integer, intent(in) :: line
+      !> Sentence for the user
+      character(len=*), intent(in) :: message
+
+      call raise_input(error, text%place(line)//': '//message)
+   end subroutine raise_at
+
+end module dondolo_record_format
