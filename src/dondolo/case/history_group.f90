@@ -86,9 +86,12 @@ contains
       !> There is no such record
       type(error_type), allocatable, intent(out) :: error
 
+      integer :: i
+
       if (allocated(history%record_name)) then
-         do history%record = 1, size(records)
-            if (records(history%record)%name == history%record_name) return
+         do i = 1, size(records)
+            history%record = i
+            if (records(i)%name == history%record_name) return
          end do
          call group%refuse('record', 'no such record; there are '//some_names(records), error)
       else if (history%record < 1 .or. history%record > size(records)) then

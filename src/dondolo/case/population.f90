@@ -46,6 +46,10 @@ contains
       do row = 1, table%rows()
          call read_row(table, row, input, population%weight(row), error)
          if (allocated(error)) return
+         if (scan(input%name, new_line('a')//achar(13)) > 0) then
+            call raise_input(error, table%place(row)//': name: must stand on one line')
+            return
+         end if
          call new_wall(population%walls(row), input, error, gravity)
          call add_place(error, table%place(row))
          if (allocated(error)) return

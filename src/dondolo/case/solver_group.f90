@@ -1,12 +1,11 @@
 !> The group &solver: how the motions are computed.
 module dondolo_solver_group
    use dondolo_assignment, only : assignment_text
-   use dondolo_engine, only : engine_names
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_solver, only : check_solver, solver_type
+   use dondolo_solver, only : check_solver, engine_names, solver_type
    use dondolo_text, only : join
    use dondolo_wall, only : standard_gravity
    implicit none
@@ -24,9 +23,7 @@ module dondolo_solver_group
 
    !> What is said of the computation
    type :: solver_input_type
-      !> Engine, one of engine_names
-      character(len=:), allocatable :: engine
-      !> Tolerances and limit
+      !> Engine, tolerances and limit
       type(solver_type) :: solver
       !> Gravity [m/s2]
       real(wp) :: gravity = standard_gravity
@@ -43,20 +40,22 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      input%engine = 'auto'
+      character(len=:), allocatable :: engine
+
+      engine = input%solver%engine
       call group%check_names(solver_variables, error)
-      if (.not. allocated(error)) call group%get_text('engine', input%engine, error)
+      if (.not. allocated(error)) call group%get_text('engine', engine, error)
       if (.not. allocated(error)) call group%get_real('rtol', input%solver%rtol, error)
       if (.not. allocated(error)) call group%get_real('atol', input%solver%atol, error)
       if (.not. allocated(error)) call group%get_real('edp_limit', input%solver%edp_limit, error)
       if (.not. allocated(error)) call group%get_real('gravity', input%gravity, error)
       if (allocated(error)) return
-      input%engine = trim(input%engine)
-      if (.not. any(input%engine == engine_names)) then
+      if (.not. any(engine == engine_names)) then
          call group%refuse('engine', 'must be one of '//join(engine_names), error)
       else if (.not. (input%gravity > 0.0_wp .and. input%gravity <= largest_gravity)) then
          call group%refuse('gravity', 'must be positive and at most 1000 m/s2', error)
       else
+         input%solver%engine = engine
          call check_solver(input%solver, error)
          call add_place(error, group%place())
       end if
@@ -69,7 +68,7 @@ contains
       !> Lines to add to
       type(lines_type), intent(inout) :: lines
 
-      call lines%add('&solver '//assignment_text('engine', input%engine))
+      call lines%add('&solver '//assignment_text('engine', trim(input%solver%engine)))
       call lines%add('        '//assignment_text('rtol', input%solver%rtol)//', '// &
          & assignment_text('atol', input%solver%atol))
       call lines%add('        '//assignment_text('edp_limit', input%solver%edp_limit))

@@ -2,10 +2,11 @@
 module dondolo_stripes_group
    use dondolo_assignment, only : assignment_text
    use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_intensity, only : im_names
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_stripes, only : check_levels, im_names
+   use dondolo_stripes, only : check_levels
    use dondolo_text, only : join, to_text
    implicit none
    private
