@@ -24,7 +24,8 @@ program synthetic44_program
    if (length > 0) call get_command_argument(1, folder)
    if (length == 0) folder = 'data/records'
    open (newunit=catalogue, file=folder//'/'//name//'.csv', action='write')
-   write (catalogue, '(a)') '# Synthetic accelerograms (no recordings): Sabetta and Pugliese (1996), see dondolo_synthetic', &
+   write (catalogue, '(a)') &
+      & '# Synthetic accelerograms (no recordings), model of Sabetta and Pugliese (1996): see dondolo_synthetic', &
       & 'file,dt_s,units,scenario,magnitude,distance_km,site,component,pga_m_s2'
    do scenario = 1, size(synthetic44)
       chosen = synthetic44(scenario)

@@ -1,5 +1,6 @@
-!> Fits of fragility curves against closed forms and published data (docs/theory.md, section 5).
+!> Fits of fragility curves against closed forms and published data (docs/theory.md, section 6).
 program test_fragility
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
@@ -147,7 +148,7 @@ contains
       call check_error(error, 'must be as many', 'unequal sizes')
       call fit_fragility(curve, one, 0.0_dp*one, 0.0_dp*one, error)
       call check_error(error, 'there are none', 'no histories')
-      call fit_fragility(curve, one, (one - one)/(one - one), one, error)
+      call fit_fragility(curve, one, [ieee_value(0.0_dp, ieee_quiet_nan)], one, error)
       call check_error(error, 'collapses = NaN', 'not a number')
    end subroutine test_wrong_counts
 

@@ -109,7 +109,8 @@ contains
       integer :: i, j
 
       if (size(row) == 1 .and. index(row(1)%text, ';') > 0) then
-         call raise_input(error, text%place(line)//': header '''//row(1)%text//''': columns must be separated by commas')
+         call raise_input(error, text%place(line)//': header '''//row(1)%text// &
+            & ''': columns must be separated by commas')
          return
       end if
       do i = 1, size(row)

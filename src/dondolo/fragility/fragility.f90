@@ -4,7 +4,7 @@
 !> level x_j the binomial likelihood (Baker 2015) is that of a probit regression on ln x, P = Phi(b0 + b1 ln x), with
 !> beta = 1/b1 and theta = exp(-b0/b1). It is concave, and has a finite maximum with b1 > 0 only if collapses and
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
-!> (docs/theory.md, section 5).
+!> (docs/theory.md, section 6).
 module dondolo_fragility
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : dp
@@ -112,7 +112,9 @@ contains
       !> 0: converged
       integer, intent(out) :: stat
 
-      integer, parameter :: most_steps = 200
+      integer, parameter :: most_steps = 200, most_halvings = 60
+      ! Newton's method doubles its digits: a step of this size leaves no error.
+      real(dp), parameter :: rounding = 1.0e-12_dp
       real(dp) :: gradient(2), hessian(2, 2), change(2), height, trial_height
       real(dp), dimension(size(x)) :: eta, up, down, weight
       integer :: i, k
@@ -131,14 +133,15 @@ contains
          if (stat /= 0) return
          change = gradient
          call dpotrs('U', 2, 1, hessian, 2, change, 2, stat)
-         do k = 1, 60
+         do k = 1, most_halvings
             trial_height = log_likelihood(b + change, x, z, n)
-            if (trial_height >= height) exit
+            ! At the top the likelihood is flat to rounding, and Newton's step is right.
+            if (trial_height >= height - rounding*abs(height)) exit
             change = 0.5_dp*change
          end do
-         if (k <= 60) b = b + change
-         height = max(height, trial_height)
-         if (k > 60 .or. all(abs(change) <= 4.0_dp*epsilon(b)*maxval(abs(b)))) exit
+         b = b + change
+         height = trial_height
+         if (maxval(abs(change)) <= rounding*maxval(abs(b))) exit
       end do
       if (i > most_steps) stat = 1
       eta = b(1) + b(2)*x

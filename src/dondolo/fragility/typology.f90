@@ -1,7 +1,7 @@
 !> Typological fragility: the curve of a population of walls.
 !>
 !> The weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a finite fit takes
-!> part with its raw fractions. A lognormal is then fitted to the weighted counts (docs/theory.md, section 5).
+!> part with its raw fractions. A lognormal is then fitted to the weighted counts (docs/theory.md, section 6).
 module dondolo_typology
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type

@@ -24,13 +24,13 @@ module dondolo_rk45
    !> Events within a step
    integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
 
-   !> A bounce lower than this part of q_c is tiny; after this many tiny ones in a row the wall is called at rest,
-   !> which only guards against a chain without end (restitution next to 1)
+   !> A bounce that would rise less than this part of q_c in still ground is tiny; after this many tiny ones in a
+   !> row the wall is called at rest, which only guards against a chain without end (restitution next to 1)
    real(wp), parameter :: tiny_height = 1.0e-12_wp
    integer, parameter :: most_tiny_bounces = 1000
 
-   !> Flights shorter than this part of the sample interval cannot be told from rest
-   real(wp), parameter :: shortest_flight = 1.0e3_wp*epsilon(1.0_wp)
+   !> A motion shorter than this part of the sample interval cannot be told from rest
+   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
 
    !> Smallest step / sample interval
    real(wp), parameter :: smallest_step = 2.0_wp**(-20)
@@ -81,7 +81,7 @@ module dondolo_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace)
+   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The accelerogram
@@ -94,11 +94,14 @@ contains
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
+      !> Rotation from which the wall is released at the start, less than the limit [rad]; absent: it starts at rest
+      real(wp), intent(in), optional :: release
 
       type(scene_type) :: scene
       type(motion_type) :: motion
       type(tail_type) :: tail
-      integer :: last, ending
+      real(wp) :: start
+      integer :: last, ending, first
 
       scene%rest = new_rest(mechanism)
       scene%scale = scale
@@ -108,13 +111,23 @@ contains
       scene%v_unit = mechanism%frequency_parameter()*mechanism%capacity
       motion%step = record%dt
       last = size(record%acceleration) - 1
+      if (present(release)) motion%q = release
+      motion%peak = motion%q
       if (present(trace)) call add_row(motion, record, scale, trace)
 
+      ending = merge(record_over, at_rest, motion%q > 0.0_wp)
       do
-         call wait(scene, record, last, motion, ending, trace)
-         if (ending == at_rest) exit
+         if (ending == at_rest) then
+            call wait(scene, record, last, motion, ending, trace)
+            if (ending == at_rest) exit
+         end if
+         first = motion%interval
+         start = motion%time
          call rock(mechanism, scene, record, last, motion, ending, trace)
          if (ending /= at_rest) exit
+         ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
+         if (motion%interval == first .and. motion%time - start <= shortest_motion*record%dt) &
+            & call next_interval(scene, record, motion, trace)
       end do
 
       response%collapsed = ending == collapsed
@@ -212,18 +225,33 @@ contains
             if (motion%q > motion%peak) call set_peak(motion, record)
          end select
          if (sample_reached) then
-            motion%interval = motion%interval + 1
-            motion%time = 0.0_wp
-            call enter_interval(scene, record, motion)
+            if (ending == collapsed) return
+            call next_interval(scene, record, motion, trace)
             ! The acceleration is continuous at a sample, save at the last, after which the ground is still.
             if (motion%interval == size(record%acceleration)) &
                & motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, motion%q, motion%v)
-            if (present(trace) .and. ending /= collapsed) call add_row(motion, record, scene%scale, trace)
          end if
          if (ending /= 0) return
       end do
       ending = record_over
    end subroutine rock
+
+   !> Go on to the next sample
+   pure subroutine next_interval(scene, record, motion, trace)
+      !> What stays the same
+      type(scene_type), intent(in) :: scene
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Where the motion is
+      type(motion_type), intent(inout) :: motion
+      !> Time history
+      type(trace_type), intent(inout), optional :: trace
+
+      motion%interval = motion%interval + 1
+      motion%time = 0.0_wp
+      call enter_interval(scene, record, motion)
+      if (present(trace)) call add_row(motion, record, scene%scale, trace)
+   end subroutine next_interval
 
    !> The accelerogram in the interval of the motion
    pure subroutine enter_interval(scene, record, motion)
@@ -466,7 +494,8 @@ contains
       !> Time history
       type(trace_type), intent(inout), optional :: trace
 
-      real(wp) :: moment, flight, height
+      real(wp) :: moment, flight
+      logical :: is_tiny
 
       ending = 0
       motion%impacts = motion%impacts + 1
@@ -475,27 +504,21 @@ contains
       motion%v = -mechanism%restitution*motion%v
       if (mechanism%two_sided) motion%excitation%side = -motion%excitation%side
       if (present(trace)) call add_row(motion, record, scene%scale, trace)
-      if (motion%v == 0.0_wp) then
-         ending = at_rest
-         return
-      end if
-      motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
 
-      moment = scene%rest%inward_moment(motion%excitation%side, &
-         & motion%excitation%start + motion%excitation%slope*motion%time)
-      if (moment <= 0.0_wp) then
-         motion%tiny_bounces = 0
-         return
-      end if
-      if (scene%rest%chain_ends(record, scene%scale, motion%interval, motion%time, motion%excitation%side, &
-         & motion%v, motion%peak)) then
-         ending = at_rest
-         return
-      end if
-      flight = 2.0_wp*motion%v*scene%rest%inertia/moment
-      height = 0.25_wp*motion%v*flight
-      motion%tiny_bounces = merge(motion%tiny_bounces + 1, 0, height < tiny_height*scene%q_unit)
-      if (flight < shortest_flight*record%dt .or. motion%tiny_bounces > most_tiny_bounces) ending = at_rest
+      associate (rest => scene%rest, ground => motion%excitation)
+         is_tiny = 0.5_wp*rest%inertia*motion%v**2 < tiny_height*scene%q_unit*rest%moment
+         motion%tiny_bounces = merge(motion%tiny_bounces + 1, 0, is_tiny)
+         moment = rest%inward_moment(ground%side, ground%start + ground%slope*motion%time)
+         if (motion%v == 0.0_wp .or. motion%tiny_bounces > most_tiny_bounces) then
+            ending = at_rest
+         else if (moment > 0.0_wp) then
+            flight = 2.0_wp*motion%v*rest%inertia/moment
+            if (flight <= shortest_motion*record%dt) ending = at_rest
+            if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, motion%peak)) &
+               & ending = at_rest
+         end if
+      end associate
+      motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine bounce
 
    !> The rotation is a new peak

@@ -39,7 +39,7 @@ contains
       !> Times decrease or are not equally spaced
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, n, decimals, digits
+      integer :: i, n, odd, decimals, digits
       real(wp) :: rounding, rounding_of_last
 
       dt = 0.0_wp
@@ -65,7 +65,9 @@ contains
          rounding = rounding_of(time(i), dt, decimals, digits)
          if (abs(time(i) - time(i - 1) - dt) <= rounding + slack*dt .and. &
             & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= max(rounding, rounding_of_last) + slack*dt) cycle
-         call raise_at(error, text, begin + i - 1, 'time '//to_text(time(i))//' after '//to_text(time(i - 1))// &
+         ! The step that differs most is where a sample is missing or doubled
+         odd = maxloc(abs(time(2:) - time(:n - 1) - dt), dim=1) + 1
+         call raise_at(error, text, begin + odd - 1, 'time '//to_text(time(odd))//' after '//to_text(time(odd - 1))// &
             & ': times must be equally spaced, the mean step is '//to_text(dt))
          return
       end do

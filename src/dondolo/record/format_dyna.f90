@@ -1,4 +1,4 @@
-!> Files of the Italian and European archives ITACA and ESM (DYNA 1.0 to 1.2): lines `KEY: value`, then one value a line.
+!> Files of the archives ITACA and ESM (DYNA 1.0 to 1.2, ITACA 1.1): lines `KEY: value`, then one value a line.
 module dondolo_format_dyna
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
@@ -121,7 +121,8 @@ contains
       end if
       peak = cm*factor*maxval(abs(samples%values))
       if (abs(peak - abs(stated)) <= peak_tolerance*abs(stated)) return
-      call raise_at(error, text, line_of(text, key), key//' = '//to_text(stated)//': the largest value is '//to_text(peak))
+      call raise_at(error, text, line_of(text, key), key//' = '//to_text(stated)//': must be the largest value, '// &
+         & to_text(peak))
    end subroutine check_peak
 
    !> Read a number of the header
@@ -139,7 +140,8 @@ contains
 
       call parse_real(value_of(text, key), value, ok)
       if (.not. ok) then
-         call raise_at(error, text, max(line_of(text, key), 1), key//' = '''//value_of(text, key)//''': must be a number')
+         call raise_at(error, text, max(line_of(text, key), 1), key//' = '''//value_of(text, key)// &
+            & ''': must be a number')
       end if
    end subroutine get_number
 

@@ -13,7 +13,7 @@ module dondolo_record_reader
    implicit none
    private
 
-   public :: read_record, stem
+   public :: read_record
 
    !> Relative difference allowed between a time step that is given and the file's own
    real(wp), parameter :: step_tolerance = 0.01_wp

@@ -1,7 +1,7 @@
 !> The synthetic suite of the project: 22 scenarios with two horizontal components each.
 !>
-!> Magnitudes follow Italian earthquakes from 1972 to 2016 (rounded); the names of the scenarios only say which. Distances
-!> and sites are not those of any record: they spread the peak acceleration from about 0.03 to 0.6 g.
+!> Magnitudes follow Italian earthquakes from 1972 to 2016 (rounded); the names of the scenarios only say which.
+!> Distances and sites are not those of any record: they spread the peak acceleration from about 0.03 to 0.6 g.
 module dondolo_synthetic_suite
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp

@@ -6,7 +6,7 @@ module dondolo_units
    implicit none
    private
 
-   public :: unit_factor, standard_gravity
+   public :: unit_factor
 
    !> Standard gravity, the unit g of files [m/s2] (exact; 3rd CGPM, 1901)
    real(wp), parameter :: standard_gravity = 9.80665_wp

@@ -78,7 +78,7 @@ module dondolo_mechanism
 
 contains
 
-   !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 4)
+   !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 2)
    pure function trigger_acceleration(self) result(a)
       !> The mechanism
       class(mechanism_type), intent(in) :: self
@@ -92,7 +92,7 @@ contains
    end function trigger_acceleration
 
    !> Frequency parameter, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block
-   !> (docs/theory.md, section 4)
+   !> (docs/theory.md, section 2)
    pure function frequency_parameter(self) result(p)
       !> The mechanism
       class(mechanism_type), intent(in) :: self

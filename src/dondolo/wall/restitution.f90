@@ -30,7 +30,7 @@ module dondolo_restitution
 contains
 
    !> Speed after an impact / speed before it: the model's value times the factor. A coefficient of the
-   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 2)
+   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3)
    subroutine speed_ratio(self, ratio, error, sorrentino, impulse)
       !> What the user asks
       class(restitution_type), intent(in) :: self

@@ -1,0 +1,732 @@
+!> Numbers, tables, units, and the readers of accelerogram files.
+program test_record
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record, only : record_type
+   use dondolo_record_reader, only : read_record
+   use dondolo_text, only : to_text
+   use dondolo_text_file, only : read_text_file, text_file_type
+   use dondolo_units, only : unit_factor
+   implicit none
+
+   character(len=*), parameter :: scratch = 'build/test_record'
+   character(len=*), parameter :: cr = achar(13), lf = achar(10), tab = achar(9)
+   !> Accelerations of the small files [file's units]
+   real(wp), parameter :: small(5) = [0.0_wp, 0.1_wp, -0.25_wp, 1.0e-3_wp, 0.05_wp]
+
+   call execute_command_line('mkdir -p '//scratch//'/folder/sub')
+   call test_numbers()
+   call test_text_file()
+   call test_csv()
+   call test_csv_errors()
+   call test_units()
+   call test_one_column()
+   call test_two_columns()
+   call test_steps()
+   call test_peer()
+   call test_dyna()
+   call test_given()
+   call test_unknown()
+   call test_catalogue()
+   call test_samples()
+   call finish()
+
+contains
+
+   !> Strict numbers
+   subroutine test_numbers()
+      character(len=*), parameter :: bad(*) = [character(len=12) :: '', ' ', '+', '-', '.', 'e5', '1,5', '1.5x', &
+         & 'nan', &
+         & 'NaN', 'inf', '-Infinity', '1e400', '3*1.0', '1/', '1 2', '1e', '1e+', '1.0.0', '--1', '1+5', '0x10', &
+         & '1q5', &
+         & 'T', '1_8', '1e5.0', '1e 5', '.e5', '****', '1e99999999999', '"1"', ';', '1;']
+      real(wp) :: value, want
+      integer :: i, number, mismatches, state
+      logical :: ok
+      character(len=40) :: text
+
+      call suite('numbers')
+      do i = 1, size(bad)
+         call parse_real(trim(bad(i)), value, ok)
+         ! 1e400 is a number in higher precision
+         if (bad(i) == '1e400' .and. range(value) >= 400) cycle
+         call check(.not. ok, 'number '''//trim(bad(i))//''' is refused')
+      end do
+      call check_number('1', 1.0_wp)
+      call check_number('+1.', 1.0_wp)
+      call check_number('-.5', -0.5_wp)
+      call check_number('  2.5'//tab, 2.5_wp)
+      call check_number('1.0D-3', 1.0e-3_wp)
+      call check_number('1d+2', 100.0_wp)
+      call check_number('-.8075668E-03', -0.8075668e-3_wp)
+      call check_number('5.3720000e+001', 53.72_wp)
+      call check_number('0.100000000000000005551115123126', 0.100000000000000005551115123126_wp)
+      call check_number('9007199254740993', 9007199254740993.0_wp)
+      call check_number('123456789012345678901234567890', 123456789012345678901234567890.0_wp)
+      call check_number('00000000000000000000000000000000001.5', 1.5_wp)
+      call check_number('1e22', 1.0e22_wp)
+      call check_number('1e-300', 1.0e-300_wp)
+      call check_number('-0', 0.0_wp)
+      ! The fast path must be the compiler's READ to the last bit
+      mismatches = 0
+      state = 1
+      do i = 1, 200000
+         state = modulo(state*16807, 2147483647)
+         if (modulo(i, 2) == 0) then
+            write (text, '(f0.'//to_text(modulo(i, 11))//')') real(state - 1000000000, wp)/10.0_wp**modulo(i, 13)
+         else
+            write (text, '(es30.'//to_text(modulo(i, 17) + 1)//'e3)') real(state - 1000000000, &
+         & wp)/3.0_wp**modulo(i, 61)
+         end if
+         read (text, *) want
+         call parse_real(text, value, ok)
+         if (.not. ok .or. value < want .or. value > want) mismatches = mismatches + 1
+      end do
+      call check(mismatches == 0, to_text(mismatches)//' of 200000 numbers differ from READ')
+      call parse_integer(' -42 ', number, ok)
+      call check(ok .and. number == -42, 'integer -42')
+      call parse_integer('2147483647', number, ok)
+      call check(ok .and. number == huge(number), 'largest integer')
+      call check_no_integer('2147483648')
+      call check_no_integer('99999999999999999999')
+      call check_no_integer('1.0')
+      call check_no_integer('')
+      call check_no_integer('1e3')
+      call check_no_integer('1 2')
+   end subroutine test_numbers
+
+   !> A text that is a number
+   subroutine check_number(text, want)
+      character(len=*), intent(in) :: text
+      real(wp), intent(in) :: want
+      real(wp) :: value
+      logical :: ok
+
+      call parse_real(text, value, ok)
+      call check(ok, 'number '''//text//''' is read')
+      call check_close(value, want, 0.0_wp, 'number '''//text//'''')
+   end subroutine check_number
+
+   !> A text that is no integer
+   subroutine check_no_integer(text)
+      character(len=*), intent(in) :: text
+      integer :: value
+      logical :: ok
+
+      call parse_integer(text, value, ok)
+      call check(.not. ok, 'integer '''//text//''' is refused')
+   end subroutine check_no_integer
+
+   !> Lines of a file
+   subroutine test_text_file()
+      type(text_file_type) :: text
+      type(error_type), allocatable :: error
+
+      call suite('text file')
+      call write_file('lines.txt', achar(239)//achar(187)//achar(191)//'one'//cr//lf//lf//' three'//lf//'four'// &
+         & cr//lf// &
+         & achar(26)//cr//lf)
+      call read_text_file(scratch//'/lines.txt', text, error)
+      call check_ok(error, 'read')
+      call check(text%lines() == 4, 'four lines')
+      call check_text(text%line(1), 'one', 'line 1')
+      call check_text(text%line(2), '', 'line 2')
+      call check_text(text%line(3), ' three', 'line 3')
+      call check_text(text%line(4), 'four', 'line 4')
+      call check_text(text%line(5), '', 'line 5')
+      call check_text(text%place(3), scratch//'/lines.txt: line 3', 'place')
+      call write_file('lines.txt', 'a'//lf//'b')
+      call read_text_file(scratch//'/lines.txt', text, error)
+      call check(text%lines() == 2, 'two lines')
+      call check_text(text%line(2), 'b', 'last line without line end')
+      call write_file('lines.txt', '')
+      call read_text_file(scratch//'/lines.txt', text, error)
+      call check_error(error, scratch//'/lines.txt: the file is empty', 'no bytes')
+      call write_file('lines.txt', cr//lf//lf//' ')
+      call read_text_file(scratch//'/lines.txt', text, error)
+      call check_error(error, 'the file is empty', 'blanks')
+      call read_text_file(scratch//'/none.txt', text, error)
+      call check_error(error, scratch//'/none.txt: no such file', 'missing file')
+      call check(error%stat == 2, 'a missing file is wrong input')
+      call read_text_file(scratch//'/folder', text, error)
+      call check_error(error, scratch//'/folder: ', 'folder')
+      call read_text_file('', text, error)
+      call check(allocated(error), 'no name')
+   end subroutine test_text_file
+
+   !> Tables that are right
+   subroutine test_csv()
+      type(csv_table_type) :: table
+      type(error_type), allocatable :: error
+      real(wp) :: value
+
+      call suite('csv')
+      call write_file('good.csv', achar(239)//achar(187)//achar(191)//'# remark, with "one quote'//lf//lf// &
+         & 'name, height_m ,"a ""b"", c"'// &
+         & cr//lf//'x , 2.5,plain'//cr//lf//'  '//lf//'# again'//lf//'"two'//lf//'lines, one cell" , 1.0D-3 ,""'// &
+         & lf//',,"say ""hi"""')
+      call read_csv(scratch//'/good.csv', table, error)
+      call check_ok(error, 'read')
+      if (allocated(error)) return
+      call check(size(table%columns) == 3, 'three columns')
+      call check(table%rows() == 3, 'three rows')
+      call check(table%column('name') == 1 .and. table%column('HEIGHT_m') == 2 .and. table%column('a "b", c') == 3, &
+         & 'columns')
+      call check(table%column('a') == 0 .and. table%column('') == 0, 'no such column')
+      call check_text(table%get_text(1, 1), 'x', 'cell 1 1')
+      call check_text(table%get_text(1, 3), 'plain', 'cell 1 3')
+      call check_text(table%get_text(2, 1), 'two'//lf//'lines, one cell', 'cell 2 1')
+      call check_text(table%get_text(2, 3), '', 'cell 2 3')
+      call check_text(table%get_text(3, 1), '', 'cell 3 1')
+      call check_text(table%get_text(3, 3), 'say "hi"', 'cell 3 3')
+      call check_text(table%get_text(3, 0), '', 'cell of a column that is absent')
+      call check(all(table%line == [4, 7, 9]), 'line numbers')
+      call table%get_real(1, 2, value, error)
+      call check_close(value, 2.5_wp, 0.0_wp, 'number')
+      call table%get_real(2, 2, value, error)
+      call check_close(value, 1.0e-3_wp, 0.0_wp, 'number with D exponent')
+      call table%get_real(1, 3, value, error)
+      call check_error(error, scratch//'/good.csv: line 4: a "b", c = ''plain'': must be a number', 'word')
+      call table%get_real(3, 2, value, error)
+      call check_error(error, scratch//'/good.csv: line 9: height_m = '''': must be a number', 'empty cell')
+      call write_file('good.csv', 'a,b'//cr//lf)
+      call read_csv(scratch//'/good.csv', table, error)
+      call check_ok(error, 'header only')
+      call check(table%rows() == 0, 'no rows')
+   end subroutine test_csv
+
+   !> Tables that are wrong
+   subroutine test_csv_errors()
+      call suite('csv errors')
+      call check_csv('a,b'//lf//'1,2'//lf//'1,2,3'//lf, ': line 3: 3 cells: must be 2 as in the header')
+      call check_csv('a,b'//lf//'1'//lf, ': line 2: 1 cells: must be 2')
+      call check_csv('a,b'//lf//'1,2,'//lf, ': line 2: 3 cells: must be 2')
+      call check_csv('a,b'//lf//'1,"2'//lf//'3,4'//lf, ': line 2: a double quote is not closed')
+      call check_csv('a,b'//lf//'1,2"3"'//lf, ': line 2: cell 2: a double quote inside')
+      call check_csv('a,b'//lf//'1,"2"3'//lf, ': line 2: cell 2: text after the closing double quote')
+      call check_csv('a,,b'//lf//'1,2,3'//lf, ': line 1: column 2 has no name')
+      call check_csv('a,b,'//lf, ': line 1: column 3 has no name')
+      call check_csv('# x'//lf//'a,b,A'//lf, ': line 2: column ''A'' stands there twice')
+      call check_csv('a;b'//lf//'1;2'//lf, ': line 1: header ''a;b'': columns must be separated by commas')
+      call check_csv('', ': the file is empty')
+      call check_csv('# only a remark'//lf, ': no header')
+   end subroutine test_csv_errors
+
+   !> A table with an error
+   subroutine check_csv(content, part)
+      character(len=*), intent(in) :: content, part
+      type(csv_table_type) :: table
+      type(error_type), allocatable :: error
+
+      call write_file('bad.csv', content)
+      call read_csv(scratch//'/bad.csv', table, error)
+      call check_error(error, scratch//'/bad.csv'//part, 'table '//content)
+   end subroutine check_csv
+
+   !> Units and their spellings
+   subroutine test_units()
+      character(len=*), parameter :: metres(*) = [character(len=10) :: 'm/s2', 'm/s^2', 'M/S/S', 'm/s**2', 'm/sec2', &
+         & 'm/sec^2', 'm/sec/sec', ' m / s2', 'm s-2', 'm s^-2', 'm/s'//achar(194)//achar(178)]
+      character(len=*), parameter :: centimetres(*) = [character(len=10) :: 'cm/s2', 'cm/s^2', 'CM/SEC/SEC', &
+         & 'cm/sec2', &
+         & 'cm/s/s', 'gal', 'Gal', 'GAL']
+      character(len=*), parameter :: wrong(*) = [character(len=10) :: '%g', 'cm/s', 'm', 'mg', 'm/s3', 'ft/s2', &
+         & '', 'gals', 'm/s22']
+      type(error_type), allocatable :: error
+      real(wp) :: factor
+      integer :: i
+
+      call suite('units')
+      do i = 1, size(metres)
+         call unit_factor(trim(metres(i)), factor, error)
+         call check_ok(error, metres(i))
+         call check_close(factor, 1.0_wp, 0.0_wp, metres(i))
+      end do
+      do i = 1, size(centimetres)
+         call unit_factor(trim(centimetres(i)), factor, error)
+         call check_ok(error, centimetres(i))
+         call check_close(factor, 0.01_wp, 0.0_wp, centimetres(i))
+      end do
+      call unit_factor('mm/s^2', factor, error)
+      call check_close(factor, 0.001_wp, 0.0_wp, 'mm/s^2')
+      call unit_factor('G', factor, error)
+      call check_close(factor, 9.80665_wp, 0.0_wp, 'g')
+      do i = 1, size(wrong)
+         call unit_factor(trim(wrong(i)), factor, error)
+         call check_error(error, 'units = '''//trim(wrong(i))// &
+         & ''': must be one of ''m/s2'', ''cm/s2'', ''gal'', ''mm/s2'', ''g''', &
+            & 'wrong unit '//wrong(i))
+      end do
+   end subroutine test_units
+
+   !> One column
+   subroutine test_one_column()
+      character(len=*), parameter :: values = '0'//lf//'1.0E-01'//lf//' -.25'//lf//'1d-3 '//lf//'+0.05'//lf
+
+      call suite('one column')
+      call check_file('plain.txt', values)
+      call check_file('dots.in.name.acc', values)
+      call check_file('crlf.txt', '0'//cr//lf//'.1'//cr//lf//'-.25'//cr//lf//'.001'//cr//lf//'5e-2'//achar(26))
+      call check_file('titled', '# remark 1,2,3'//lf//lf//'acceleration (m/s2)'//lf//'#'//lf//values)
+      call check_file('quoted.csv', '"acc"'//lf//values)
+      call check_bad_file('0.1'//lf//'1,5'//lf//'0.3'//lf, ': line 2: 2 values: must be 1 as in line 1')
+      call check_bad_file('0.1'//lf//'0.2'//lf//'nan'//lf//'0.3', ': line 3: value ''nan'': must be a number')
+      call check_bad_file('NaN'//lf//'0.2'//lf//'0.3'//lf, ': line 1: value ''NaN'': must be a number')
+      call check_bad_file('*****'//lf//'0.2'//lf//'0.3'//lf, ': line 1: value ''*****'': must be a number')
+      call check_bad_file('0.1'//lf//'0.2x'//lf//'0.3'//lf, ': line 2: value ''0.2x'': must be a number')
+      call check_bad_file('0.1'//lf//'0.2'//lf//lf//'0.3'//lf, ': line 3: 0 values: must be 1')
+      call check_bad_file('0.1'//lf//'0.2'//lf//'# remark'//lf//'0.3'//lf, ': line 3: 2 values: must be 1')
+      call check_bad_file('0.1'//lf//'0.2'//lf//'1e400'//lf, ': ')
+      call check_bad_file('title'//lf//'0.1'//lf, ': 1 samples: a record needs at least two')
+      call check_bad_file('0.1'//lf//'2e4'//lf, ': sample 2 = 2')
+   end subroutine test_one_column
+
+   !> Two columns
+   subroutine test_two_columns()
+      call suite('two columns')
+      call check_file('comma.csv', 'time,acc'//lf//'0,0'//lf//'0.01,0.1'//lf//'0.02,-0.25'//lf//'0.03,1e-3'//lf// &
+         & '0.04,0.05', .true.)
+      call check_file('blank.txt', ' 0.00 0'//lf//' 0.01   0.1'//lf//'.02 -.25 '//lf//'.03 1e-3'//lf//'4e-2 0.05'// &
+         & lf, .true.)
+      call check_file('tab.txt', '1.00'//tab//'0'//lf//'1.01'//tab//'0.1'//lf//'1.02'//tab//'-.25'//lf//'1.03'// &
+         & tab// &
+         & '1e-3'//lf//'1.04'//tab//' 0.05', .true.)
+      call check_file('semicolon.txt', '# t; a'//cr//lf//'0; 0'//cr//lf//'.01;.1'//cr//lf//'.02;-.25'//cr//lf// &
+         & '.03;.001'//cr//lf//'.04;5e-2', &
+         & .true.)
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.03,1'//lf//'0.04,1'//lf, ': line 3: time 0.03 after 0.01: ')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.04,1'//lf, ': line 4: time 0.04 after 0.02: ')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1'//lf//'0.02,1'//lf//'.03,1', &
+         & ': line 4: time 0.02 after 0.02: times must be equally spaced')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.005,1'//lf, &
+         & ': line 3: time 0.005 after 0.01: times must increase')
+      call check_bad_file('1,0'//lf//'1,1'//lf//'1,2'//lf, ': line 2: all times are 1')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02'//lf, ': line 3: 1 values: must be 2 as in line 1')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1,1'//lf, ': line 3: 3 values: must be 2')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1.x'//lf, ': line 3: value ''1.x'': must be a number')
+      call check_bad_file('0,0'//lf//'0.01,1'//lf//'nan,1'//lf, ': line 3: value ''nan'': must be a number')
+      call check_bad_file('t,a'//lf//'0,1'//lf, ': line 2: 1 sample: a record needs at least two')
+      call check_bad_file('0,005;0,12'//lf//'0,010;0,13'//lf, ': the format is not known')
+   end subroutine test_two_columns
+
+   !> Times as programs print them: rounded steps of 1/256 s, 5 digits beyond 100 s, single precision
+   subroutine test_steps()
+      call suite('steps')
+      call check_times('(f0.3)', 1.0_wp/256.0_wp, 4000, 0)
+      call check_times('(f0.6)', 1.0_wp/256.0_wp, 4000, 0)
+      call check_times('(es12.5)', 0.02_wp, 3000, 0)
+      call check_times('5 digits', 0.005_wp, 30000, 0)
+      call check_times('single', 0.02_wp, 9000, 0)
+      call check_times('(f0.2)', 0.01_wp, 5000, 0)
+      call check_times('(f0.3)', 1.0_wp/256.0_wp, 4000, 2000)
+      call check_times('(f0.2)', 0.01_wp, 5000, 4900)
+      call check_times('(f0.2)', 0.01_wp, 5000, 1)
+      call check_times('5 digits', 0.005_wp, 30000, 5000)
+      call check_times('single', 0.02_wp, 9000, 8998)
+   end subroutine test_steps
+
+   !> A file of times; one sample may be missing
+   subroutine check_times(layout, dt, count, missing)
+      character(len=*), intent(in) :: layout
+      real(wp), intent(in) :: dt
+      integer, intent(in) :: count, missing
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=40) :: line
+      real(wp) :: time
+      integer :: unit, i
+
+      open (newunit=unit, file=scratch//'/times.txt', action='write', status='replace')
+      do i = 0, count - 1
+         if (missing > 0 .and. i == missing) cycle
+         time = i*dt
+         select case (layout)
+         case ('5 digits')
+            write (line, '(f0.'//to_text(merge(2, merge(3, 4, time >= 10.0_wp), time >= 100.0_wp))//')') time
+         case ('single')
+            write (line, '(f0.5)') real(time)
+         case default
+            write (line, layout) time
+         end select
+         write (unit, '(a)') trim(adjustl(line))//',0.5'
+      end do
+      close (unit)
+      call read_record(scratch//'/times.txt', record, error, units='g')
+      if (missing > 0) then
+         call check_error(error, 'must be equally spaced', layout//', '//to_text(count)//' lines, one missing')
+      else
+         call check_ok(error, layout//', '//to_text(count)//' lines')
+         call check_close(record%dt, dt, 1.0e-3_wp, 'dt, '//layout)
+      end if
+   end subroutine check_times
+
+   !> PEER files
+   subroutine test_peer()
+      character(len=*), parameter :: top = 'PEER NGA STRONG MOTION DATABASE RECORD'//lf// &
+         & 'Somewhere, 1/2/1990, Town, Hall, 67'//lf
+      character(len=*), parameter :: quantity = 'ACCELERATION TIME SERIES IN UNITS OF G'//lf
+      character(len=*), parameter :: values = '   .0000000E+00   .1000000E+00  -.2500000E+00'//lf// &
+         & '   .1000000E-02   .5000000E-01  '//lf
+
+      call suite('PEER')
+      call check_stated('new.AT2', top//quantity//'NPTS=      5, DT=   .0100 SEC,      '//lf//values, 9.80665_wp)
+      call check_stated('text.AT2', top//quantity//'NPTS=  5, DT=  .0100 SEC  rotated 30 deg'//lf//values//lf, &
+         & 9.80665_wp)
+      call check_stated('short.AT2', top//quantity//'NPTS=5,DT=0.01SEC'//cr//lf//values, 9.80665_wp)
+      call check_stated('old.AT2', 'PEER STRONG MOTION DATABASE RECORD. PROCESSED'//lf//'SOMEWHERE'//lf// &
+         & 'ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz  LP=25.0 Hz'//lf// &
+         & '     5    .0100    NPTS, DT'//lf//values, &
+         & 9.80665_wp)
+      call check_bad_stated(top//'VELOCITY TIME SERIES IN UNITS OF CM/S'//lf//'NPTS=  5, DT=  .01 SEC'//lf//values, &
+         & ': line 3: ''VELOCITY TIME SERIES IN UNITS OF CM/S'': must be ACCELERATION')
+      call check_bad_stated(top//'DISPLACEMENT TIME SERIES IN UNITS OF CM'//lf//'NPTS=  5, DT=  .01 SEC'//lf// &
+         & values, ': line 3: ')
+      call check_bad_stated(top//'ACCELERATION TIME SERIES IN UNITS OF FURLONGS'//lf//'NPTS=  5, DT=  .01 SEC'// &
+         & lf//values, &
+         & ': units = ''furlongs'': must be one of')
+      call check_bad_stated(top//quantity//'NPTS=  6, DT=  .01 SEC'//lf//values, &
+         & ': line 6: the file ends after 5 values: the header states 6')
+      call check_bad_stated(top//quantity//'NPTS=  4, DT=  .01 SEC'//lf//values, ': line 6: more values than the 4')
+      call check_bad_stated(top//quantity//'NPTS=  5, DT=  0.0 SEC'//lf//values, ': line 4: ')
+      call check_bad_stated(top//quantity//'NPTS=  5, DT=  -.01 SEC'//lf//values, ': line 4: ')
+      call check_bad_stated(top//quantity//'NPTS=  5, DT= ****** SEC'//lf//values, ': line 4: ')
+      call check_bad_stated(top//quantity//'NPTS=  -5, DT= .01 SEC'//lf//values, ': line 4: ')
+      call check_bad_stated(top//quantity//'NPTS=  , DT= .01 SEC'//lf//values, ': line 4: ')
+      call check_bad_stated(top//quantity//'NPTS=  2000000000, DT= .01 SEC'//lf//values, &
+         & ': line 6: the file ends after 5')
+      call check_bad_stated(top//quantity//'NPTS=  5, DT=  .01 SEC'//lf//'.1 .2 NaN .3 .4', &
+         & ': line 5: value 3 = ''NaN'': must be a number')
+      call check_bad_stated(top//quantity//'NPTS=  3, DT=  .01 SEC'//lf//'.1 .2'//lf//'.3-.4', &
+         & ': line 6: value 3 = ''.3-.4''')
+      call check_bad_stated(top//quantity//'NPTS=  1, DT=  .01 SEC'//lf//'.1', &
+         & ': 1 samples: a record needs at least two')
+      call check_bad_stated(top//quantity//'NPTS=  1, DT=  .01 SEC', ': line 4: the file ends after 0 values')
+   end subroutine test_peer
+
+   !> DYNA files
+   subroutine test_dyna()
+      character(len=*), parameter :: values = '0.000000'//lf//'0.100000'//lf//'-0.250000'//lf//'0.001000'//lf// &
+         & '0.050000'//lf
+      character(len=*), parameter :: step = 'SAMPLING_INTERVAL_S: 0.010000', count = 'NDATA: 5', &
+         & units = 'UNITS: cm/s^2', &
+         & kind = 'DATA_TYPE: ACCELERATION', peak = 'PGA_CM/S^2: -0.250000'
+
+      call suite('DYNA')
+      call check_stated('IT.ARL..HGE.D.C.ACC.ASC', dyna(step, count, units, peak, kind)//values, 0.01_wp)
+      call check_stated('unprocessed.dat', dyna(step, count, units, peak, 'DATA_TYPE: UNPROCESSED ACCELERATION')// &
+         & values, 0.01_wp)
+      call check_stated('no_peak.asc', dyna(step, count, units, 'PGA_CM/S^2: ', 'DATA_TYPE: Acceleration')// &
+         & values, 0.01_wp)
+      call check_stated('metres.asc', dyna(step, count, 'UNITS: m/s^2', 'PGA_CM/S^2: 25.1', kind)//values, 1.0_wp)
+      call check_bad_stated(dyna(step, count, 'UNITS: cm/s', 'PGV_CM/S: 0.25', 'DATA_TYPE: VELOCITY')//values, &
+         & ': line 7: DATA_TYPE = ''VELOCITY'': must be ACCELERATION')
+      call check_bad_stated(dyna(step, count, units, peak, 'DATA_TYPE: ACCELERATION RESPONSE SPECTRUM')//values, &
+         & ': line 7: DATA_TYPE')
+      call check_bad_stated(dyna(step, count, units, peak, 'NOTHING: 1')//values, ': line 1: DATA_TYPE = '''': must be')
+      call check_bad_stated(dyna('SAMPLING_INTERVAL_S: ', count, units, peak, kind)//values, &
+         & ': line 3: SAMPLING_INTERVAL_S = '''': must be a number')
+      call check_bad_stated(dyna('SAMPLING_INTERVAL_S: 0.0', count, units, peak, kind)//values, &
+         & ': line 3: SAMPLING_INTERVAL_S = 0: must be positive')
+      call check_bad_stated(dyna(step, 'NDATA: 5.5', units, peak, kind)//values, &
+         & ': line 4: NDATA = 5.5: must be a positive integer')
+      call check_bad_stated(dyna(step, 'NDATA: many', units, peak, kind)//values, ': line 4: NDATA = ''many''')
+      call check_bad_stated(dyna(step, 'NDATA: 6', units, peak, kind)//values, &
+         & ': line 13: the file ends after 5 values: the header states 6')
+      call check_bad_stated(dyna(step, 'NDATA: 4', units, peak, kind)//values, ': line 13: more values than the 4')
+      call check_bad_stated(dyna(step, count, units, 'PGA_CM/S^2: 0.26', kind)//values, &
+         & ': line 6: PGA_CM/S^2 = 0.26: must be the largest value, 0.25')
+      call check_bad_stated(dyna(step, count, 'UNITS: cm/s', peak, kind)//values, &
+         & ': line 5: units = ''cm/s'': must be one of')
+      call check_bad_stated(dyna(step, count, 'UNITS: ', peak, kind)//values, ': the file does not state its units')
+      call check_bad_stated(dyna(step, count, units, peak, kind)//'0.1'//lf//'nan'//lf, &
+         & ': line 10: value 2 = ''nan''')
+   end subroutine test_dyna
+
+   !> A header of eight lines
+   function dyna(step, count, units, peak, kind) result(header)
+      character(len=*), intent(in) :: step, count, units, peak, kind
+      character(len=:), allocatable :: header
+
+      header = 'EVENT_NAME: TEST'//lf//'STATION_NAME: '//lf//step//lf//count//lf//units//lf//peak//lf//kind//lf// &
+         & 'ORIGINAL_DATA_MEDIATOR_CITATION: : x'//lf
+   end function dyna
+
+   !> What is given beside the file
+   subroutine test_given()
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: two = scratch//'/two.txt', one = scratch//'/one.txt'
+      real(wp) :: nan
+
+      call suite('given')
+      call write_file('one.txt', '1'//lf//'2'//lf//'3'//lf)
+      call write_file('two.txt', '0 1'//lf//'.01 2'//lf//'.02 3'//lf)
+      call write_file('peer.txt', 'PEER'//lf//lf//'ACCELERATION TIME SERIES IN UNITS OF G'//lf// &
+         & 'NPTS= 2, DT= .01 SEC'//lf//'.1 .2')
+      call read_record(one, record, error, units='g')
+      call check_error(error, one//': the file does not state its time step: dt must be given', 'no dt')
+      call read_record(one, record, error, dt=0.01_wp)
+      call check_error(error, one//': the file does not state its units: units must be given', 'no units')
+      call read_record(one, record, error, dt=0.01_wp, units=' ')
+      call check_error(error, 'units must be given', 'empty units')
+      call read_record(one, record, error, dt=0.01_wp, units='furlong')
+      call check_error(error, one//': units = ''furlong'': must be one of', 'unknown units')
+      call read_record(one, record, error, dt=0.0_wp, units='g')
+      call check_error(error, one//': dt = 0: must be positive', 'dt = 0')
+      call read_record(one, record, error, dt=-0.01_wp, units='g')
+      call check_error(error, 'must be positive', 'dt < 0')
+      nan = 0.0_wp
+      nan = sqrt(nan - 1.0_wp)
+      call read_record(one, record, error, dt=nan, units='g')
+      call check_error(error, 'dt = NaN: must be positive', 'dt = NaN')
+      call read_record(one, record, error, dt=0.01_wp, units='gal')
+      call check_ok(error, 'all given')
+      call check_close(record%acceleration(3), 0.03_wp, 1.0e-15_wp, 'gal')
+      call read_record(two, record, error, dt=0.01005_wp, units='mm/s2')
+      call check_ok(error, 'dt that agrees')
+      call check_close(record%dt, 0.01_wp, 1.0e-14_wp, 'the file''s dt is used')
+      call read_record(two, record, error, dt=0.0102_wp, units='mm/s2')
+      call check_error(error, two//': dt = 0.0102: the file states 0.01', 'dt that disagrees')
+      call read_record(scratch//'/peer.txt', record, error, units='G')
+      call check_ok(error, 'units that agree')
+      call read_record(scratch//'/peer.txt', record, error, units='m/s2')
+      call check_error(error, 'peer.txt: units = ''m/s2'': the file states ''g''', 'units that disagree')
+   end subroutine test_given
+
+   !> Contents of no known format
+   subroutine test_unknown()
+      call suite('unknown')
+      call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, &
+         & ': the format is not known: must be one of PEER AT2, ITACA/ESM DYNA, one column')
+      call check_bad_file('title'//lf//'3 0.01'//lf//'1'//lf//'2'//lf//'3'//lf, ': the format is not known')
+      call check_bad_file('words'//lf//'and more'//lf//'words'//lf, ': the format is not known')
+      call check_bad_file('# remark'//lf, ': the format is not known')
+      call check_bad_file('', ': the file is empty')
+      call check_bad_file(achar(0)//achar(1)//achar(2)//lf//achar(255), ': the format is not known')
+   end subroutine test_unknown
+
+   !> Catalogues
+   subroutine test_catalogue()
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+
+      call suite('catalogue')
+      call write_file('folder/sub/a.txt', '1'//lf//'2'//lf)
+      call write_file('folder/b.txt', '0 1'//lf//'.01 3'//lf)
+      call write_file('folder/bad.txt', '1'//lf//'2'//lf//'x'//lf)
+      call write_file('folder/c.AT2', 'PEER'//lf//lf//'ACCELERATION TIME SERIES IN UNITS OF G'//lf// &
+         & 'NPTS= 2, DT= .01 SEC'//lf//'.1 .2')
+      call write_file('folder/good.csv', '# remark'//lf//'station,file,units,dt_s'//lf//'"A, B",sub/a.txt,g,0.02'// &
+         & lf// &
+         & 'C,"b.txt",gal,'//lf//',c.AT2,,'//lf)
+      call read_catalogue(scratch//'/folder/good.csv', records, error)
+      call check_ok(error, 'read')
+      if (allocated(error)) return
+      call check(size(records) == 3, 'three records')
+      call check_text(records(1)%name, 'a', 'name 1')
+      call check_text(records(3)%name, 'c', 'name 3')
+      call check_close(records(1)%dt, 0.02_wp, 0.0_wp, 'dt 1')
+      call check_close(records(2)%dt, 0.01_wp, 1.0e-15_wp, 'dt 2')
+      call check_close(records(1)%pga(), 2*9.80665_wp, 1.0e-15_wp, 'PGA 1')
+      call check_close(records(2)%pga(), 0.03_wp, 1.0e-15_wp, 'PGA 2')
+      call check_close(records(3)%pga(), 0.2_wp*9.80665_wp, 1.0e-15_wp, 'PGA 3')
+      call check_catalogue('file'//lf//'c.AT2'//lf, '')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,g'//lf//'bad.txt,.01,g'//lf, &
+         & 'bad.csv: line 3: '//scratch//'/folder/bad.txt: line 3: value ''x'': must be a number')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,"0,01",g'//lf, &
+         & 'bad.csv: line 2: dt_s = ''0,01'': must be a number')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,0,g'//lf, 'a.txt: dt = 0: must be positive')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,,g'//lf, 'a.txt: the file does not state its time step')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,'//lf, 'a.txt: the file does not state its units')
+      call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,g'//lf//'sub/a.txt,.01,g'//lf, &
+         & 'bad.csv: line 3: record ''a'' stands there twice')
+      call check_catalogue('file,dt_s,units'//lf//'none.txt,.01,g'//lf, 'line 2: '//scratch// &
+         & '/folder/none.txt: no such file')
+      call check_catalogue('file,dt_s,units'//lf//'sub,.01,g'//lf, 'line 2: '//scratch//'/folder/sub: ')
+      call check_catalogue('file,dt_s,units'//lf//',.01,g'//lf, 'line 2: file is empty')
+      call check_catalogue('file,dt_s,units'//lf, 'bad.csv: no records')
+      call check_catalogue('dt_s,units'//lf//'1,g'//lf, 'bad.csv: no column ''file''')
+      call read_catalogue(scratch//'/none.csv', records, error)
+      call check_error(error, 'none.csv: no such file', 'missing catalogue')
+   end subroutine test_catalogue
+
+   !> A catalogue with an error, or none
+   subroutine check_catalogue(content, part)
+      character(len=*), intent(in) :: content, part
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+
+      call write_file('folder/bad.csv', content)
+      call read_catalogue(scratch//'/folder/bad.csv', records, error)
+      if (part == '') then
+         call check_ok(error, 'catalogue '//content)
+      else
+         call check_error(error, part, 'catalogue '//content)
+      end if
+   end subroutine check_catalogue
+
+   !> Recorded accelerograms, where there are any: peaks and steps as in their manifest, and the catalogue italy44
+   subroutine test_samples()
+      type(csv_table_type) :: table
+      type(record_type), allocatable :: records(:)
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: folder, file
+      real(wp) :: pga, dt
+      integer :: row, length, tested
+      logical :: exists
+
+      call suite('samples')
+      call get_environment_variable('DONDOLO_RECORDS', length=length)
+      allocate (character(len=length) :: folder)
+      if (length > 0) call get_environment_variable('DONDOLO_RECORDS', folder)
+      if (length == 0) folder = '../shared/records'
+      inquire (file=folder//'/manifest.csv', exist=exists)
+      if (.not. exists) then
+         call skip('no recorded accelerograms in '//folder)
+         return
+      end if
+      call read_csv(folder//'/manifest.csv', table, error)
+      call check_ok(error, 'manifest')
+      if (allocated(error)) return
+      tested = 0
+      do row = 1, table%rows()
+         file = table%get_text(row, table%column('file'))
+         if (.not. is_read(file)) cycle
+         tested = tested + 1
+         call table%get_real(row, table%column('dt_s'), dt, error)
+         call check_ok(error, 'dt of '//file)
+         if (index(file, '.VEL.') > 0) then
+            call read_record(folder//'/'//file, record, error)
+            call check_error(error, 'DATA_TYPE = ''VELOCITY'': must be ACCELERATION', file)
+            cycle
+         end if
+         if (index(file, 'dyna') > 0 .or. index(file, 'itaca_v1') > 0 .or. index(file, 'peer') > 0) then
+            call read_record(folder//'/'//file, record, error)
+         else if (index(file, 'full') > 0 .or. index(file, '1.txt') > 0 .or. index(file, '/2.txt') > 0) then
+            call read_record(folder//'/'//file, record, error, dt=dt, units='g')
+         else
+            call read_record(folder//'/'//file, record, error, dt=dt, units='m/s2')
+         end if
+         call check_ok(error, file)
+         if (allocated(error)) cycle
+         call check_close(record%dt, dt, 1.0e-6_wp, 'dt of '//file)
+         if (len(table%get_text(row, table%column('pga_m_s2'))) == 0) cycle
+         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+         call check_close(record%pga(), pga, 1.0e-3_wp, 'PGA of '//file)
+      end do
+      call check(tested >= 97, to_text(tested)//' files tested')
+      call read_catalogue(folder//'/italy44.csv', records, error)
+      call check_ok(error, 'italy44')
+      if (allocated(error)) return
+      call check(size(records) == 44, '44 records')
+      call read_csv(folder//'/italy44.csv', table, error)
+      do row = 1, min(size(records), table%rows())
+         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+         call check_close(records(row)%pga(), pga, 1.0e-3_wp, 'PGA of '//records(row)%name)
+      end do
+   end subroutine test_samples
+
+   !> Is a sample in a format that is read?
+   function is_read(file)
+      character(len=*), intent(in) :: file
+      logical :: is_read
+      character(len=*), parameter :: folders(*) = [character(len=24) :: 'italy/', 'elcentro/', 'formats/peer_at2/', &
+         & 'formats/esm_dyna12/', 'formats/itaca_dyna10/', 'formats/itaca_v1/', 'formats/one_column/', &
+         & 'formats/two_column_csv/']
+      integer :: i
+
+      is_read = any([(index(file, trim(folders(i))) == 1, i=1, size(folders))])
+   end function is_read
+
+   !> A file with the small values in columns
+   subroutine check_file(file, content, timed)
+      character(len=*), intent(in) :: file, content
+      logical, intent(in), optional :: timed
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+
+      call write_file(file, content)
+      if (present(timed)) then
+         call read_record(scratch//'/'//file, record, error, units='m/s2')
+      else
+         call read_record(scratch//'/'//file, record, error, dt=0.01_wp, units='m/s2')
+      end if
+      call check_small(record, error, file, 1.0_wp)
+   end subroutine check_file
+
+   !> A file with the small values that states its step and units
+   subroutine check_stated(file, content, factor)
+      character(len=*), intent(in) :: file, content
+      real(wp), intent(in) :: factor
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+
+      call write_file(file, content)
+      call read_record(scratch//'/'//file, record, error)
+      call check_small(record, error, file, factor)
+   end subroutine check_stated
+
+   !> The small values were read
+   subroutine check_small(record, error, file, factor)
+      type(record_type), intent(in) :: record
+      type(error_type), allocatable, intent(in) :: error
+      character(len=*), intent(in) :: file
+      real(wp), intent(in) :: factor
+      integer :: i, point
+
+      call check_ok(error, file)
+      if (allocated(error)) return
+      call check(size(record%acceleration) == size(small), file//': five values')
+      if (size(record%acceleration) /= size(small)) return
+      do i = 1, size(small)
+         call check_close(record%acceleration(i), factor*small(i), 1.0e-14_wp, file//': value '//to_text(i))
+      end do
+      call check_close(record%dt, 0.01_wp, 1.0e-12_wp, file//': dt')
+      point = index(file, '.', back=.true.)
+      if (point == 0) point = len(file) + 1
+      call check_text(record%name, file(:point - 1), 'name of '//file)
+   end subroutine check_small
+
+   !> A file in columns with an error
+   subroutine check_bad_file(content, part)
+      character(len=*), intent(in) :: content, part
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+
+      call write_file('bad.txt', content)
+      if (index(content, ',') + index(content, ' ') + index(content, ';') > 0) then
+         call read_record(scratch//'/bad.txt', record, error, units='m/s2')
+      else
+         call read_record(scratch//'/bad.txt', record, error, dt=0.01_wp, units='m/s2')
+      end if
+      call check_error(error, scratch//'/bad.txt'//part, 'file '//content)
+   end subroutine check_bad_file
+
+   !> A file with a header and an error
+   subroutine check_bad_stated(content, part)
+      character(len=*), intent(in) :: content, part
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+
+      call write_file('bad.txt', content)
+      call read_record(scratch//'/bad.txt', record, error)
+      call check_error(error, scratch//'/bad.txt'//part, 'file '//content)
+   end subroutine check_bad_stated
+
+   !> Write a small file, byte by byte
+   subroutine write_file(file, content)
+      character(len=*), intent(in) :: file, content
+      integer :: unit
+
+      open (newunit=unit, file=scratch//'/'//file, access='stream', form='unformatted', action='write', &
+         & status='replace')
+      write (unit) content
+      close (unit)
+   end subroutine write_file
+
+end program test_record
