@@ -56,12 +56,12 @@ contains
          width = max(width, len(case%population%walls(i)%input%name))
       end do
       width = min(width, 30)
-      write (output_unit, '(a, a13, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
+      write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
          & 'p', 'capacity', 'speed'
-      write (output_unit, '(a, a13, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
+      write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
       do i = 1, min(walls, shown_rows)
          associate (wall => case%population%walls(i))
-            write (output_unit, '(a, a13, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
+            write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
                & wall%input%mechanism, wall%input%height, wall%input%thickness, &
                & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
                & wall%mechanism%capacity, wall%mechanism%restitution

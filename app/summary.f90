@@ -160,7 +160,8 @@ contains
 
       walls = size(case%population%walls)
       name = 'wall'
-      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', 'theta'//unit_of(case%stripes%im), 'beta', 'status'
+      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', 'theta'//unit_of(case%stripes%im), 'beta', &
+         & 'status'
       do i = 1, min(walls, shown_rows)
          name = case%population%walls(i)%input%name
          theta = '-'

@@ -17,7 +17,7 @@ module dondolo_template
       & '   thickness = 0.25            ! required, m', &
       & '   density = 1800.0            ! kg/m3', &
       & '   restitution = ''default''     ! model: ''default'', ''sorrentino'', ''impulse'' or ''constant''', &
-      & '   ! restitution_value = 0.9   ! only with ''constant'', then required: speed after / before an impact, 0 to 1', &
+      & '   ! restitution_value = 0.9   ! only with ''constant'': speed after / before an impact, 0 to 1', &
       & '   restitution_factor = 1.0    ! factor on the model''s speed ratio', &
       & '   ! hinge = 0.5               ! only two_block: height of the intermediate hinge / height of the wall', &
       & '   ! overburden = 0.0          ! only two_block: vertical load on the top, N per metre of wall', &
@@ -28,18 +28,20 @@ module dondolo_template
    !> The population
    character(len=*), parameter :: population_lines(*) = [character(len=118) :: &
       & '&population', &
-      & '   file = ''data/walls/population.csv''   ! required: one row a wall, relative to this file; change it to yours.', &
-      & '                                        ! Columns: name, mechanism, height, thickness, density, hinge,', &
-      & '                                        ! restitution, restitution_value, restitution_factor, overburden,', &
-      & '                                        ! eccentricity (as in &wall: m, kg/m3, N/m), weight (default 1)', &
+      & '   file = ''data/walls/population.csv''   ! required: one row a wall, from the folder', &
+      & '                                        ! of this file; put yours. Columns: name, mechanism,', &
+      & '                                        ! height, thickness, density, hinge, restitution,', &
+      & '                                        ! restitution_value, restitution_factor, overburden,', &
+      & '                                        ! eccentricity (m, kg/m3, N/m), weight (default 1)', &
       & '/']
 
    !> The records
    character(len=*), parameter :: records_lines(*) = [character(len=118) :: &
       & '&records', &
-      & '   catalogue = ''data/records/synthetic44.csv''   ! required: one row a record, relative to this file; change it', &
-      & '                                                ! to yours. Columns: file, dt_s, units, any others', &
-      & '   polarity = ''as_recorded''                     ! ''as_recorded'', ''reversed'' or ''both'' (not for history)', &
+      & '   catalogue = ''data/records/synthetic44.csv''   ! required: one row a record, from the folder', &
+      & '                                                ! of this file; put yours. Columns: file, dt_s,', &
+      & '                                                ! units, and any others', &
+      & '   polarity = ''as_recorded''                     ! ''as_recorded'', ''reversed'' or ''both'' (not history)', &
       & '/']
 
    !> The stripes
@@ -47,7 +49,7 @@ module dondolo_template
       & '&stripes', &
       & '   im = ''pga''                                    ! intensity measure', &
       & '   levels = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8    ! required: increasing, g for pga', &
-      & '   ! first = 0.1, last = 0.8, count = 8          ! or instead of levels: equally spaced, both ends included', &
+      & '   ! first = 0.1, last = 0.8, count = 8          ! or instead: equally spaced, both ends included', &
       & '/']
 
    !> The time history
@@ -95,7 +97,7 @@ contains
       call print_line('&solver')
       call print_line('   engine = ''auto''      ! what computes the motions')
       call print_line('   rtol = '//to_text(solver%rtol)//'          ! relative error of a step')
-      call print_line('   atol = '//to_text(solver%atol)//'         ! absolute error of a step, 1 = the capacity rotation')
+      call print_line('   atol = '//to_text(solver%atol)//'         ! absolute error of a step, 1 = the capacity')
       call print_line('   edp_limit = 1.0      ! rotation / capacity rotation that counts as collapse')
       call print_line('   gravity = 9.81       ! m/s2')
       call print_line('/')

@@ -1,8 +1,8 @@
 !> Namelist files, read strictly.
 !>
 !> Fortran's own namelist READ skips groups it does not know, takes the first of two groups of one name, cuts long
-!> strings and reads `0,05` as two numbers, all in silence. Here tokens are put together to groups, variables and values,
-!> and whatever does not fit is an error that names its line.
+!> strings and reads `0,05` as two numbers, all in silence. Here tokens are put together to groups, variables and
+!> values, and whatever does not fit is an error that names its line.
 !>
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
@@ -218,7 +218,7 @@ contains
          select case (tokens(at)%kind)
          case (word, quoted)
             if (tokens(at)%kind == word) then
-               if (tokens(at + 1)%kind == equals) exit
+               if (tokens(at + 1)%kind == equals .and. is_name(tokens(at)%text)) exit
                if (index(tokens(at)%text, '*') > 0) then
                   call raise_input(error, place//tokens(at)%typed// &
                      & ': repeat counts are not allowed: write every value')
@@ -243,6 +243,14 @@ contains
       end do
       if (size(variable%values) == 0) call raise_input(error, place//'no value follows its =')
    end subroutine take_variable
+
+   !> Can a word be the name of a variable?
+   pure logical function is_name(word)
+      !> Word
+      character(len=*), intent(in) :: word
+
+      is_name = lower(word(1:1)) >= 'a' .and. lower(word(1:1)) <= 'z'
+   end function is_name
 
    !> Add a value to a list
    subroutine append_value(values, token)

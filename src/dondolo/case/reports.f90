@@ -123,18 +123,18 @@ contains
       integer :: i
 
       call files%line('wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,'// &
-         & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,'// &
-         & 'restitution,weight')
+         & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,'// &
+         & 'capacity_rad,restitution,weight')
       do i = 1, size(case%population%walls)
          associate (wall => case%population%walls(i))
-            call files%line(quoted(wall%input%name)//','//wall%input%mechanism//','//to_table(wall%input%height)//','// &
-               & to_table(wall%input%thickness)//','//to_table(wall%input%density)//','//given(wall%input%hinge)//','// &
-               & wall%input%restitution//','//given(wall%input%restitution_value)//','// &
-               & to_table(wall%input%restitution_factor)//','//given(wall%input%overburden)//','// &
-               & given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
-               & to_table(wall%mechanism%frequency_parameter())//','//to_table(wall%mechanism%trigger_acceleration())// &
-               & ','//to_table(wall%mechanism%capacity)//','//to_table(wall%mechanism%restitution)//','// &
-               & to_table(case%population%weight(i)))
+            call files%line(wall_cells(case, i)//','//to_table(wall%input%height)//','// &
+               & to_table(wall%input%thickness)//','//to_table(wall%input%density)//','// &
+               & given(wall%input%hinge)//','//wall%input%restitution//','// &
+               & given(wall%input%restitution_value)//','//to_table(wall%input%restitution_factor)//','// &
+               & given(wall%input%overburden)//','//given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
+               & to_table(wall%mechanism%frequency_parameter())//','// &
+               & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
+               & to_table(wall%mechanism%restitution)//','//to_table(case%population%weight(i)))
          end associate
       end do
    end subroutine write_walls

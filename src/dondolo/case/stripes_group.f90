@@ -103,9 +103,24 @@ contains
       if (allocated(error)) return
       allocate (stripes%levels(count))
       do i = 1, count
-         stripes%levels(i) = (real(count - i, wp)*first + real(i - 1, wp)*last)/real(count - 1, wp)
+         stripes%levels(i) = decimal((real(count - i, wp)*first + real(i - 1, wp)*last)/real(count - 1, wp))
       end do
+      stripes%levels(1) = first
+      stripes%levels(count) = last
    end subroutine read_grid
+
+   !> The nearest number of 14 decimal digits: 0.4 and 0.2 are 0.6, not 0.6000000000000001
+   pure function decimal(value) result(rounded)
+      !> Number
+      real(wp), intent(in) :: value
+      !> The nearest short one
+      real(wp) :: rounded
+
+      character(len=32) :: buffer
+
+      write (buffer, '(es32.13e4)') value
+      read (buffer, *) rounded
+   end function decimal
 
    !> Write the group as namelist text with every value in force
    subroutine echo_stripes(stripes, lines)

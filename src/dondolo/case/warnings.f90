@@ -115,7 +115,8 @@ contains
       case ('single_level')
          call warnings%add('only one level, '//levels//none//'two at least are needed')
       case ('decreasing')
-         call warnings%add('collapses do not become more frequent with the level'//none//'their trend is flat or falling')
+         call warnings%add('collapses do not become more frequent with the level'//none// &
+            & 'their trend is flat or falling')
       case ('separated')
          call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
             & 'the median lies between '//to_text(fragility%bracket(1))//' and '//to_text(fragility%bracket(2))// &
