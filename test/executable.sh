@@ -352,7 +352,7 @@ s/height = 3.0/height = -3.0/|bad.nml: &wall: height = -3: must be positive
 s/height = 3.0/height = 0/|bad.nml: &wall: height = 0: must be positive
 s/height = 3.0/height =/|bad.nml: &wall: height (line 11): no value follows its =
 s/height = 3.0/height = ,/|bad.nml: &wall: height (line 11): a value is missing before a comma
-s/height = 3.0/height 3.0/|bad.nml: &wall: mechanism = 'one_sided', height, 3.0: must be one value
+s/height = 3.0/height 3.0/|bad.nml: &wall: mechanism = 'one_sided', height, 3.0: must be one value, not 3; is an = missing in line 11?
 s/height = 3.0/height == 3.0/|bad.nml: &wall: height (line 11): a second = follows it
 s/height = 3.0/height = 1*3.0/|bad.nml: &wall: height (line 11): 1*3.0: repeat counts are not allowed
 s/height = 3.0/height(1) = 3.0/|bad.nml: &wall: height(1) (line 11): subscripts are not allowed
@@ -432,7 +432,7 @@ s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8)
 $d|bad.nml: &solver: not closed: a / must stand at its end
 s/^! a wall/a wall/|bad.nml: line 1: a stands outside a group: must be &name ... /
 s/^&wall/\& wall/|bad.nml: line 8: an & without the name of a group
-s/^   threads = 2/   2 = threads/|bad.nml: &job: 2 (line 6): no such variable
+s/^   threads = 2/   2 = threads/|bad.nml: &job: output (line 5): a second = follows it
 s/^   threads = 2/   ,, threads = 2/|bad.nml: &job: output (line 5): a value is missing before a comma
 s/^(&stripes)/\&history record = 5 \/\n\1/|bad.nml: &history: record = 5: must lie between 1 and 4, the number of records
 s/^(&stripes)/\&history record = 0 \/\n\1/|bad.nml: &history: record = 0: must lie between 1 and 4

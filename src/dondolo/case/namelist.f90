@@ -245,11 +245,11 @@ contains
    end subroutine take_variable
 
    !> Can a word be the name of a variable?
-   pure logical function is_name(word)
+   pure logical function is_name(text)
       !> Word
-      character(len=*), intent(in) :: word
+      character(len=*), intent(in) :: text
 
-      is_name = lower(word(1:1)) >= 'a' .and. lower(word(1:1)) <= 'z'
+      is_name = lower(text(1:1)) >= 'a' .and. lower(text(1:1)) <= 'z'
    end function is_name
 
    !> Add a value to a list

@@ -191,6 +191,9 @@ contains
          if (size(values) == 2 .and. split_number(values(1), values(2))) then
             call self%refuse(name, 'must be one number; a decimal point is needed: '// &
                & values(1)%text//'.'//values(2)%text, error)
+         else if (values(2)%line > values(1)%line) then
+            call self%refuse(name, 'must be one value, not '//to_text(size(values))//'; is an = missing in line '// &
+               & to_text(values(2)%line)//'?', error)
          else
             call self%refuse(name, 'must be one value, not '//to_text(size(values)), error)
          end if
