@@ -306,7 +306,8 @@ contains
          if (accepted) exit
       end do
 
-      call find_event(scene, motion, h, q, v, f, event, x)
+      ! In a step too short to be told from none, signs are rounding; what happened shows in the next.
+      if (h > shortest_motion*record%dt) call find_event(scene, motion, h, q, v, f, event, x)
       if (event /= no_event) call land(mechanism, scene, motion, h, event, x, q, v, f)
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(record%dt, min(motion%time + h, record%dt), sample_reached)
