@@ -1,8 +1,8 @@
 !> What --template prints: a commented case with every variable, its unit and its default, that runs as it is.
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_text, only : to_text
-   use dondolo_solver, only : solver_type
+   use dondolo_solver, only : engine_names, solver_type
+   use dondolo_text, only : join, to_text
    implicit none
    private
 
@@ -70,10 +70,10 @@ contains
       call print_line('! A case of dondolo. What is not marked as required may be left out; its default stands here.')
       call print_line('! Lists of texts are what is allowed. An exclamation mark begins a comment.')
       call print_line('&job')
-      call print_line('   task = '''//task//''''//repeat(' ', 20 - len(task))// &
+      call print_line('   task = '''//task//''''//repeat(' ', 21 - len(task))// &
          & '! ''stripes'', ''history'' or ''typology''; default ''stripes''')
       call print_line('   title = ''''                    ! any text')
-      call print_line('   output = ''out/'//task//''''//repeat(' ', 14 - len(task))// &
+      call print_line('   output = ''out/'//task//''''//repeat(' ', 15 - len(task))// &
          & '! what the names of the result files begin with, relative to the current')
       call print_line('                                 ! folder; default ''dondolo''')
       call print_line('   threads = 0                   ! 0: all, or OMP_NUM_THREADS')
@@ -95,7 +95,7 @@ contains
       type(solver_type) :: solver
 
       call print_line('&solver')
-      call print_line('   engine = ''auto''      ! what computes the motions')
+      call print_line('   engine = ''auto''      ! '//join(engine_names))
       call print_line('   rtol = '//to_text(solver%rtol)//'          ! relative error of a step')
       call print_line('   atol = '//to_text(solver%atol)//'         ! absolute error of a step, 1 = the capacity')
       call print_line('   edp_limit = 1.0      ! rotation / capacity rotation that counts as collapse')
