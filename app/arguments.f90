@@ -1,0 +1,171 @@
+!> The command line: which case, and what to do with it.
+module dondolo_arguments
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_job_group, only : largest_threads, task_names
+   use dondolo_numbers, only : parse_integer
+   use dondolo_text, only : join, to_text
+   implicit none
+   private
+
+   public :: arguments_type, read_arguments
+
+   !> Where an error sends the user
+   character(len=*), parameter :: see_help = ' (dondolo --help lists the options)'
+
+   !> What the command line asks for
+   type :: arguments_type
+      !> 'run', 'check', 'template', 'version' or 'help'
+      character(len=:), allocatable :: action
+      !> Path of the case
+      character(len=:), allocatable :: case_file
+      !> Task of the template
+      character(len=:), allocatable :: task
+      !> Number of threads; not allocated: the case's
+      integer, allocatable :: threads
+      !> Print errors and warnings only
+      logical :: quiet = .false.
+   end type arguments_type
+
+contains
+
+   !> Read the command line
+   subroutine read_arguments(arguments, error)
+      !> What it asks for
+      type(arguments_type), intent(out) :: arguments
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: word
+      integer :: i
+
+      arguments%action = 'run'
+      arguments%task = 'stripes'
+      i = 1
+      do while (i <= command_argument_count())
+         word = argument(i)
+         i = i + 1
+         if (word == '--check') then
+            call set_action('check')
+         else if (word == '--version' .or. word == '--help') then
+            call set_action(word(3:))
+         else if (word == '-h') then
+            call set_action('help')
+         else if (word == '--quiet') then
+            arguments%quiet = .true.
+         else if (word == '--template' .or. index(word, '--template=') == 1) then
+            call set_action('template')
+            if (.not. allocated(error)) call take_task(word, i, arguments, error)
+         else if (word == '--threads' .or. index(word, '--threads=') == 1) then
+            call take_threads(word, i, arguments, error)
+         else if (index(word, '-') == 1) then
+            call raise_input(error, word//': no such option; there are --check, --template, --threads, --quiet, '// &
+               & '--version, --help')
+         else if (len(word) == 0) then
+            call raise_input(error, 'the name of the case is empty'//see_help)
+         else if (allocated(arguments%case_file)) then
+            call raise_input(error, word//': one case at a time, '//arguments%case_file//' was given before')
+         else
+            arguments%case_file = word
+         end if
+         if (allocated(error)) return
+      end do
+      if (arguments%action == 'run' .or. arguments%action == 'check') then
+         if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
+      else if (allocated(arguments%case_file) .and. arguments%action == 'template') then
+         call raise_input(error, arguments%case_file//': --template takes no case, it prints one')
+      end if
+
+   contains
+
+      !> Note what to do; two different things are an error
+      subroutine set_action(action)
+         !> What to do
+         character(len=*), intent(in) :: action
+
+         if (arguments%action == 'run') then
+            arguments%action = action
+         else if (arguments%action /= action) then
+            call raise_input(error, '--'//action//': cannot go together with --'//arguments%action)
+         end if
+      end subroutine set_action
+
+   end subroutine read_arguments
+
+   !> The task of --template: `--template=task`, or the next word if there is one
+   subroutine take_task(word, i, arguments, error)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> What the command line asks for
+      type(arguments_type), intent(inout) :: arguments
+      !> No such task
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: task
+
+      if (index(word, '=') > 0) then
+         task = word(index(word, '=') + 1:)
+      else
+         task = argument(i)
+         if (i > command_argument_count() .or. index(task, '-') == 1) return
+         i = i + 1
+      end if
+      if (any(task == task_names)) then
+         arguments%task = task
+      else
+         call raise_input(error, '--template '//task//': the task must be one of '//join(task_names))
+      end if
+   end subroutine take_task
+
+   !> The number of --threads: `--threads=N`, or the next word
+   subroutine take_threads(word, i, arguments, error)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> What the command line asks for
+      type(arguments_type), intent(inout) :: arguments
+      !> Not a number of threads
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: value
+      integer :: number
+      logical :: ok
+
+      if (index(word, '=') > 0) then
+         value = word(index(word, '=') + 1:)
+      else
+         value = argument(i)
+         if (i > command_argument_count()) then
+            call raise_input(error, '--threads: a number must follow, such as --threads 4')
+            return
+         end if
+         i = i + 1
+      end if
+      call parse_integer(value, number, ok)
+      if (ok) ok = number >= 0 .and. number <= largest_threads
+      if (ok) then
+         arguments%threads = number
+      else
+         call raise_input(error, '--threads '//value//': must be a whole number between 0 (all) and '// &
+            & to_text(largest_threads))
+      end if
+   end subroutine take_threads
+
+   !> One argument
+   function argument(i) result(word)
+      !> Its number
+      integer, intent(in) :: i
+      !> Its text, empty if there is none
+      character(len=:), allocatable :: word
+
+      integer :: length
+
+      length = 0
+      if (i <= command_argument_count()) call get_command_argument(i, length=length)
+      allocate (character(len=length) :: word)
+      if (length > 0) call get_command_argument(i, value=word)
+   end function argument
+
+end module dondolo_arguments

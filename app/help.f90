@@ -1,0 +1,49 @@
+!> What --help prints.
+module dondolo_help
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   implicit none
+   private
+
+   public :: print_help
+
+   !> The page
+   character(len=*), parameter :: page(*) = [character(len=100) :: &
+      & 'dondolo: fragility of masonry walls that rock and overturn in earthquakes', &
+      & '', &
+      & '   dondolo CASE.nml             run a case and write its result files', &
+      & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
+      & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
+      & '   dondolo --version            print the version', &
+      & '   dondolo --help               print this page', &
+      & '', &
+      & 'Options of a run:', &
+      & '   --threads N   number of threads instead of the case''s; 0: all, or OMP_NUM_THREADS', &
+      & '   --quiet       print warnings and errors only', &
+      & '', &
+      & 'A case is a Fortran namelist file:', &
+      & '   &job          what is to be done: ''stripes'', ''history'' or ''typology''; where the results go', &
+      & '   &wall         the wall (tasks stripes and history)', &
+      & '   &population   a table of walls (task typology)', &
+      & '   &records      the catalogue of accelerograms', &
+      & '   &stripes      the intensity measure and its levels (tasks stripes and typology)', &
+      & '   &solver       tolerances and the rotation that counts as collapse', &
+      & '   &history      which record, and how strong (task history)', &
+      & 'Groups &stripes and &history may stand in any case: a task checks both and uses what it needs, so that', &
+      & 'one file serves to run the stripes of a wall and to look at one of its histories.', &
+      & 'Paths in a case are relative to the case, those of the results to the current folder.', &
+      & '', &
+      & 'Exit code: 0 done, 1 failed while running, 2 wrong input (nothing is run or written then).']
+
+contains
+
+   !> Print the page
+   subroutine print_help()
+
+      integer :: i
+
+      do i = 1, size(page)
+         write (output_unit, '(a)') trim(page(i))
+      end do
+   end subroutine print_help
+
+end module dondolo_help

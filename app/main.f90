@@ -1,0 +1,109 @@
+!> dondolo: from accelerograms and walls to fragility curves, on the command line.
+program dondolo_main
+   use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
+   use omp_lib, only : omp_get_max_threads
+   use dondolo_arguments, only : arguments_type, read_arguments
+   use dondolo_case, only : case_type, read_case
+   use dondolo_error, only : error_type
+   use dondolo_help, only : print_help
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_plan, only : print_plan
+   use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
+   use dondolo_reports, only : check_reports, write_reports
+   use dondolo_run_case, only : results_type, run_case
+   use dondolo_summary, only : print_summary
+   use dondolo_system, only : stderr_is_terminal
+   use dondolo_template, only : print_template
+   use dondolo_version, only : dondolo_version_text
+   implicit none
+
+   type(arguments_type) :: arguments
+   type(error_type), allocatable :: error
+
+   call read_arguments(arguments, error)
+   if (allocated(error)) call give_up(error)
+   select case (arguments%action)
+   case ('help')
+      call print_help()
+   case ('version')
+      write (output_unit, '(a)') 'dondolo '//dondolo_version_text
+   case ('template')
+      call print_template(arguments%task)
+   case default
+      call serve(arguments, error)
+      if (allocated(error)) call give_up(error)
+   end select
+
+contains
+
+   !> Check a case, or run it
+   subroutine serve(arguments, error)
+      !> What the command line asks for
+      type(arguments_type), intent(in) :: arguments
+      !> What went wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(case_type) :: case
+      type(results_type) :: results
+      type(lines_type) :: paths
+      integer(int64) :: start, finish, rate
+      integer :: threads
+
+      call read_case(arguments%case_file, case, error)
+      if (.not. allocated(error)) call check_reports(case, error)
+      if (allocated(error)) return
+      if (arguments%action == 'check') then
+         if (.not. arguments%quiet) call print_plan(case)
+         return
+      end if
+      threads = case%job%threads
+      if (allocated(arguments%threads)) threads = arguments%threads
+      if (threads == 0) threads = omp_get_max_threads()
+
+      call system_clock(start, rate)
+      if (stderr_is_terminal() .and. .not. arguments%quiet) then
+         call start_progress()
+         call run_case(case, results, error, threads, show_progress)
+         call erase_progress()
+      else
+         call run_case(case, results, error, threads)
+      end if
+      if (allocated(error)) return
+      call system_clock(finish)
+
+      call write_reports(case, results, paths, error)
+      if (allocated(error)) return
+      call print_warnings(results%warnings)
+      if (.not. arguments%quiet) &
+         & call print_summary(case, results, paths, real(finish - start, wp)/real(rate, wp), threads)
+   end subroutine serve
+
+   !> Print warnings
+   subroutine print_warnings(warnings)
+      !> Warnings
+      type(lines_type), intent(in) :: warnings
+
+      integer :: i
+
+      do i = 1, warnings%count
+         write (error_unit, '(a)') 'dondolo: warning: '//warnings%line(i)%text
+      end do
+   end subroutine print_warnings
+
+   !> Print an error on one line and end with its exit code
+   subroutine give_up(error)
+      !> What went wrong
+      type(error_type), intent(inout) :: error
+
+      integer :: i
+
+      do i = 1, len(error%message)
+         ! A control character can come out of a file that is read; it must not break the line
+         if (iachar(error%message(i:i)) < 32) error%message(i:i) = ' '
+      end do
+      write (error_unit, '(a)') 'dondolo: '//error%message
+      stop error%stat, quiet=.true.
+   end subroutine give_up
+
+end program dondolo_main

@@ -1,0 +1,143 @@
+!> What --check prints: what would run.
+module dondolo_plan
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_case, only : case_type
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_text
+   use dondolo_warnings, only : rounded
+   implicit none
+   private
+
+   public :: print_plan, print_walls
+
+   !> Rows of a table that are shown before it is cut
+   integer, parameter, public :: shown_rows = 20
+
+contains
+
+   !> Print what would run
+   subroutine print_plan(case)
+      !> The case
+      type(case_type), intent(in) :: case
+
+      integer :: i, levels, total
+
+      write (output_unit, '(a)') case%file//': correct, nothing was run', ''
+      write (output_unit, '(a)') 'task: '//case%job%task
+      if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
+      write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
+      call print_walls(case)
+      call print_records(case)
+      if (case%job%task == 'history') then
+         write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
+            & ''', scale '//rounded(case%history_scale())
+         return
+      end if
+      levels = size(case%stripes%levels)
+      write (output_unit, '(a)') to_text(levels)//' levels of '//case%stripes%im//':'//list(case%stripes%levels)
+      total = 0
+      do i = 1, size(case%population%walls)
+         total = total + levels*case%histories(i)
+      end do
+      write (output_unit, '(a)') to_text(total)//' histories, polarity '//case%records_input%polarity
+      call print_largest_scale(case)
+   end subroutine print_plan
+
+   !> Print the walls and their static quantities
+   subroutine print_walls(case)
+      !> The case
+      type(case_type), intent(in) :: case
+
+      integer :: i, walls, width
+
+      walls = size(case%population%walls)
+      width = 4
+      do i = 1, walls
+         width = max(width, len(case%population%walls(i)%input%name))
+      end do
+      width = min(width, 30)
+      write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
+         & 'p', 'capacity', 'speed'
+      write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
+      do i = 1, min(walls, shown_rows)
+         associate (wall => case%population%walls(i))
+            write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
+               & wall%input%mechanism, wall%input%height, wall%input%thickness, &
+               & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
+               & wall%mechanism%capacity, wall%mechanism%restitution
+         end associate
+      end do
+      if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
+      write (output_unit, '(a)') ''
+   end subroutine print_walls
+
+   !> Print the records
+   subroutine print_records(case)
+      !> The case
+      type(case_type), intent(in) :: case
+
+      integer :: i, width
+
+      width = 6
+      do i = 1, size(case%records)
+         width = max(width, len(case%records(i)%name))
+      end do
+      write (output_unit, '(a5, 2x, a, 4a11)') 'no.', left('record', width), 'samples', 'dt [s]', 'PGA [g]', &
+         & 'length [s]'
+      do i = 1, size(case%records)
+         associate (record => case%records(i))
+            write (output_unit, '(i5, 2x, a, i11, f11.5, f11.4, f11.2)') i, left(record%name, width), &
+               & size(record%acceleration), record%dt, record%pga()/case%solver%gravity, record%duration()
+         end associate
+      end do
+      write (output_unit, '(a)') ''
+   end subroutine print_records
+
+   !> Print the largest scale factor
+   subroutine print_largest_scale(case)
+      !> The case
+      type(case_type), intent(in) :: case
+
+      real(wp) :: scale, largest
+      integer :: i, at
+
+      largest = 0.0_wp
+      at = 1
+      do i = 1, size(case%records)
+         scale = case%scale_to(i, case%stripes%levels(size(case%stripes%levels)))
+         if (scale <= largest) cycle
+         largest = scale
+         at = i
+      end do
+      write (output_unit, '(a)') 'largest scale factor: '//rounded(largest)//' (record '''//case%records(at)%name// &
+         & ''' at the highest level)'
+   end subroutine print_largest_scale
+
+   !> Numbers with blanks between them
+   pure function list(values) result(text)
+      !> Numbers
+      real(wp), intent(in) :: values(:)
+      !> Their texts
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, size(values)
+         text = text//' '//to_text(values(i))
+      end do
+   end function list
+
+   !> A text padded or cut to a width
+   pure function left(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width
+      integer, intent(in) :: width
+      !> The text and blanks, or its beginning
+      character(len=width) :: left
+
+      left = text
+   end function left
+
+end module dondolo_plan

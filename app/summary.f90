@@ -1,0 +1,230 @@
+!> What a run prints at its end: the results at a glance.
+module dondolo_summary
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_case, only : case_type
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_plan, only : print_walls, shown_rows
+   use dondolo_run_case, only : results_type
+   use dondolo_text, only : to_text
+   use dondolo_warnings, only : rounded
+   implicit none
+   private
+
+   public :: print_summary
+
+   !> Widest bar of a table
+   integer, parameter :: bar_width = 40
+
+contains
+
+   !> Print the results at a glance
+   subroutine print_summary(case, results, paths, seconds, threads)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+      !> The files that were written
+      type(lines_type), intent(in) :: paths
+      !> Time of the computation [s]
+      real(wp), intent(in) :: seconds
+      !> Number of threads
+      integer, intent(in) :: threads
+
+      integer :: i
+
+      if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
+      select case (case%job%task)
+      case ('history')
+         call print_walls(case)
+         call print_history(case, results)
+      case ('stripes')
+         call print_walls(case)
+         call print_stripes(case, results)
+      case ('typology')
+         call print_curves(case, results)
+         call print_typology(case, results)
+      end select
+      write (output_unit, '(a)') ''
+      call print_work(case, results, seconds, threads)
+      do i = 1, paths%count
+         write (output_unit, '(a)') 'written: '//paths%line(i)%text
+      end do
+   end subroutine print_summary
+
+   !> Print how much was computed, and how fast
+   subroutine print_work(case, results, seconds, threads)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+      !> Time of the computation [s]
+      real(wp), intent(in) :: seconds
+      !> Number of threads
+      integer, intent(in) :: threads
+
+      character(len=:), allocatable :: crew
+      integer :: histories
+
+      if (case%job%task == 'history') return
+      histories = size(case%stripes%levels)*sum(results%histories)
+      crew = ' threads'
+      if (threads == 1) crew = ' thread'
+      write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
+         & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew
+   end subroutine print_work
+
+   !> Print the response of a time history
+   subroutine print_history(case, results)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      associate (response => results%response, record => case%records(case%history%record))
+         write (output_unit, '(a)') 'record '''//record%name//''', scale '//rounded(case%history_scale())// &
+            & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
+         if (response%collapsed) then
+            write (output_unit, '(a)') 'collapse: EDP reaches its limit '//rounded(response%edp)//' at '// &
+               & rounded(response%time_of_peak)//' s, after '//impacts(response%impacts)
+         else if (response%edp > 0.0_wp) then
+            write (output_unit, '(a)') 'no collapse: largest EDP '//rounded(response%edp)//' at '// &
+               & rounded(response%time_of_peak)//' s, '//impacts(response%impacts)
+         else
+            write (output_unit, '(a)') 'no motion: EDP 0'
+         end if
+      end associate
+   end subroutine print_history
+
+   !> A number of impacts
+   pure function impacts(number) result(text)
+      !> Number
+      integer, intent(in) :: number
+      !> Text
+      character(len=:), allocatable :: text
+
+      text = to_text(number)//' impacts'
+      if (number == 1) text = '1 impact'
+   end function impacts
+
+   !> Print the stripes of the one wall
+   subroutine print_stripes(case, results)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      character(len=12) :: level
+      character(len=24) :: counts
+      real(wp) :: fraction
+      integer :: j
+
+      write (output_unit, '(2a12, a10)') case%stripes%im//unit_of(case%stripes%im), 'collapses', 'fraction'
+      do j = 1, size(case%stripes%levels)
+         level = rounded(case%stripes%levels(j))
+         counts = to_text(results%collapses(j, 1))//'/'//to_text(results%histories(1))
+         fraction = real(results%collapses(j, 1), wp)/real(results%histories(1), wp)
+         write (output_unit, '(2a12, f10.3, 2x, a)') adjustr(level), trim(adjustl(counts)), fraction, bar(fraction)
+      end do
+      write (output_unit, '(a)') ''
+      call print_fit(results%fragility(1), unit_of(case%stripes%im))
+   end subroutine print_stripes
+
+   !> Print a curve, or why there is none
+   subroutine print_fit(curve, unit)
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> Unit of the levels
+      character(len=*), intent(in) :: unit
+
+      if (curve%has_fit()) then
+         write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//unit//' (standard error of ln theta '// &
+            & rounded(curve%se_ln_theta())//'), beta = '//rounded(curve%beta)//' (standard error '// &
+            & rounded(curve%se_beta())//'), status '//trim(curve%status)
+      else
+         write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
+      end if
+   end subroutine print_fit
+
+   !> Print the curves of a population
+   subroutine print_curves(case, results)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      character(len=30) :: name
+      character(len=10) :: theta, beta
+      integer :: i, walls
+
+      walls = size(case%population%walls)
+      name = 'wall'
+      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', 'theta'//unit_of(case%stripes%im), 'beta', &
+         & 'status'
+      do i = 1, min(walls, shown_rows)
+         name = case%population%walls(i)%input%name
+         theta = '-'
+         beta = '-'
+         associate (curve => results%fragility(i))
+            if (curve%has_fit()) then
+               theta = rounded(curve%theta)
+               beta = rounded(curve%beta)
+            end if
+            write (output_unit, '(a, a15, 2a10, 2x, a)') name, case%population%walls(i)%input%mechanism, &
+               & adjustr(theta), adjustr(beta), trim(curve%status)
+         end associate
+      end do
+      if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
+      write (output_unit, '(a)') ''
+   end subroutine print_curves
+
+   !> Print the curve of the population
+   subroutine print_typology(case, results)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+
+      character(len=12) :: level
+      integer :: j
+
+      associate (typology => results%typology)
+         write (output_unit, '(a12, a15, a12)') case%stripes%im//unit_of(case%stripes%im), 'mean fraction', 'mean curve'
+         do j = 1, size(typology%levels)
+            level = rounded(typology%levels(j))
+            write (output_unit, '(a12, f15.3, f12.3, 2x, a)') adjustr(level), typology%mean_fraction(j), &
+               & typology%mean_curve(j), bar(typology%mean_curve(j))
+         end do
+         write (output_unit, '(a)') ''
+         if (typology%fit%has_fit()) then
+            write (output_unit, '(a)') 'population: theta = '//rounded(typology%fit%theta)//unit_of(case%stripes%im)// &
+               & ', beta = '//rounded(typology%fit%beta)//', status '//trim(typology%fit%status)
+         else
+            write (output_unit, '(a)') 'population: no fragility curve, status '//trim(typology%fit%status)
+         end if
+      end associate
+   end subroutine print_typology
+
+   !> A bar as long as a fraction
+   pure function bar(fraction)
+      !> Fraction, 0 to 1
+      real(wp), intent(in) :: fraction
+      !> Bar
+      character(len=:), allocatable :: bar
+
+      bar = repeat('#', nint(fraction*real(bar_width, wp)))
+   end function bar
+
+   !> Unit of the levels of an intensity measure
+   pure function unit_of(im) result(unit)
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> ' g', or empty where levels are in SI units
+      character(len=:), allocatable :: unit
+
+      unit = ''
+      if (im == 'pga') unit = ' g'
+   end function unit_of
+
+end module dondolo_summary

@@ -1,0 +1,81 @@
+!> Variables as namelist text: `name = value`, for the echo of a case.
+module dondolo_assignment
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: assignment_text
+
+   !> `name = value`
+   interface assignment_text
+      module procedure :: text_assignment
+      module procedure :: real_assignment
+      module procedure :: integer_assignment
+      module procedure :: list_assignment
+   end interface assignment_text
+
+contains
+
+   !> A text in quotes
+   pure function text_assignment(name, value) result(text)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value
+      character(len=*), intent(in) :: value
+      !> name = 'value', quotes inside doubled
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = name//' = '''
+      do i = 1, len(value)
+         text = text//value(i:i)
+         if (value(i:i) == '''') text = text//''''
+      end do
+      text = text//''''
+   end function text_assignment
+
+   !> A real number
+   pure function real_assignment(name, value) result(text)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value
+      real(wp), intent(in) :: value
+      !> name = value
+      character(len=:), allocatable :: text
+
+      text = name//' = '//to_text(value)
+   end function real_assignment
+
+   !> An integer
+   pure function integer_assignment(name, value) result(text)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value
+      integer, intent(in) :: value
+      !> name = value
+      character(len=:), allocatable :: text
+
+      text = name//' = '//to_text(value)
+   end function integer_assignment
+
+   !> A list of real numbers
+   pure function list_assignment(name, values) result(text)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its values
+      real(wp), intent(in) :: values(:)
+      !> name = value, value, ...
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = name//' = '
+      do i = 1, size(values)
+         if (i > 1) text = text//', '
+         text = text//to_text(values(i))
+      end do
+   end function list_assignment
+
+end module dondolo_assignment

@@ -1,0 +1,347 @@
+!> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
+module dondolo_case
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_history_group, only : echo_history, find_record, history_input_type, history_variables, &
+      & read_history_group
+   use dondolo_intensity, only : intensity, level_unit
+   use dondolo_job_group, only : echo_job, job_type, job_variables, read_job
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist, only : namelist_type, read_namelist
+   use dondolo_namelist_group, only : group_type
+   use dondolo_paths, only : beside
+   use dondolo_population, only : population_type, read_population
+   use dondolo_population_group, only : echo_population, read_population_group
+   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_records_group, only : echo_records, read_records_group, records_input_type
+   use dondolo_solver, only : check_limit
+   use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
+   use dondolo_stripes_group, only : echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_system, only : is_folder
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : new_wall, wall_input_type
+   use dondolo_wall_group, only : echo_wall, read_wall
+   implicit none
+   private
+
+   public :: case_type, read_case
+   public :: group_names
+
+   !> Groups of a case
+   character(len=10), parameter :: group_names(7) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
+      & 'stripes', 'solver', 'history']
+
+   !> A case
+   type :: case_type
+      !> Path of its file
+      character(len=:), allocatable :: file
+      !> What is to be done
+      type(job_type) :: job
+      !> Path of the population as it was given; not allocated: the case has one wall
+      character(len=:), allocatable :: population_file
+      !> The walls, one unless the task is 'typology', and their weights
+      type(population_type) :: population
+      !> What is said of the accelerograms
+      type(records_input_type) :: records_input
+      !> The accelerograms
+      type(record_type), allocatable :: records(:)
+      !> Intensity measure and levels
+      type(stripes_input_type) :: stripes
+      !> How the motions are computed
+      type(solver_input_type) :: solver
+      !> Which time history
+      type(history_input_type) :: history
+   contains
+      !> Factor that scales a record to a level
+      procedure :: scale_to
+      !> Factor on the record of the time history, with the sign of its polarity
+      procedure :: history_scale
+      !> Number of histories of one stripe of a wall
+      procedure :: histories
+      !> The case as namelist text
+      procedure :: echo
+      !> Paths of the files it is made of
+      procedure :: inputs
+   end type case_type
+
+contains
+
+   !> Read a case and all its files, and check all of it
+   subroutine read_case(file, case, error)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: file
+      !> The case
+      type(case_type), intent(out) :: case
+      !> The first thing that is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(namelist_type) :: namelist
+      type(wall_input_type) :: wall
+
+      case%file = file
+      if (is_folder(file)) then
+         call raise_input(error, file//': is a folder, must be a namelist file')
+         return
+      end if
+      call read_namelist(file, namelist, error)
+      if (allocated(error)) return
+      call namelist%check_groups(group_names, error)
+      if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
+      if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
+      if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
+      if (.not. allocated(error)) call read_wall(namelist%group('wall'), wall, error)
+      if (.not. allocated(error)) call make_walls(namelist, wall, case, error)
+      if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
+      if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
+      if (.not. allocated(error)) call check_combinations(namelist, case, error)
+      if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
+      if (.not. allocated(error)) call read_records(namelist%group('records'), case, error)
+      if (.not. allocated(error)) call check_scales(namelist, case, error)
+   end subroutine read_case
+
+   !> Check that the groups suit the task
+   subroutine check_task(namelist, task, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The task
+      character(len=*), intent(in) :: task
+      !> A group too many or too few
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=10) :: needed, other
+      type(group_type) :: group
+
+      needed = 'wall'
+      other = 'population'
+      if (task == 'typology') then
+         needed = 'population'
+         other = 'wall'
+      end if
+      group = namelist%group(trim(needed))
+      if (group%line == 0) then
+         call raise_input(error, group%place()//': must be given for task = '''//task//'''')
+         return
+      end if
+      group = namelist%group(trim(other))
+      if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
+         & '): not for task = '''//task//''', which takes &'//trim(needed))
+   end subroutine check_task
+
+   !> Make the wall, or the walls of the population
+   subroutine make_walls(namelist, input, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> The case: its walls are made
+      type(case_type), intent(inout) :: case
+      !> What is wrong with them
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      integer :: i
+
+      if (case%job%task == 'typology') then
+         group = namelist%group('population')
+         call read_population_group(group, case%population_file, error)
+         if (allocated(error)) return
+         call check_file(group, 'file', case%population_file, error)
+         if (allocated(error)) return
+         call read_population(beside(case%population_file, case%file), case%population, error, case%solver%gravity)
+      else
+         group = namelist%group('wall')
+         allocate (case%population%walls(1))
+         case%population%weight = [1.0_wp]
+         call new_wall(case%population%walls(1), input, error, case%solver%gravity)
+         call add_place(error, group%place())
+      end if
+      if (allocated(error)) return
+      group = namelist%group('solver')
+      do i = 1, size(case%population%walls)
+         call check_limit(case%solver%solver, case%population%walls(i)%mechanism, error)
+         if (.not. allocated(error)) cycle
+         call add_place(error, group%place())
+         error%message = error%message//' (wall '''//case%population%walls(i)%input%name//''')'
+         return
+      end do
+   end subroutine make_walls
+
+   !> Check what belongs together
+   subroutine check_combinations(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case
+      type(case_type), intent(in) :: case
+      !> What is missing
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
+      group = namelist%group('stripes')
+      call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
+         & 'first, last and count')
+   end subroutine check_combinations
+
+   !> Read the accelerograms
+   subroutine read_records(group, case, error)
+      !> The group &records
+      type(group_type), intent(in) :: group
+      !> The case: its records are read
+      type(case_type), intent(inout) :: case
+      !> What is wrong with them
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_file(group, 'catalogue', case%records_input%catalogue, error)
+      if (allocated(error)) return
+      if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
+         call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
+         return
+      end if
+      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error)
+   end subroutine read_records
+
+   !> Check that a variable names a file that exists
+   subroutine check_file(group, name, path, error)
+      !> Group of the variable
+      type(group_type), intent(in) :: group
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Path as it was given
+      character(len=*), intent(in) :: path
+      !> There is no such file
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: file
+      logical :: exists
+
+      file = beside(path, group%file)
+      inquire (file=file, exist=exists)
+      if (is_folder(file)) then
+         call group%refuse(name, file//' is a folder, must be a file', error)
+      else if (.not. exists) then
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)', error)
+      end if
+   end subroutine check_file
+
+   !> Find the record of the time history, and check that no record is scaled beyond all measure
+   subroutine check_scales(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case: the number of the record of the time history is set
+      type(case_type), intent(inout) :: case
+      !> No such record, or a scale that is too large
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      real(wp) :: scale
+      integer :: i
+
+      group = namelist%group('history')
+      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
+      if (allocated(error)) return
+      if (case%job%task == 'history') then
+         associate (record => case%records(case%history%record))
+            scale = abs(case%history_scale())
+            if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
+            if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
+               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%im// &
+                  & ' of 0 and cannot be scaled to a level', error)
+            else
+               call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
+                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+            end if
+         end associate
+         return
+      end if
+      group = namelist%group('stripes')
+      do i = 1, size(case%records)
+         associate (highest => case%stripes%levels(size(case%stripes%levels)))
+            if (case%scale_to(i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
+            call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
+               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+         end associate
+         return
+      end do
+   end subroutine check_scales
+
+   !> Factor that scales a record to a level
+   pure function scale_to(self, record, level) result(scale)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Level, in the unit of the intensity measure
+      real(wp), intent(in) :: level
+      !> The factor; 0 for a record without motion
+      real(wp) :: scale
+
+      real(wp) :: value
+
+      scale = 0.0_wp
+      value = intensity(self%records(record), self%stripes%im)
+      if (value > 0.0_wp) scale = level*level_unit(self%stripes%im, self%solver%gravity)/value
+   end function scale_to
+
+   !> Factor on the record of the time history, with the sign of its polarity
+   pure function history_scale(self) result(scale)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> The factor
+      real(wp) :: scale
+
+      if (allocated(self%history%im_level)) then
+         scale = self%scale_to(self%history%record, self%history%im_level)
+      else
+         scale = self%history%scale
+      end if
+      if (self%records_input%polarity == 'reversed') scale = -scale
+   end function history_scale
+
+   !> Number of histories of one stripe of a wall
+   pure function histories(self, wall) result(number)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> Number of the wall
+      integer, intent(in) :: wall
+      !> Records, twice for both polarities of a wall that is not symmetric
+      integer :: number
+
+      number = size(self%records)
+      if (self%records_input%polarity == 'both' .and. .not. self%population%walls(wall)%mechanism%two_sided) &
+         & number = 2*number
+   end function histories
+
+   !> The case as namelist text: every value in force, and no group that the task does not use
+   subroutine echo(self, lines)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      call echo_job(self%job, lines)
+      if (allocated(self%population_file)) then
+         call echo_population(self%population_file, lines)
+      else
+         call echo_wall(self%population%walls(1)%input, lines)
+      end if
+      call echo_records(self%records_input, lines)
+      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, lines)
+      call echo_solver(self%solver, lines)
+      if (self%job%task == 'history') call echo_history(self%history, lines)
+   end subroutine echo
+
+   !> Paths of the files it is made of
+   subroutine inputs(self, paths)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> The namelist file, the catalogue, the population
+      type(lines_type), intent(out) :: paths
+
+      call paths%add(self%file)
+      call paths%add(beside(self%records_input%catalogue, self%file))
+      if (allocated(self%population_file)) call paths%add(beside(self%population_file, self%file))
+   end subroutine inputs
+
+end module dondolo_case

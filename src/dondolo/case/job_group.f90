@@ -1,0 +1,81 @@
+!> The group &job: what is to be done and where the results go.
+module dondolo_job_group
+   use dondolo_assignment, only : assignment_text
+   use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist_group, only : group_type
+   use dondolo_text, only : join, to_text
+   implicit none
+   private
+
+   public :: job_type, read_job, echo_job
+   public :: task_names, job_variables, largest_threads
+
+   !> Names of the tasks
+   character(len=8), parameter :: task_names(3) = [character(len=8) :: 'history', 'stripes', 'typology']
+
+   !> Variables of the group
+   character(len=7), parameter :: job_variables(4) = [character(len=7) :: 'task', 'title', 'output', 'threads']
+
+   !> More threads than this are surely a slip
+   integer, parameter :: largest_threads = 1024
+
+   !> What is to be done
+   type :: job_type
+      !> Task, one of task_names
+      character(len=:), allocatable :: task
+      !> Title, for the reader of the results
+      character(len=:), allocatable :: title
+      !> Path prefix of the result files, relative to the current folder
+      character(len=:), allocatable :: output
+      !> Number of threads; 0: as many as the computer, or OMP_NUM_THREADS, offers
+      integer :: threads = 0
+   end type job_type
+
+contains
+
+   !> Read the group
+   subroutine read_job(group, job, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> What is to be done, defaults filled in
+      type(job_type), intent(out) :: job
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      job%task = 'stripes'
+      job%title = ''
+      job%output = 'dondolo'
+      call group%check_names(job_variables, error)
+      if (.not. allocated(error)) call group%get_text('task', job%task, error)
+      if (.not. allocated(error)) call group%get_text('title', job%title, error)
+      if (.not. allocated(error)) call group%get_text('output', job%output, error)
+      if (.not. allocated(error)) call group%get_integer('threads', job%threads, error)
+      if (allocated(error)) return
+      if (.not. any(job%task == task_names)) then
+         call group%refuse('task', 'must be one of '//join(task_names), error)
+      else if (len_trim(job%output) == 0) then
+         call group%refuse('output', 'must not be empty: the names of all result files begin with it', error)
+      else if (scan(job%output(len(job%output):), '/\') > 0) then
+         call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'wall''', &
+            & error)
+      else if (job%threads < 0 .or. job%threads > largest_threads) then
+         call group%refuse('threads', 'must lie between 0 (all) and '//to_text(largest_threads), error)
+      end if
+      job%task = trim(job%task)
+   end subroutine read_job
+
+   !> Write the group as namelist text with every value in force
+   subroutine echo_job(job, lines)
+      !> What is to be done
+      type(job_type), intent(in) :: job
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      call lines%add('&job '//assignment_text('task', job%task))
+      call lines%add('     '//assignment_text('title', job%title))
+      call lines%add('     '//assignment_text('output', job%output))
+      call lines%add('     '//assignment_text('threads', job%threads)//' /')
+   end subroutine echo_job
+
+end module dondolo_job_group

@@ -1,0 +1,363 @@
+!> One group of a namelist file, and how its values are taken: as text, as a number, as a list of numbers.
+!>
+!> What is refused is refused with its place and its value as it was typed:
+!> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25`.
+module dondolo_namelist_group
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_text, only : join, to_text
+   implicit none
+   private
+
+   public :: group_type, variable_type, value_type
+
+   !> Digits
+   character(len=*), parameter :: figures = '0123456789'
+
+   !> One value
+   type :: value_type
+      !> The value as it was typed, with its quotes
+      character(len=:), allocatable :: typed
+      !> The value without its quotes
+      character(len=:), allocatable :: text
+      !> Did it stand in quotes?
+      logical :: quoted = .false.
+      !> Line of the file it stands in
+      integer :: line = 0
+   end type value_type
+
+   !> One variable and its values
+   type :: variable_type
+      !> Name, in lower case
+      character(len=:), allocatable :: name
+      !> Line of the file it stands in
+      integer :: line = 0
+      !> Its values, one at least
+      type(value_type), allocatable :: values(:)
+   end type variable_type
+
+   !> One group
+   type :: group_type
+      !> Path of the file
+      character(len=:), allocatable :: file
+      !> Name, in lower case, without the ampersand
+      character(len=:), allocatable :: name
+      !> Line in which it begins; 0: the file does not have this group
+      integer :: line = 0
+      !> Its variables
+      type(variable_type), allocatable :: variables(:)
+   contains
+      !> Where the group is, for messages
+      procedure :: place
+      !> Refuse variables that the group does not have
+      procedure :: check_names
+      !> Was a variable given?
+      procedure :: has
+      !> Was a variable given in quotes?
+      procedure :: has_text
+      !> Take a text
+      procedure :: get_text
+      !> Take a real number
+      procedure :: get_real
+      !> Take an integer
+      procedure :: get_integer
+      !> Take a list of real numbers
+      procedure :: get_reals
+      !> Refuse the value of a variable
+      procedure :: refuse
+   end type group_type
+
+contains
+
+   !> Where the group is, for messages
+   pure function place(self)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> 'file: &group'
+      character(len=:), allocatable :: place
+
+      place = self%file//': &'//self%name
+   end function place
+
+   !> Number of a variable in the group
+   pure function position(self, name)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case
+      character(len=*), intent(in) :: name
+      !> Its number, 0 if it was not given
+      integer :: position
+
+      position = 0
+      if (.not. allocated(self%variables)) return
+      do position = size(self%variables), 1, -1
+         if (self%variables(position)%name == name) exit
+      end do
+   end function position
+
+   !> Was a variable given?
+   pure function has(self, name)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case
+      character(len=*), intent(in) :: name
+      !> It was
+      logical :: has
+
+      has = position(self, name) > 0
+   end function has
+
+   !> Was a variable given in quotes?
+   pure function has_text(self, name)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case
+      character(len=*), intent(in) :: name
+      !> It was given, and its first value stands in quotes
+      logical :: has_text
+
+      integer :: i
+
+      i = position(self, name)
+      has_text = .false.
+      if (i > 0) has_text = self%variables(i)%values(1)%quoted
+   end function has_text
+
+   !> Refuse variables that the group does not have
+   subroutine check_names(self, names, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Names of its variables
+      character(len=*), intent(in) :: names(:)
+      !> Names the first one that is not known
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. allocated(self%variables)) return
+      do i = 1, size(self%variables)
+         if (any(self%variables(i)%name == names)) cycle
+         call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
+            & to_text(self%variables(i)%line)//'): no such variable; there are '//join(names))
+         return
+      end do
+   end subroutine check_names
+
+   !> Refuse the value of a variable: 'file: &group: name = value: what is allowed'
+   subroutine refuse(self, name, allowed, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of a variable that was given
+      character(len=*), intent(in) :: name
+      !> What is allowed
+      character(len=*), intent(in) :: allowed
+      !> The error
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: typed
+      integer :: i, j
+
+      i = position(self, name)
+      typed = self%variables(i)%values(1)%typed
+      do j = 2, min(size(self%variables(i)%values), 6)
+         typed = typed//', '//self%variables(i)%values(j)%typed
+      end do
+      if (size(self%variables(i)%values) > 6) typed = typed//', ...'
+      call raise_input(error, self%place()//': '//name//' = '//typed//': '//allowed)
+   end subroutine refuse
+
+   !> Find the one value of a variable that takes one
+   subroutine single(self, name, found, value, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> It was given
+      logical, intent(out) :: found
+      !> Its value
+      type(value_type), intent(out) :: value
+      !> It was given several values
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      i = position(self, name)
+      found = i > 0
+      if (.not. found) return
+      associate (values => self%variables(i)%values)
+         value = values(1)
+         if (size(values) == 1) return
+         if (size(values) == 2 .and. split_number(values(1), values(2))) then
+            call self%refuse(name, 'must be one number; a decimal point is needed: '// &
+               & values(1)%text//'.'//values(2)%text, error)
+         else if (values(2)%line > values(1)%line) then
+            call self%refuse(name, 'must be one value, not '//to_text(size(values))//'; is an = missing in line '// &
+               & to_text(values(2)%line)//'?', error)
+         else
+            call self%refuse(name, 'must be one value, not '//to_text(size(values)), error)
+         end if
+      end associate
+   end subroutine single
+
+   !> Do two values look like one number that was typed with a decimal comma?
+   pure function split_number(first, second)
+      !> What stands before the comma
+      type(value_type), intent(in) :: first
+      !> What stands after it
+      type(value_type), intent(in) :: second
+      !> Both are whole numbers without quotes, the second one unsigned
+      logical :: split_number
+
+      split_number = .not. (first%quoted .or. second%quoted) .and. verify(first%text, figures//'+-') == 0 &
+         & .and. verify(second%text, figures) == 0
+   end function split_number
+
+   !> Take a text
+   subroutine get_text(self, name, value, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value; left as it is when the variable was not given
+      character(len=:), allocatable, intent(inout) :: value
+      !> Not one text in quotes
+      type(error_type), allocatable, intent(out) :: error
+
+      type(value_type) :: found
+      logical :: given
+
+      call single(self, name, given, found, error)
+      if (allocated(error) .or. .not. given) return
+      if (found%quoted) then
+         value = found%text
+      else
+         call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
+      end if
+   end subroutine get_text
+
+   !> Take a real number
+   subroutine get_real(self, name, value, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value; left as it is when the variable was not given
+      real(wp), intent(inout) :: value
+      !> Not one number
+      type(error_type), allocatable, intent(out) :: error
+
+      type(value_type) :: found
+      real(wp) :: number
+      logical :: given, ok
+
+      call single(self, name, given, found, error)
+      if (allocated(error) .or. .not. given) return
+      call to_real(found, number, ok)
+      if (ok) then
+         value = number
+      else
+         call self%refuse(name, not_a_number(found), error)
+      end if
+   end subroutine get_real
+
+   !> Take an integer
+   subroutine get_integer(self, name, value, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value; left as it is when the variable was not given
+      integer, intent(inout) :: value
+      !> Not one whole number
+      type(error_type), allocatable, intent(out) :: error
+
+      type(value_type) :: found
+      integer :: number
+      logical :: given, ok
+
+      call single(self, name, given, found, error)
+      if (allocated(error) .or. .not. given) return
+      call parse_integer(found%text, number, ok)
+      if (ok .and. .not. found%quoted) then
+         value = number
+      else if (ok) then
+         call self%refuse(name, 'must be a whole number without quotes', error)
+      else if (verify(found%text, figures//'+-') == 0) then
+         call self%refuse(name, 'must be a whole number of at most '//to_text(huge(number)), error)
+      else
+         call self%refuse(name, 'must be a whole number', error)
+      end if
+   end subroutine get_integer
+
+   !> Take a list of real numbers
+   subroutine get_reals(self, name, values, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its values; left as they are when the variable was not given
+      real(wp), allocatable, intent(inout) :: values(:)
+      !> A value that is not a number
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: numbers(:)
+      logical :: ok
+      integer :: i, j
+
+      i = position(self, name)
+      if (i == 0) return
+      associate (given => self%variables(i)%values)
+         allocate (numbers(size(given)))
+         do j = 1, size(given)
+            call to_real(given(j), numbers(j), ok)
+            if (.not. ok) then
+               call raise_input(error, self%place()//': '//name//': value '//to_text(j)//' = '//given(j)%typed// &
+                  & ': '//not_a_number(given(j)))
+               return
+            end if
+            if (j == 1) cycle
+            if (given(j - 1)%text == '0' .and. split_number(given(j - 1), given(j))) then
+               call self%refuse(name, 'a decimal point is needed, such as 0.'//given(j)%text, error)
+               return
+            end if
+         end do
+      end associate
+      call move_alloc(numbers, values)
+   end subroutine get_reals
+
+   !> The number that a value is
+   pure subroutine to_real(value, number, ok)
+      !> Value
+      type(value_type), intent(in) :: value
+      !> Its number
+      real(wp), intent(out) :: number
+      !> It is one finite number without quotes
+      logical, intent(out) :: ok
+
+      call parse_real(value%text, number, ok)
+      ok = ok .and. .not. value%quoted
+   end subroutine to_real
+
+   !> What to say of a value that should be a number
+   pure function not_a_number(value) result(allowed)
+      !> Value
+      type(value_type), intent(in) :: value
+      !> What is allowed
+      character(len=:), allocatable :: allowed
+
+      real(wp) :: number
+      logical :: ok
+
+      allowed = 'must be a number, such as 0.25'
+      call parse_real(value%text, number, ok)
+      if (ok) then
+         allowed = 'must be a number without quotes'
+      else if (.not. value%quoted .and. scan(value%text(1:1), figures//'+-.') == 1 &
+         & .and. verify(value%text, figures//'+-.eEdD') == 0 .and. scan(value%text, figures) > 0 &
+         & .and. scan(value%text, 'eEdD') > 0) then
+         allowed = 'must be a number that the computer can hold, such as 1.5e3'
+      end if
+   end function not_a_number
+
+end module dondolo_namelist_group

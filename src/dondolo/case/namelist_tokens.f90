@@ -1,0 +1,179 @@
+!> The text of a namelist file, cut into tokens: words, texts in quotes, =, commas, &name and /.
+module dondolo_namelist_tokens
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_text, only : lower
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: token_type, cut
+   public :: word, quoted, equals, comma, group_begin, group_end, end_of_file
+
+   !> Kinds of tokens: a word, a text in quotes, =, a comma, & with a name, the / that ends a group, nothing more
+   integer, parameter :: word = 1, quoted = 2, equals = 3, comma = 4, group_begin = 5, group_end = 6, end_of_file = 7
+
+   !> Blanks between tokens
+   character(len=*), parameter :: blanks = ' '//achar(9)
+
+   !> What ends a word
+   character(len=*), parameter :: word_ends = blanks//',=!/&''"'
+
+   !> One token
+   type :: token_type
+      !> Its kind
+      integer :: kind = end_of_file
+      !> As it was typed
+      character(len=:), allocatable :: typed
+      !> Without quotes or ampersand
+      character(len=:), allocatable :: text
+      !> Line it stands in
+      integer :: line = 0
+   end type token_type
+
+contains
+
+   !> Cut a text into tokens; the last one is the end of the file
+   subroutine cut(text, tokens, error)
+      !> Text
+      type(text_file_type), intent(in) :: text
+      !> Its tokens
+      type(token_type), allocatable, intent(out) :: tokens(:)
+      !> A quote that is not closed, a group without a name
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: line
+      integer :: count, number, at
+
+      allocate (tokens(64))
+      count = 0
+      do number = 1, text%lines()
+         line = text%line(number)
+         at = 1
+         do while (at <= len(line))
+            if (index(blanks, line(at:at)) > 0) then
+               at = at + 1
+               cycle
+            end if
+            if (line(at:at) == '!') exit
+            if (count + 1 >= size(tokens)) call widen(tokens)
+            count = count + 1
+            tokens(count)%line = number
+            call take_token(line, at, tokens(count), error)
+            if (allocated(error)) then
+               error%message = text%place(number)//': '//error%message
+               return
+            end if
+         end do
+      end do
+      ! The token after the last one was never filled: it is the end of the file
+      tokens = tokens(:count + 1)
+      tokens(count + 1)%line = text%lines()
+   end subroutine cut
+
+   !> Double the room for tokens
+   subroutine widen(tokens)
+      !> Tokens
+      type(token_type), allocatable, intent(inout) :: tokens(:)
+
+      type(token_type), allocatable :: more(:)
+
+      allocate (more(2*size(tokens)))
+      more(:size(tokens)) = tokens
+      call move_alloc(more, tokens)
+   end subroutine widen
+
+   !> Take one token
+   subroutine take_token(line, at, token, error)
+      !> Line
+      character(len=*), intent(in) :: line
+      !> Position of the token, then of what follows it
+      integer, intent(inout) :: at
+      !> The token, its line already known
+      type(token_type), intent(inout) :: token
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: first
+
+      first = at
+      select case (line(at:at))
+      case ('''', '"')
+         call take_quoted(line, at, token, error)
+         if (allocated(error)) return
+      case ('=')
+         token%kind = equals
+         at = at + 1
+      case (',')
+         token%kind = comma
+         at = at + 1
+      case ('/')
+         token%kind = group_end
+         at = at + 1
+         if (at <= len(line)) then
+            if (index(blanks//'!&', line(at:at)) == 0) then
+               call raise_input(error, 'text right after a /: paths and other texts must stand in quotes')
+               return
+            end if
+         end if
+      case ('&')
+         at = word_end(line, at + 1)
+         token%kind = group_begin
+         token%text = lower(line(first + 1:at - 1))
+         if (token%text == 'end') token%kind = group_end
+         if (len(token%text) == 0) then
+            call raise_input(error, 'an & without the name of a group')
+            return
+         end if
+      case default
+         at = word_end(line, at)
+         token%kind = word
+         token%text = line(first:at - 1)
+      end select
+      token%typed = line(first:at - 1)
+   end subroutine take_token
+
+   !> Position after a word
+   pure integer function word_end(line, first)
+      !> Line
+      character(len=*), intent(in) :: line
+      !> Position of the first character of the word
+      integer, intent(in) :: first
+
+      word_end = first + scan(line(first:)//' ', word_ends) - 1
+   end function word_end
+
+   !> Take a text in quotes; a quote inside is doubled
+   subroutine take_quoted(line, at, token, error)
+      !> Line
+      character(len=*), intent(in) :: line
+      !> Position of the opening quote, then of what follows the closing one
+      integer, intent(inout) :: at
+      !> The token
+      type(token_type), intent(inout) :: token
+      !> The quote is not closed
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=1) :: quote
+      integer :: length, first
+
+      first = at
+      quote = line(at:at)
+      token%kind = quoted
+      token%text = ''
+      at = at + 1
+      do
+         length = index(line(at:), quote) - 1
+         if (length < 0) then
+            call raise_input(error, 'the quote before '''//trim(line(first + 1:))//''' is not closed on its line')
+            return
+         end if
+         token%text = token%text//line(at:at + length - 1)
+         at = at + length + 1
+         if (at > len(line)) return
+         if (line(at:at) /= quote) return
+         token%text = token%text//quote
+         at = at + 1
+      end do
+   end subroutine take_quoted
+
+end module dondolo_namelist_tokens

@@ -1,0 +1,26 @@
+!> Paths that are relative to the file they stand in.
+module dondolo_paths
+   implicit none
+   private
+
+   public :: beside
+
+contains
+
+   !> A path as seen from the current folder
+   pure function beside(path, file) result(resolved)
+      !> Path, relative to the folder of a file, or absolute
+      character(len=*), intent(in) :: path
+      !> The file
+      character(len=*), intent(in) :: file
+      !> The path relative to the current folder, or absolute
+      character(len=:), allocatable :: resolved
+
+      if (path(1:1) == '/') then
+         resolved = path
+      else
+         resolved = file(:index(file, '/', back=.true.))//path
+      end if
+   end function beside
+
+end module dondolo_paths

@@ -1,0 +1,170 @@
+!> Run a case: from walls, records and levels to responses, curves and warnings. Nothing is printed or written here.
+module dondolo_run_case
+   use dondolo_case, only : case_type
+   use dondolo_error, only : add_place, error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_kinds, only : dp, wp
+   use dondolo_lines, only : lines_type
+   use dondolo_response, only : response_type, trace_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_stripes, only : multiple_stripe, progress_interface, stripes_type
+   use dondolo_typology, only : combine_walls, typology_type
+   use dondolo_warnings, only : scale_warning_type, warn_of_fit, warn_of_fits, warn_of_records
+   implicit none
+   private
+
+   public :: results_type, run_case
+
+   !> Results of a case; what its task does not make stays empty
+   type :: results_type
+      !> All histories: task 'stripes'
+      type(stripes_type) :: stripes
+      !> Collapses (levels, walls): tasks 'stripes' and 'typology'
+      integer, allocatable :: collapses(:, :)
+      !> Histories of a stripe of each wall: tasks 'stripes' and 'typology'
+      integer, allocatable :: histories(:)
+      !> Curve of each wall: tasks 'stripes' and 'typology'
+      type(fragility_type), allocatable :: fragility(:)
+      !> Curve of the population: task 'typology'
+      type(typology_type) :: typology
+      !> The one response: task 'history'
+      type(response_type) :: response
+      !> Its time history
+      type(trace_type) :: trace
+      !> What the user should know
+      type(lines_type) :: warnings
+   end type results_type
+
+contains
+
+   !> Run a case
+   subroutine run_case(case, results, error, threads, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(out) :: results
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads instead of the case's
+      integer, intent(in), optional :: threads
+      !> Hears how far the work is, in histories
+      procedure(progress_interface), optional :: progress
+
+      integer :: team
+
+      team = case%job%threads
+      if (present(threads)) team = threads
+      select case (case%job%task)
+      case ('history')
+         call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
+         call simulate_rk45(case%population%walls(1)%mechanism, case%records(case%history%record), &
+            & case%history_scale(), case%solver%solver, results%response, results%trace)
+      case ('stripes')
+         call run_stripes(case, results, error, team, progress)
+      case ('typology')
+         call run_typology(case, results, error, team, progress)
+      end select
+   end subroutine run_case
+
+   !> Stripes of the one wall, all histories kept
+   subroutine run_stripes(case, results, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(inout) :: results
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      type(scale_warning_type) :: scales
+
+      call make_room(case, results)
+      call run_wall(case, 1, results, results%stripes, error, team, progress)
+      if (allocated(error)) return
+      call warn_of_records(case%records, results%warnings)
+      call scales%look(results%stripes, case%records)
+      call scales%warn(results%warnings)
+      call warn_of_fit(case%population%walls(1), results%stripes, results%fragility(1), results%warnings)
+   end subroutine run_stripes
+
+   !> Stripes of every wall of the population, counts kept
+   subroutine run_typology(case, results, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(inout) :: results
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is, after every wall
+      procedure(progress_interface), optional :: progress
+
+      type(scale_warning_type) :: scales
+      type(stripes_type) :: stripes
+      integer :: i, levels
+
+      call make_room(case, results)
+      levels = size(case%stripes%levels)
+      do i = 1, size(case%population%walls)
+         call run_wall(case, i, results, stripes, error, team)
+         if (allocated(error)) return
+         call scales%look(stripes, case%records)
+         if (present(progress)) call progress(levels*sum(results%histories(:i)), levels*sum(results%histories))
+      end do
+      call combine_walls(results%typology, real(case%stripes%levels, dp), results%collapses, results%histories, &
+         & results%fragility, real(case%population%weight, dp), error)
+      if (allocated(error)) return
+      call warn_of_records(case%records, results%warnings)
+      call scales%warn(results%warnings)
+      call warn_of_fits(case%population%walls, results%fragility, results%typology%fit, results%warnings)
+   end subroutine run_typology
+
+   !> Room for the counts and curves of all walls
+   subroutine make_room(case, results)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(inout) :: results
+
+      integer :: i, walls
+
+      walls = size(case%population%walls)
+      allocate (results%collapses(size(case%stripes%levels), walls), results%fragility(walls))
+      results%histories = [(case%histories(i), i=1, walls)]
+   end subroutine make_room
+
+   !> Stripes and curve of one wall
+   subroutine run_wall(case, wall, results, stripes, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Number of the wall
+      integer, intent(in) :: wall
+      !> Results: counts and curve of the wall are set
+      type(results_type), intent(inout) :: results
+      !> All histories of the wall
+      type(stripes_type), intent(out) :: stripes
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      real(wp) :: histories(size(case%stripes%levels))
+
+      call multiple_stripe(stripes, case%population%walls(wall), case%records, case%stripes%levels, case%stripes%im, &
+         & case%records_input%polarity, case%solver%solver, team, error, progress)
+      if (.not. allocated(error)) then
+         results%collapses(:, wall) = stripes%collapses()
+         histories = real(results%histories(wall), wp)
+         call fit_fragility(results%fragility(wall), real(case%stripes%levels, dp), &
+            & real(results%collapses(:, wall), dp), real(histories, dp), error)
+      end if
+      call add_place(error, 'wall '''//case%population%walls(wall)%input%name//'''')
+   end subroutine run_wall
+
+end module dondolo_run_case

@@ -1,0 +1,78 @@
+!> The group &solver: how the motions are computed.
+module dondolo_solver_group
+   use dondolo_assignment, only : assignment_text
+   use dondolo_error, only : add_place, error_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist_group, only : group_type
+   use dondolo_solver, only : check_solver, engine_names, solver_type
+   use dondolo_text, only : join
+   use dondolo_wall, only : standard_gravity
+   implicit none
+   private
+
+   public :: solver_input_type, read_solver_group, echo_solver
+   public :: solver_variables
+
+   !> Variables of the group
+   character(len=9), parameter :: solver_variables(5) = &
+      & [character(len=9) :: 'engine', 'rtol', 'atol', 'edp_limit', 'gravity']
+
+   !> Largest gravity that makes sense [m/s2]
+   real(wp), parameter :: largest_gravity = 1.0e3_wp
+
+   !> What is said of the computation
+   type :: solver_input_type
+      !> Engine, tolerances and limit
+      type(solver_type) :: solver
+      !> Gravity [m/s2]
+      real(wp) :: gravity = standard_gravity
+   end type solver_input_type
+
+contains
+
+   !> Read the group
+   subroutine read_solver_group(group, input, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> What is said of the computation
+      type(solver_input_type), intent(out) :: input
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: engine
+
+      engine = input%solver%engine
+      call group%check_names(solver_variables, error)
+      if (.not. allocated(error)) call group%get_text('engine', engine, error)
+      if (.not. allocated(error)) call group%get_real('rtol', input%solver%rtol, error)
+      if (.not. allocated(error)) call group%get_real('atol', input%solver%atol, error)
+      if (.not. allocated(error)) call group%get_real('edp_limit', input%solver%edp_limit, error)
+      if (.not. allocated(error)) call group%get_real('gravity', input%gravity, error)
+      if (allocated(error)) return
+      if (.not. any(engine == engine_names)) then
+         call group%refuse('engine', 'must be one of '//join(engine_names), error)
+      else if (.not. (input%gravity > 0.0_wp .and. input%gravity <= largest_gravity)) then
+         call group%refuse('gravity', 'must be positive and at most 1000 m/s2', error)
+      else
+         input%solver%engine = engine
+         call check_solver(input%solver, error)
+         call add_place(error, group%place())
+      end if
+   end subroutine read_solver_group
+
+   !> Write the group as namelist text with every value in force
+   subroutine echo_solver(input, lines)
+      !> What is said of the computation
+      type(solver_input_type), intent(in) :: input
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      call lines%add('&solver '//assignment_text('engine', trim(input%solver%engine)))
+      call lines%add('        '//assignment_text('rtol', input%solver%rtol)//', '// &
+         & assignment_text('atol', input%solver%atol))
+      call lines%add('        '//assignment_text('edp_limit', input%solver%edp_limit))
+      call lines%add('        '//assignment_text('gravity', input%gravity)//' /')
+   end subroutine echo_solver
+
+end module dondolo_solver_group

@@ -1,0 +1,140 @@
+!> The group &stripes: the intensity measure and its levels.
+module dondolo_stripes_group
+   use dondolo_assignment, only : assignment_text
+   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_intensity, only : im_names
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist_group, only : group_type
+   use dondolo_stripes, only : check_levels
+   use dondolo_text, only : join, to_text
+   implicit none
+   private
+
+   public :: stripes_input_type, read_stripes_group, echo_stripes
+   public :: stripes_variables
+
+   !> Variables of the group
+   character(len=6), parameter :: stripes_variables(5) = [character(len=6) :: 'im', 'levels', 'first', 'last', 'count']
+
+   !> More levels than this are surely a slip
+   integer, parameter :: most_levels = 1000
+
+   !> What is said of the stripes
+   type :: stripes_input_type
+      !> Intensity measure, one of im_names
+      character(len=:), allocatable :: im
+      !> Levels, in the unit of the intensity measure; not allocated: not given
+      real(wp), allocatable :: levels(:)
+   end type stripes_input_type
+
+contains
+
+   !> Read the group
+   subroutine read_stripes_group(group, stripes, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> What is said of the stripes
+      type(stripes_input_type), intent(out) :: stripes
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      stripes%im = 'pga'
+      call group%check_names(stripes_variables, error)
+      if (.not. allocated(error)) call group%get_text('im', stripes%im, error)
+      if (allocated(error)) return
+      stripes%im = trim(stripes%im)
+      if (.not. any(stripes%im == im_names)) then
+         call group%refuse('im', 'must be one of '//join(im_names), error)
+         return
+      end if
+      call read_grid(group, stripes, error)
+      if (allocated(error)) return
+      if (group%has('levels')) then
+         if (allocated(stripes%levels)) then
+            call raise_input(error, group%place()//': levels: give either levels or first, last and count')
+            return
+         end if
+         call group%get_reals('levels', stripes%levels, error)
+         if (allocated(error)) return
+         if (size(stripes%levels) > most_levels) then
+            call group%refuse('levels', 'must be at most '//to_text(most_levels)//' values', error)
+            return
+         end if
+      end if
+      if (.not. allocated(stripes%levels)) return
+      call check_levels(stripes%levels, error)
+      call add_place(error, group%place())
+   end subroutine read_stripes_group
+
+   !> Read first, last and count, if they were given
+   subroutine read_grid(group, stripes, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> What is said of the stripes: equally spaced levels, both ends included
+      type(stripes_input_type), intent(inout) :: stripes
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: first, last
+      integer :: count, i
+
+      if (.not. any([group%has('first'), group%has('last'), group%has('count')])) return
+      do i = 3, size(stripes_variables)
+         if (group%has(trim(stripes_variables(i)))) cycle
+         call raise_input(error, group%place()//': '//trim(stripes_variables(i))// &
+            & ': must be given: first, last and count belong together')
+         return
+      end do
+      first = 0.0_wp
+      last = 0.0_wp
+      count = 0
+      call group%get_real('first', first, error)
+      if (.not. allocated(error)) call group%get_real('last', last, error)
+      if (.not. allocated(error)) call group%get_integer('count', count, error)
+      if (allocated(error)) return
+      if (.not. first > 0.0_wp) then
+         call group%refuse('first', 'must be positive', error)
+      else if (.not. last > first) then
+         call group%refuse('last', 'must be greater than first = '//to_text(first), error)
+      else if (count < 2 .or. count > most_levels) then
+         call group%refuse('count', 'must lie between 2 and '//to_text(most_levels), error)
+      end if
+      if (allocated(error)) return
+      allocate (stripes%levels(count))
+      do i = 1, count
+         stripes%levels(i) = decimal((real(count - i, wp)*first + real(i - 1, wp)*last)/real(count - 1, wp))
+      end do
+      stripes%levels(1) = first
+      stripes%levels(count) = last
+   end subroutine read_grid
+
+   !> The nearest number of 14 decimal digits: 0.4 and 0.2 are 0.6, not 0.6000000000000001
+   pure function decimal(value) result(rounded)
+      !> Number
+      real(wp), intent(in) :: value
+      !> The nearest short one
+      real(wp) :: rounded
+
+      character(len=32) :: buffer
+
+      write (buffer, '(es32.13e4)') value
+      read (buffer, *) rounded
+   end function decimal
+
+   !> Write the group as namelist text with every value in force
+   subroutine echo_stripes(stripes, lines)
+      !> What is said of the stripes
+      type(stripes_input_type), intent(in) :: stripes
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      if (allocated(stripes%levels)) then
+         call lines%add('&stripes '//assignment_text('im', stripes%im))
+         call lines%add('         '//assignment_text('levels', stripes%levels)//' /')
+      else
+         call lines%add('&stripes '//assignment_text('im', stripes%im)//' /')
+      end if
+   end subroutine echo_stripes
+
+end module dondolo_stripes_group

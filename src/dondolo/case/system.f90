@@ -1,0 +1,231 @@
+!> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
+!> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions.
+module dondolo_system
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
+   implicit none
+   private
+
+   public :: make_folder, remove_folder, rename_file, remove_file, is_folder, same_file
+   public :: writer_type, stderr_is_terminal
+
+   !> A file being written
+   type :: writer_type
+      !> Handle of the C library
+      type(c_ptr) :: handle = c_null_ptr
+   contains
+      !> Open a file, emptied if it exists
+      procedure :: open => open_writer
+      !> Write a text
+      procedure :: write => write_text
+      !> Close the file
+      procedure :: close => close_writer
+   end type writer_type
+
+   interface
+
+      !> Make a folder
+      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+         !> Permissions
+         integer(c_int), value :: mode
+      end function c_mkdir
+
+      !> Remove an empty folder
+      integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_rmdir
+
+      !> Give a file another name, in place of a file that has it
+      integer(c_int) function c_rename(from, to) bind(c, name='rename')
+         import :: c_char, c_int
+         !> Present path
+         character(kind=c_char), intent(in) :: from(*)
+         !> New path
+         character(kind=c_char), intent(in) :: to(*)
+      end function c_rename
+
+      !> Remove a file
+      integer(c_int) function c_unlink(path) bind(c, name='unlink')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_unlink
+
+      !> The one absolute path of a file
+      type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
+         import :: c_char, c_ptr
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+         !> Room for the result
+         character(kind=c_char), intent(out) :: resolved(*)
+      end function c_realpath
+
+      !> Is a file descriptor a terminal?
+      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
+         import :: c_int
+         !> File descriptor
+         integer(c_int), value :: descriptor
+      end function c_isatty
+
+      !> Open a file
+      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+         import :: c_char, c_ptr
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+         !> 'w' to write
+         character(kind=c_char), intent(in) :: mode(*)
+      end function c_fopen
+
+      !> Write bytes
+      integer(c_size_t) function c_fwrite(bytes, size, count, handle) bind(c, name='fwrite')
+         import :: c_char, c_ptr, c_size_t
+         !> The bytes
+         character(kind=c_char), intent(in) :: bytes(*)
+         !> Bytes of an item
+         integer(c_size_t), value :: size
+         !> Number of items
+         integer(c_size_t), value :: count
+         !> File
+         type(c_ptr), value :: handle
+      end function c_fwrite
+
+      !> Close a file
+      integer(c_int) function c_fclose(handle) bind(c, name='fclose')
+         import :: c_int, c_ptr
+         !> File
+         type(c_ptr), value :: handle
+      end function c_fclose
+
+   end interface
+
+contains
+
+   !> Make a folder
+   subroutine make_folder(path, ok)
+      !> Path; the folder above it must exist
+      character(len=*), intent(in) :: path
+      !> It was made
+      logical, intent(out) :: ok
+
+      integer(c_int), parameter :: everybody = int(o'777', c_int)
+
+      ok = c_mkdir(path//c_null_char, everybody) == 0
+   end subroutine make_folder
+
+   !> Remove an empty folder
+   subroutine remove_folder(path)
+      !> Path
+      character(len=*), intent(in) :: path
+
+      integer(c_int) :: stat
+
+      stat = c_rmdir(path//c_null_char)
+   end subroutine remove_folder
+
+   !> Give a file another name, in place of a file that has it
+   subroutine rename_file(from, to, ok)
+      !> Present path
+      character(len=*), intent(in) :: from
+      !> New path
+      character(len=*), intent(in) :: to
+      !> It has the new name
+      logical, intent(out) :: ok
+
+      ok = c_rename(from//c_null_char, to//c_null_char) == 0
+   end subroutine rename_file
+
+   !> Remove a file, if there is one
+   subroutine remove_file(path)
+      !> Path
+      character(len=*), intent(in) :: path
+
+      integer(c_int) :: stat
+
+      stat = c_unlink(path//c_null_char)
+   end subroutine remove_file
+
+   !> Is a path a folder that exists?
+   function is_folder(path)
+      !> Path
+      character(len=*), intent(in) :: path
+      !> It is
+      logical :: is_folder
+
+      inquire (file=path//'/.', exist=is_folder)
+   end function is_folder
+
+   !> Are two paths one file that exists?
+   function same_file(first, second)
+      !> A path
+      character(len=*), intent(in) :: first
+      !> Another
+      character(len=*), intent(in) :: second
+      !> They are
+      logical :: same_file
+
+      ! PATH_MAX of Linux and macOS is 4096 or less
+      integer, parameter :: room = 8192
+      character(kind=c_char, len=room) :: real_first, real_second
+
+      real_first = ''
+      real_second = ''
+      same_file = .false.
+      if (.not. c_associated(c_realpath(first//c_null_char, real_first))) return
+      if (.not. c_associated(c_realpath(second//c_null_char, real_second))) return
+      same_file = real_first(:index(real_first, c_null_char)) == real_second(:index(real_second, c_null_char))
+   end function same_file
+
+   !> Is standard error a terminal?
+   function stderr_is_terminal()
+      !> It is
+      logical :: stderr_is_terminal
+
+      integer(c_int), parameter :: standard_error = 2_c_int
+
+      stderr_is_terminal = c_isatty(standard_error) == 1
+   end function stderr_is_terminal
+
+   !> Open a file, emptied if it exists
+   subroutine open_writer(self, path, ok)
+      !> The file
+      class(writer_type), intent(inout) :: self
+      !> Path
+      character(len=*), intent(in) :: path
+      !> It can be written
+      logical, intent(out) :: ok
+
+      self%handle = c_fopen(path//c_null_char, 'w'//c_null_char)
+      ok = c_associated(self%handle)
+   end subroutine open_writer
+
+   !> Write a text
+   subroutine write_text(self, text, ok)
+      !> The file
+      class(writer_type), intent(inout) :: self
+      !> Text, with its line ends
+      character(len=*), intent(in) :: text
+      !> Set to false when it could not be written; left alone otherwise
+      logical, intent(inout) :: ok
+
+      integer(c_size_t) :: length
+
+      length = len(text, c_size_t)
+      if (c_fwrite(text, 1_c_size_t, length, self%handle) /= length) ok = .false.
+   end subroutine write_text
+
+   !> Close the file
+   subroutine close_writer(self, ok)
+      !> The file
+      class(writer_type), intent(inout) :: self
+      !> Set to false when what was written last did not reach the disk; left alone otherwise
+      logical, intent(inout) :: ok
+
+      if (c_fclose(self%handle) /= 0) ok = .false.
+      self%handle = c_null_ptr
+   end subroutine close_writer
+
+end module dondolo_system

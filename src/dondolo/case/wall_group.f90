@@ -1,0 +1,142 @@
+!> The group &wall, and the same variables by name, as the columns of a population have them.
+!>
+!> Ranges are checked where the wall is made (dondolo_wall), so that they hold for every user of it.
+module dondolo_wall_group
+   use dondolo_assignment, only : assignment_text
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist_group, only : group_type
+   use dondolo_wall, only : wall_input_type
+   implicit none
+   private
+
+   public :: read_wall, echo_wall, set_wall_text, set_wall_number
+   public :: wall_texts, wall_numbers, wall_variables
+
+   !> Variables that are texts
+   character(len=18), parameter :: wall_texts(3) = [character(len=18) :: 'name', 'mechanism', 'restitution']
+
+   !> Variables that are numbers
+   character(len=18), parameter :: wall_numbers(8) = [character(len=18) :: 'height', 'thickness', 'density', &
+      & 'hinge', 'restitution_value', 'restitution_factor', 'overburden', 'eccentricity']
+
+   !> All variables, in the order in which a user thinks of them
+   character(len=18), parameter :: wall_variables(11) = [character(len=18) :: 'name', 'mechanism', 'height', &
+      & 'thickness', 'density', 'hinge', 'restitution', 'restitution_value', 'restitution_factor', 'overburden', &
+      & 'eccentricity']
+
+contains
+
+   !> Read the group
+   subroutine read_wall(group, input, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> What is said of the wall
+      type(wall_input_type), intent(out) :: input
+      !> A variable that does not exist or has a value of the wrong type
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+      real(wp) :: number
+      integer :: i
+
+      call group%check_names(wall_variables, error)
+      if (allocated(error)) return
+      do i = 1, size(wall_texts)
+         if (.not. group%has(trim(wall_texts(i)))) cycle
+         call group%get_text(trim(wall_texts(i)), text, error)
+         if (allocated(error)) return
+         call set_wall_text(input, wall_texts(i), text)
+      end do
+      do i = 1, size(wall_numbers)
+         if (.not. group%has(trim(wall_numbers(i)))) cycle
+         number = 0.0_wp
+         call group%get_real(trim(wall_numbers(i)), number, error)
+         if (allocated(error)) return
+         call set_wall_number(input, wall_numbers(i), number)
+      end do
+   end subroutine read_wall
+
+   !> Set a variable that is a text
+   subroutine set_wall_text(input, name, value)
+      !> What is said of the wall
+      type(wall_input_type), intent(inout) :: input
+      !> One of wall_texts
+      character(len=*), intent(in) :: name
+      !> Value
+      character(len=*), intent(in) :: value
+
+      select case (name)
+      case ('name')
+         input%name = trim(value)
+      case ('mechanism')
+         input%mechanism = trim(value)
+      case ('restitution')
+         input%restitution = trim(value)
+      end select
+   end subroutine set_wall_text
+
+   !> Set a variable that is a number
+   subroutine set_wall_number(input, name, value)
+      !> What is said of the wall
+      type(wall_input_type), intent(inout) :: input
+      !> One of wall_numbers
+      character(len=*), intent(in) :: name
+      !> Value
+      real(wp), intent(in) :: value
+
+      select case (name)
+      case ('height')
+         input%height = value
+      case ('thickness')
+         input%thickness = value
+      case ('density')
+         input%density = value
+      case ('hinge')
+         input%hinge = value
+      case ('restitution_value')
+         input%restitution_value = value
+      case ('restitution_factor')
+         input%restitution_factor = value
+      case ('overburden')
+         input%overburden = value
+      case ('eccentricity')
+         input%eccentricity = value
+      end select
+   end subroutine set_wall_number
+
+   !> Write the group as namelist text with every value in force
+   subroutine echo_wall(input, lines)
+      !> What is said of the wall, defaults filled in
+      type(wall_input_type), intent(in) :: input
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      call lines%add('&wall '//assignment_text('name', input%name))
+      call lines%add('      '//assignment_text('mechanism', input%mechanism))
+      call lines%add('      '//assignment_text('height', input%height))
+      call lines%add('      '//assignment_text('thickness', input%thickness))
+      call lines%add('      '//assignment_text('density', input%density))
+      call echo_number('hinge', input%hinge)
+      call lines%add('      '//assignment_text('restitution', input%restitution))
+      call echo_number('restitution_value', input%restitution_value)
+      call echo_number('overburden', input%overburden)
+      call echo_number('eccentricity', input%eccentricity)
+      call lines%add('      '//assignment_text('restitution_factor', input%restitution_factor)//' /')
+
+   contains
+
+      !> Write a number that not every wall has
+      subroutine echo_number(name, value)
+         !> Name of the variable
+         character(len=*), intent(in) :: name
+         !> Its value
+         real(wp), allocatable, intent(in) :: value
+
+         if (allocated(value)) call lines%add('      '//assignment_text(name, value))
+      end subroutine echo_number
+
+   end subroutine echo_wall
+
+end module dondolo_wall_group

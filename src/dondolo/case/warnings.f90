@@ -1,0 +1,178 @@
+!> What a user should know of results that are correct but may mislead.
+module dondolo_warnings
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_record, only : record_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, rounded
+
+   !> A record scaled by more than this hardly is the earthquake it was
+   real(wp), parameter :: large_scale = 10.0_wp
+
+   !> What there is to say of scale factors
+   type :: scale_warning_type
+      !> Histories looked at
+      integer :: histories = 0
+      !> Histories with a large factor
+      integer :: large = 0
+      !> The largest factor
+      real(wp) :: largest = 0.0_wp
+      !> Its level
+      real(wp) :: level = 0.0_wp
+      !> Its record
+      character(len=:), allocatable :: record
+   contains
+      !> Look at the factors of a wall
+      procedure :: look
+      !> Warn, if there is reason to
+      procedure :: warn
+   end type scale_warning_type
+
+contains
+
+   !> Look at the factors of a wall
+   subroutine look(self, stripes, records)
+      !> What there is to say
+      class(scale_warning_type), intent(inout) :: self
+      !> Stripes of the wall
+      type(stripes_type), intent(in) :: stripes
+      !> Records
+      type(record_type), intent(in) :: records(:)
+
+      integer :: at(2)
+
+      self%histories = self%histories + size(stripes%scale)
+      self%large = self%large + count(stripes%scale > large_scale)
+      at = maxloc(stripes%scale)
+      if (stripes%scale(at(1), at(2)) <= self%largest) return
+      self%largest = stripes%scale(at(1), at(2))
+      self%level = stripes%levels(at(2))
+      self%record = records(stripes%record(at(1)))%name
+   end subroutine look
+
+   !> Warn, if there is reason to
+   subroutine warn(self, warnings)
+      !> What there is to say
+      class(scale_warning_type), intent(in) :: self
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      if (self%large > 0) call warnings%add('scale factors above '//to_text(large_scale)//' in '// &
+         & to_text(self%large)//' of '//to_text(self%histories)//' histories, the largest '//rounded(self%largest)// &
+         & ' (record '''//self%record//''' at level '//to_text(self%level)//')')
+   end subroutine warn
+
+   !> Warn of records without motion
+   subroutine warn_of_records(records, warnings)
+      !> Records
+      type(record_type), intent(in) :: records(:)
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      integer :: i
+
+      do i = 1, size(records)
+         if (.not. records(i)%pga() > 0.0_wp) call warnings%add('record '''//records(i)%name// &
+            & ''' has a PGA of 0: it cannot be scaled and moves no wall')
+      end do
+   end subroutine warn_of_records
+
+   !> Warn of the curve of one wall
+   subroutine warn_of_fit(wall, stripes, fragility, warnings)
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Its stripes
+      type(stripes_type), intent(in) :: stripes
+      !> Its curve
+      type(fragility_type), intent(in) :: fragility
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      character(len=:), allocatable :: levels, none
+      real(wp) :: largest
+
+      levels = to_text(stripes%levels(1))//' to '//to_text(stripes%levels(size(stripes%levels)))
+      if (size(stripes%levels) == 1) levels = to_text(stripes%levels(1))
+      none = ', no curve is fitted: '
+      largest = maxval(stripes%response%edp)
+      select case (fragility%status)
+      case ('no_collapse')
+         if (largest > 0.0_wp) then
+            call warnings%add('no collapse at levels '//levels//none//'the largest EDP is '//rounded(largest)// &
+               & ', higher levels are needed')
+         else
+            call warnings%add('no motion at levels '//levels//none//'the wall begins to rock at '// &
+               & rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g, higher levels are needed')
+         end if
+      case ('all_collapse')
+         call warnings%add('every history collapses at levels '//levels//none//'lower levels are needed')
+      case ('single_level')
+         call warnings%add('only one level, '//levels//none//'two at least are needed')
+      case ('decreasing')
+         call warnings%add('collapses do not become more frequent with the level'//none// &
+            & 'their trend is flat or falling')
+      case ('separated')
+         call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
+            & 'the median lies between '//to_text(fragility%bracket(1))//' and '//to_text(fragility%bracket(2))// &
+            & ', more levels there are needed')
+      case ('extrapolated')
+         call warnings%add('theta = '//rounded(fragility%theta)//' lies outside the levels '//levels// &
+            & ': the fit extrapolates')
+      end select
+   end subroutine warn_of_fit
+
+   !> Warn of the curves of a population, and of the one fitted to all
+   subroutine warn_of_fits(walls, fragility, typology, warnings)
+      !> The walls
+      type(wall_type), intent(in) :: walls(:)
+      !> Their curves
+      type(fragility_type), intent(in) :: fragility(:)
+      !> The curve fitted to all
+      type(fragility_type), intent(in) :: typology
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      character(len=12), parameter :: status(6) = [character(len=12) :: 'no_collapse', 'all_collapse', 'separated', &
+         & 'single_level', 'decreasing', 'extrapolated']
+      character(len=:), allocatable :: consequence
+      integer :: i, number, first
+
+      do i = 1, size(status)
+         number = count(fragility%status == status(i))
+         if (number == 0) cycle
+         first = findloc(fragility%status == status(i), .true., dim=1)
+         consequence = 'have no fit and take part with their fractions of collapse'
+         if (status(i) == 'extrapolated') consequence = 'have a median outside the levels'
+         call warnings%add(to_text(number)//' of '//to_text(size(walls))//' walls '//consequence//' ('// &
+            & trim(status(i))//'; the first is '''//walls(first)%input%name//''')')
+      end do
+      if (.not. typology%has_fit()) then
+         call warnings%add('the population as a whole has no fit ('//trim(typology%status)//')')
+      else if (typology%status == 'extrapolated') then
+         call warnings%add('the median of the population, '//rounded(typology%theta)// &
+            & ', lies outside the levels: the fit extrapolates')
+      end if
+   end subroutine warn_of_fits
+
+   !> A number with four significant digits, for people
+   pure function rounded(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=24) :: buffer
+      real(wp) :: short
+
+      write (buffer, '(es24.3e4)') value
+      read (buffer, *) short
+      text = to_text(short)
+   end function rounded
+
+end module dondolo_warnings

@@ -1,0 +1,543 @@
+#!/usr/bin/env bash
+# The executable as its users meet it: bash test/executable.sh PATH/TO/dondolo
+# Ready cases, templates and options must work; every wrong input must give one line, exit code 2 and no file.
+set -uo pipefail
+
+if [ $# -ne 1 ] || [ ! -x "$1" ]; then
+   echo "usage: executable.sh PATH/TO/dondolo" >&2
+   exit 2
+fi
+exe=$(realpath "$1")
+root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0 failed=0
+
+# check WHAT COMMAND...: the command must succeed
+check() {
+   local what=$1
+   shift
+   if "$@" >/dev/null 2>&1; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1))
+      echo "FAILED  $what"
+   fi
+}
+
+equal() { [ "$1" = "$2" ] || { echo "'$1' should be '$2'"; return 1; }; }
+contains() { grep -qF -- "$2" "$1"; }
+lacks() { ! contains "$@"; }
+# Rows of a result file under its header, and its header
+rows() { grep -vc '^#' "$1" | awk '{ print $1 - 1 }'; }
+header() { grep -v '^#' "$1" | head -n 1; }
+# The files of a folder, and what is in them
+listing() { find . -type f -o -type l -o -type d | sort; }
+
+# run ARGUMENTS...: sets rc, output in ../stdout and ../stderr
+run() {
+   timeout 300 "$exe" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null
+   rc=$?
+}
+
+# Four short records of growing strength, one of them without units and step in the catalogue
+records() {
+   mkdir -p records
+   for i in 1 2 3 4; do
+      awk -v n="$i" 'BEGIN { for (k = 0; k < 400; k++) {
+         t = 0.01 * k; printf "%.6f\n", (1 + n) * sin(2 * 3.14159265 * (0.5 + 0.3 * n) * t) * exp(-(t - 2) ^ 2) } }' \
+         >"records/r$i.txt"
+   done
+   cat >records/records.csv <<'CSV'
+file,dt_s,units,place
+r1.txt,0.01,m/s2,here
+r2.txt,0.01,m/s2,"here, too"
+r3.txt,0.01,m/s2,here
+r4.txt,0.01,m/s2,here
+CSV
+}
+
+# The case that the wrong ones are made of
+good_case() {
+   cat <<'NML'
+! a wall
+&job
+   task = 'stripes'
+   title = 'It''s a wall'
+   output = 'out/deep/wall'
+   threads = 2
+/
+&wall
+   name = 'wall, one'
+   mechanism = 'one_sided'
+   height = 3.0
+   thickness = 0.25
+/
+&records
+   catalogue = 'records/records.csv'
+   polarity = 'both'
+/
+&stripes
+   im = 'pga'
+   levels = 0.1, 0.2, 0.4,
+            0.6, 1.0
+/
+&solver
+   engine = 'auto'
+   rtol = 1.0e-8, atol = 1.0e-10
+   edp_limit = 1.0
+   gravity = 9.81
+/
+NML
+}
+
+population_case() {
+   cat <<'NML'
+&job task = 'typology', output = 'out/people' /
+&population file = 'walls.csv' /
+&records catalogue = 'records/records.csv' /
+&stripes levels = 0.1, 0.2, 0.4, 0.8 /
+NML
+}
+
+population() {
+   cat <<'CSV'
+name,mechanism,height,thickness,hinge,restitution_factor,weight
+a,one_sided,3.0,0.25,,,2
+"b ""b""",two_block,3.0,0.25,0.6,0.87,
+CSV
+}
+
+records
+
+# --- a case of each task -------------------------------------------------------------------------------------------
+
+good_case >good.nml
+run good.nml
+check "stripes: exit code" equal "$rc" 0
+check "stripes: files" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_fragility.csv wall_histories.csv wall_stripes.csv wall_walls.csv "
+check "stripes: header of walls" equal "$(header out/deep/wall_walls.csv)" \
+   "wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,restitution_factor,\
+overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight"
+check "stripes: header of histories" equal "$(header out/deep/wall_histories.csv)" \
+   "wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s"
+check "stripes: header of stripes" equal "$(header out/deep/wall_stripes.csv)" \
+   "wall,mechanism,im,im_level,histories,collapses,fraction"
+check "stripes: header of fragility" equal "$(header out/deep/wall_fragility.csv)" \
+   "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high"
+check "stripes: rows of walls" equal "$(rows out/deep/wall_walls.csv)" 1
+check "stripes: rows of histories" equal "$(rows out/deep/wall_histories.csv)" 40
+check "stripes: rows of stripes" equal "$(rows out/deep/wall_stripes.csv)" 5
+check "stripes: rows of fragility" equal "$(rows out/deep/wall_fragility.csv)" 1
+check "stripes: a name with a comma is quoted" contains out/deep/wall_walls.csv '"wall, one",one_sided,3.0000000000000000E+00,'
+check "stripes: frequency parameter" contains out/deep/wall_walls.csv ',2.210895054992'
+check "stripes: version in the head" contains out/deep/wall_walls.csv '# dondolo '
+check "stripes: compiler in the head" contains out/deep/wall_walls.csv '# compiler: '
+check "stripes: title in the head" contains out/deep/wall_walls.csv "title = 'It''s a wall'"
+check "stripes: levels in the head" contains out/deep/wall_walls.csv 'levels = 0.1, 0.2, 0.4, 0.6, 1 /'
+check "stripes: tolerances in the head" contains out/deep/wall_walls.csv 'rtol = 1e-8, atol = 1e-10'
+check "stripes: collapses of the tables agree" equal \
+   "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, 'NR > 1 { s += $(NF - 2) } END { print s }')" \
+   "$(grep -v '^#' out/deep/wall_stripes.csv | awk -F, 'NR > 1 { s += $(NF - 1) } END { print s }')"
+check "stripes: a collapsed history has the limit as EDP" equal \
+   "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, '$(NF - 2) == 1 && $(NF - 3) != 1 { n++ } END { print n + 0 }')" 0
+check "stripes: some history collapses, some survives" test \
+   "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, '$(NF - 2) == 1' | wc -l)" -gt 0
+check "stripes: both polarities" equal "$(grep -c ',reversed,' out/deep/wall_histories.csv)" 20
+check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
+check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
+check "stripes: no escape sequence where there is no terminal" lacks stderr $'\033'
+run --quiet good.nml
+check "quiet: exit code" equal "$rc" 0
+check "quiet: no output" equal "$(cat stdout)" ""
+
+sed '/threads/d' good.nml >free.nml
+OMP_NUM_THREADS=1 timeout 300 "$exe" free.nml >stdout 2>stderr
+check "OMP_NUM_THREADS is honoured" contains stdout 'a second on 1 thread'
+run good.nml
+check "threads of the case" contains stdout 'a second on 2 threads'
+run good.nml --threads 1
+check "threads of the command line" contains stdout 'a second on 1 thread'
+mkdir one two
+(cd one && ln -s ../records . && cp ../good.nml . && "$exe" --quiet --threads 1 good.nml) 2>/dev/null
+(cd two && ln -s ../records . && cp ../good.nml . && "$exe" --quiet --threads=2 good.nml) 2>/dev/null
+check "same bytes from one thread and two" diff -r one two
+check "same bytes from one thread and two: there are files" test -s one/out/deep/wall_histories.csv
+rm -rf one two out
+
+sed -e "s/levels = .*/first = 0.4, last = 1.0, count = 4/; /0.6, 1.0/d" good.nml >grid.nml
+run grid.nml
+check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1 /'
+rm -rf out
+
+population_case >people.nml
+population >walls.csv
+run people.nml
+check "typology: exit code" equal "$rc" 0
+check "typology: files" equal "$(ls out | tr '\n' ' ')" \
+   "people_fragility.csv people_stripes.csv people_typology.csv people_walls.csv "
+check "typology: header" equal "$(header out/people_typology.csv)" \
+   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status"
+check "typology: rows" equal "$(rows out/people_typology.csv)" 4
+check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
+check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
+check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR == 2 { print $4 + 0 }')" 3
+check "typology: mechanisms" contains out/people_typology.csv 'several,pga,'
+check "typology: mean fraction" equal \
+   "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR > 1 { printf "%.9f ", $5 }')" \
+   "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $NF / 3 }
+      END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
+rm -rf out
+
+{ good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/"; echo "&history record = 'r3', im_level = 0.15 /"; } >history.nml
+run history.nml
+check "history: exit code" equal "$rc" 0
+check "history: files" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+check "history: header" equal "$(header out/deep/wall_history.csv)" \
+   "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp"
+check "history: rows" test "$(rows out/deep/wall_history.csv)" -gt 400
+check "history: scaled to the level" equal \
+   "$(grep -v '^#' out/deep/wall_history.csv | awk -F, 'NR > 1 { a = $2 < 0 ? -$2 : $2; if (a > m) m = a } END { printf "%.6f", m }')" 1.471500
+check "history: reversed" equal \
+   "$(grep -v '^#' out/deep/wall_history.csv | awk -F, 'NR == 150 { print ($2 < 0) }')" \
+   "$(awk 'NR == 149 { print ($1 > 0) }' records/r3.txt)"
+sed "s/record = 'r3', im_level = 0.15/record = 3, scale = 1/" history.nml >history2.nml
+run history2.nml
+check "history by number: exit code" equal "$rc" 0
+sed "s/'history'/'stripes'/" history.nml >both.nml
+run both.nml
+check "history group in a stripes case" equal "$rc" 0
+rm -rf out
+
+printf '\xef\xbb\xbf%s' "$(sed 's/$/\r/' good.nml)" >dos.nml
+run dos.nml
+check "CRLF and byte order mark" equal "$rc" 0
+printf "&JOB OUTPUT='o' &END\n&Wall MECHANISM=\"one_sided\" Height=3 thickness=2.5d-1/\n&records catalogue='records/records.csv'/ &stripes levels=.2 .4 .8 /" >terse.nml
+run terse.nml
+check "capitals, &end, blanks between values, no line end" equal "$rc" 0
+rm -f o_*
+
+# --- ready cases and templates -------------------------------------------------------------------------------------
+
+for case in "$root"/data/cases/*.nml; do
+   run "$case"
+   check "$(basename "$case"): exit code" equal "$rc" 0
+   name=$(basename "$case" .nml)
+   check "$name: walls" test -s "out/${name}_walls.csv"
+done
+rm -rf out
+mkdir template
+ln -s "$root/data" template/data
+cd template || exit 1
+for task in stripes history typology; do
+   run --template $task
+   cp ../stdout "$task.nml"
+   check "template $task: has its task" contains "$task.nml" "task = '$task'"
+   run "$task.nml"
+   check "template $task: runs as it is" equal "$rc" 0
+   check "template $task: results" test -s "out/${task}_walls.csv"
+done
+run --template
+check "template without a task" diff ../stdout stripes.nml
+cat ./*.nml >all
+for variable in task title output threads name mechanism height thickness density hinge restitution \
+   restitution_value restitution_factor overburden eccentricity file catalogue polarity im levels first last count \
+   engine rtol atol edp_limit gravity record scale im_level; do
+   check "template: $variable" grep -qE "(^|[ ,])$variable = " all
+done
+# Every default that a template shows is the one in force: a case that leaves it out has the same echo
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|gravity) = /d' \
+   stripes.nml >short.nml
+run --quiet stripes.nml
+cp out/stripes_fragility.csv long.csv
+run --quiet short.nml
+check "template: defaults are the ones in force" diff out/stripes_fragility.csv long.csv
+sed -E "/^ *(record|scale) = /d" history.nml >short.nml
+run --quiet history.nml
+cp out/history_history.csv long.csv
+run --quiet short.nml
+check "template: defaults of history" diff out/history_history.csv long.csv
+cd "$work" || exit 1
+rm -rf template
+
+# --- options -------------------------------------------------------------------------------------------------------
+
+run --help
+check "help: exit code" equal "$rc" 0
+for option in --check --template --threads --quiet --version --help; do
+   check "help: $option" contains stdout -- "$option"
+done
+run --version
+check "version: exit code" equal "$rc" 0
+check "version: as in fpm.toml" equal "$(cat stdout)" "dondolo $(sed -n 's/^version = "\(.*\)"/\1/p' "$root/fpm.toml")"
+before=$(listing)
+run good.nml --check
+check "check: exit code" equal "$rc" 0
+check "check: writes nothing" equal "$(listing)" "$before"
+check "check: wall" contains stdout 'one_sided'
+check "check: records" contains stdout 'r4'
+check "check: histories" contains stdout '40 histories'
+check "check: scale" contains stdout 'largest scale factor'
+run --check history.nml
+check "check: history" contains stdout "one history: record 'r3'"
+run --check people.nml
+check "check: population" contains stdout '32 histories'
+
+# refused WHAT PART ARGUMENTS...: exit code 2, one line with a part, no output, no file
+refused() {
+   local what=$1 part=$2 before
+   shift 2
+   before=$(listing)
+   run "$@"
+   check "$what: exit code $rc" equal "$rc" 2
+   check "$what: one line: $(cat stderr)" equal "$(wc -l <stderr)" 1
+   check "$what: begins with the program" grep -q '^dondolo: ' stderr
+   check "$what: says '$part', not: $(cat stderr)" contains stderr "$part"
+   check "$what: no output" equal "$(cat stdout)" ""
+   check "$what: no file" equal "$(listing)" "$before"
+}
+
+refused "no argument" 'no case given: dondolo CASE.nml'
+refused "unknown option" '--fast: no such option; there are --check' --fast good.nml
+refused "unknown short option" '-q: no such option' -q good.nml
+refused "two cases" 'people.nml: one case at a time, good.nml was given before' good.nml people.nml
+refused "threads without a number" '--threads: a number must follow' good.nml --threads
+refused "threads with a word" '--threads many: must be a whole number between 0 (all) and 1024' --threads many good.nml
+refused "negative threads" '--threads -1: must be a whole number' --threads -1 good.nml
+refused "empty threads" '--threads : must be a whole number' --threads= good.nml
+refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
+refused "two actions" '--version: cannot go together with --check' --check --version
+refused "template with a case" '--template takes no case' good.nml --template
+refused "no such case" 'none.nml: no such file' none.nml
+refused "a folder for a case" 'records: is a folder, must be a namelist file' records
+: >empty.nml
+refused "empty file" 'empty.nml: the file is empty' empty.nml
+echo '! nothing' >comment.nml
+refused "only a comment" 'comment.nml: no group' comment.nml
+head -c 3000 /dev/urandom >noise.nml
+check "noise: exit code" equal "$(run noise.nml; echo $rc)" 2
+refused "an accelerogram for a case" 'stands outside a group: must be &name ... /' records/r1.txt
+
+# --- wrong cases: what is changed (sed), what must be said ---------------------------------------------------------
+
+touch bad.nml
+bad() {
+   good_case | sed -E -e "$1" >bad.nml
+   refused "$1" "$2" bad.nml
+}
+while IFS='|' read -r change part; do
+   [ -n "$change" ] && bad "$change" "$part"
+done <<'TABLE'
+s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &population
+s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
+s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
+s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'threads'
+s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are 'engine', 'rtol'
+s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
+s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
+s/thickness = 0.25/thickness = 0.25 height = 2/|bad.nml: &wall: height: given twice, in lines 11 and 12
+s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0
+s/height = 3.0/height = 3.0 4.0/|bad.nml: &wall: height = 3.0, 4.0: must be one value, not 2
+s/height = 3.0/height = '3.0'/|bad.nml: &wall: height = '3.0': must be a number without quotes
+s/height = 3.0/height = tall/|bad.nml: &wall: height = tall: must be a number, such as 0.25
+s/height = 3.0/height = 3m/|bad.nml: &wall: height = 3m: must be a number
+s/height = 3.0/height = nan/|bad.nml: &wall: height = nan: must be a number
+s/height = 3.0/height = inf/|bad.nml: &wall: height = inf: must be a number
+s/height = 3.0/height = +Infinity/|bad.nml: &wall: height = +Infinity: must be a number
+s/height = 3.0/height = 1e400/|bad.nml: &wall: height = 1e400: must be a number that the computer can hold
+s/height = 3.0/height = 1e4/|bad.nml: &wall: height = 10000: must be at most 1000
+s/height = 3.0/height = -3.0/|bad.nml: &wall: height = -3: must be positive
+s/height = 3.0/height = 0/|bad.nml: &wall: height = 0: must be positive
+s/height = 3.0/height =/|bad.nml: &wall: height (line 11): no value follows its =
+s/height = 3.0/height = ,/|bad.nml: &wall: height (line 11): a value is missing before a comma
+s/height = 3.0/height 3.0/|bad.nml: &wall: mechanism = 'one_sided', height, 3.0: must be one value, not 3; is an = missing in line 11?
+s/height = 3.0/height == 3.0/|bad.nml: &wall: height (line 11): a second = follows it
+s/height = 3.0/height = 1*3.0/|bad.nml: &wall: height (line 11): 1*3.0: repeat counts are not allowed
+s/height = 3.0/height(1) = 3.0/|bad.nml: &wall: height(1) (line 11): subscripts are not allowed
+s/height = 3.0/= 3.0/|bad.nml: &wall: mechanism (line 10): a second = follows it
+s/^.*height = 3.0//|bad.nml: &wall: height: must be given
+s/^.*thickness = .*//|bad.nml: &wall: thickness: must be given
+s/^.*mechanism = .*//|bad.nml: &wall: mechanism: must be given, one of 'one_sided', 'free_standing', 'two_block'
+s/one_sided/two_sided/|bad.nml: &wall: mechanism = 'two_sided': must be one of 'one_sided', 'free_standing', 'two_block'
+s/'one_sided'/one_sided/|bad.nml: &wall: mechanism = one_sided: must be text in quotes, such as 'one_sided'
+s/'one_sided'/1/|bad.nml: &wall: mechanism = 1: must be text in quotes
+s/thickness = 0.25/thickness = -0.25/|bad.nml: &wall: thickness = -0.25: must be positive
+s/thickness = 0.25/thickness = 0.25 density = 0/|bad.nml: &wall: density = 0: must be positive
+s/thickness = 0.25/thickness = 0.25 hinge = 0.5/|bad.nml: &wall: hinge = 0.5: only for mechanism = 'two_block'
+s/thickness = 0.25/thickness = 0.25 overburden = 10/|bad.nml: &wall: overburden = 10: only for mechanism = 'two_block'
+s/thickness = 0.25/thickness = 0.25 eccentricity = 0.1/|bad.nml: &wall: eccentricity = 0.1: only for mechanism
+s/one_sided'/two_block' hinge = 1/|bad.nml: &wall: hinge = 1: must lie between 0.01 and 0.99
+s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9
+s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
+s/one_sided'/one_sided' restitution = 'impulse'/|bad.nml: &wall: restitution = 'impulse': must be one of
+s/one_sided'/one_sided' restitution = 'constant'/|bad.nml: &wall: restitution_value: must be given with
+s/one_sided'/one_sided' restitution_value = 0.5/|bad.nml: &wall: restitution_value = 0.5: only with restitution
+s/one_sided'/one_sided' restitution = 'constant' restitution_value = 1/|bad.nml: &wall: restitution_value = 1: must be at least 0
+s/one_sided'/one_sided' restitution_factor = 3/|bad.nml: &wall: restitution_factor = 3: makes the speed ratio
+s/task = 'stripes'/task = 'stripe'/|bad.nml: &job: task = 'stripe': must be one of 'history', 'stripes', 'typology'
+s/task = 'stripes'/task = ''/|bad.nml: &job: task = '': must be one of
+s/task = 'stripes'/task = 'typology'/|bad.nml: &population: must be given for task = 'typology'
+s/threads = 2/threads = 2.0/|bad.nml: &job: threads = 2.0: must be a whole number
+s/threads = 2/threads = '2'/|bad.nml: &job: threads = '2': must be a whole number without quotes
+s/threads = 2/threads = -1/|bad.nml: &job: threads = -1: must lie between 0 (all) and 1024
+s/threads = 2/threads = 5000/|bad.nml: &job: threads = 5000: must lie between 0 (all) and 1024
+s/threads = 2/threads = 99999999999/|bad.nml: &job: threads = 99999999999: must be a whole number of at most 2147483647
+s/output = .*/output = ''/|bad.nml: &job: output = '': must not be empty
+s/output = .*/output = 'out\/'/|bad.nml: &job: output = 'out/': must end in the beginning of a file's name
+s/output = .*/output = 'good.nml\/x'/|bad.nml: &job: output = 'good.nml/x': the folder good.nml/ cannot be made
+s/output = .*/output = '\/proc\/x\/y'/|bad.nml: &job: output = '/proc/x/y': the folder /proc/x/ cannot be made
+s/output = .*/output = '\/proc\/y'/|bad.nml: &job: output = '/proc/y': the file /proc/y_histories.csv.part cannot be written
+s/'It''s a wall'/'It's a wall'/|bad.nml: line 4: the quote before
+s/name = 'wall, one'/name = 'wall, one/|bad.nml: line 9: the quote before 'wall, one' is not closed on its line
+s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: paths and other texts must stand in quotes
+s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'records/none.csv': there is no file records/none.csv
+s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
+s/'records.records.csv'/''/|bad.nml: &records: catalogue = '': must name a CSV table
+s/^ *catalogue.*//|bad.nml: &records: catalogue: must be given
+s/'both'/'backwards'/|bad.nml: &records: polarity = 'backwards': must be one of 'as_recorded', 'reversed', 'both'
+s/'records.records.csv'/'good.nml'/|good.nml: 
+s/'pga'/'pgx'/|bad.nml: &stripes: im = 'pgx': must be one of 'pga'
+s/0.1, 0.2/0.2, 0.1/|bad.nml: &stripes: levels = 0.2, 0.1: must increase strictly
+s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly
+s/0.1, 0.2/-0.1, 0.2/|bad.nml: &stripes: levels = -0.1: must be positive
+s/0.1, 0.2/0.1,, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
+s/0.1, 0.2/, 0.1, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
+s/0.1, 0.2/0,1, 0,2/|bad.nml: &stripes: levels = 0, 1, 0, 2, 0.4, 0.6, ...: a decimal point is needed, such as 0.1
+s/0.1, 0.2/0.1, 0.2g/|bad.nml: &stripes: levels: value 2 = 0.2g: must be a number
+s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number
+s/0.1, 0.2/0.1, '0.2'/|bad.nml: &stripes: levels: value 2 = '0.2': must be a number without quotes
+s/0.6, 1.0/0.6, 1e6/|bad.nml: &stripes: levels = 1000000: scales record 'r1' beyond 10000 m/s2
+s/im = 'pga'/im = 'pga' first = 0.1/|bad.nml: &stripes: last: must be given: first, last and count belong together
+s/im = 'pga'/im = 'pga' first = 0.1, last = 0.5, count = 5/|bad.nml: &stripes: levels: give either levels or first, last and count
+s/levels.*/first = 0.1, last = 0.5, count = 1/;/0.6, 1.0/d|bad.nml: &stripes: count = 1: must lie between 2 and 1000
+s/levels.*/first = 0.1, last = 0.5, count = 2000000000/;/0.6, 1.0/d|bad.nml: &stripes: count = 2000000000: must lie between 2 and 1000
+s/levels.*/first = 0.5, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: last = 0.1: must be greater than first = 0.5
+s/levels.*/first = 0, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: first = 0: must be positive
+s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given
+s/'auto'/'rk4'/|bad.nml: &solver: engine = 'rk4': must be one of 'auto', 'rk45'
+s/rtol = 1.0e-8/rtol = 1/|bad.nml: &solver: rtol = 1: must lie between
+s/rtol = 1.0e-8/rtol = 1.0d-400/|bad.nml: &solver: rtol = 
+s/atol = 1.0e-10/atol = 0/|bad.nml: &solver: atol = 0: must be positive
+s/edp_limit = 1.0/edp_limit = 0/|bad.nml: &solver: edp_limit = 0: must be positive
+s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
+s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2
+s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81
+s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8): not for task = 'stripes', which takes &wall
+8,13d|bad.nml: &wall: must be given for task = 'stripes'
+14,17d|bad.nml: &records: catalogue: must be given
+18,22d|bad.nml: &stripes: levels: must be given
+13d|bad.nml: &wall: not closed: a / must stand before &records in line 13
+$d|bad.nml: &solver: not closed: a / must stand at its end
+s/^! a wall/a wall/|bad.nml: line 1: a stands outside a group: must be &name ... /
+s/^&wall/\& wall/|bad.nml: line 8: an & without the name of a group
+s/^   threads = 2/   2 = threads/|bad.nml: &job: output (line 5): a second = follows it
+s/^   threads = 2/   ,, threads = 2/|bad.nml: &job: output (line 5): a value is missing before a comma
+s/^(&stripes)/\&history record = 5 \/\n\1/|bad.nml: &history: record = 5: must lie between 1 and 4, the number of records
+s/^(&stripes)/\&history record = 0 \/\n\1/|bad.nml: &history: record = 0: must lie between 1 and 4
+s/^(&stripes)/\&history record = 'r9' \/\n\1/|bad.nml: &history: record = 'r9': no such record; there are 'r1', 'r2', 'r3', 'r4'
+s/^(&stripes)/\&history record = 1.5 \/\n\1/|bad.nml: &history: record = 1.5: must be a whole number
+s/^(&stripes)/\&history scale = 1, im_level = 2 \/\n\1/|bad.nml: &history: im_level: give either scale or im_level
+s/^(&stripes)/\&history scale = -1 \/\n\1/|bad.nml: &history: scale = -1: must be positive
+s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: must be positive
+s/task = 'stripes'/task = 'history'/|bad.nml: &records: polarity = 'both': must be 'as_recorded' or 'reversed' for task = 'history'
+s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale = 1e9 \//|bad.nml: &history: the scale 1000000000 makes record 'r1' exceed 10000 m/s2
+TABLE
+
+# Output that would replace or hide what is there
+mkdir -p taken_walls.csv
+bad "s/output = .*/output = 'taken'/" "bad.nml: &job: output = 'taken': the result file taken_walls.csv is a folder"
+rmdir taken_walls.csv
+population >mine_walls.csv
+population_case | sed "s/walls.csv/mine_walls.csv/; s/out.people/mine/" >mine.nml
+refused "output over the population" "mine.nml: &job: output = 'mine': the result file mine_walls.csv would replace a file" \
+   mine.nml
+rm mine_walls.csv mine.nml
+
+# --- wrong catalogues and records ----------------------------------------------------------------------------------
+
+touch records/bad.csv
+catalogue() {
+   printf '%b' "$2" >records/bad.csv
+   good_case | sed "s/records.csv/bad.csv/" >bad.nml
+   refused "catalogue: $1" "$3" bad.nml
+}
+catalogue "a record that is not there" 'file,dt_s,units\nnone.txt,0.01,g\n' 'records/bad.csv: line 2: records/none.txt'
+catalogue "no column file" 'name,dt_s,units\nr1.txt,0.01,g\n' "records/bad.csv: no column 'file'"
+catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
+catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
+catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
+catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1' stands there twice"
+printf '1\n2\nx\n' >records/broken.txt
+catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
+rm records/broken.txt records/bad.csv
+touch records/bad.csv
+
+# --- wrong populations ---------------------------------------------------------------------------------------------
+
+people() {
+   printf '%b' "$2" >walls.csv
+   refused "population: $1" "$3" people.nml
+}
+head='name,mechanism,height,thickness,weight\n'
+people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
+   "walls.csv: column 'heigth': no such column; there are 'name', 'mechanism', 'height'"
+people "no walls" "$head" 'walls.csv: no walls under the header'
+people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
+   "walls.csv: line 3: name = 'a': another wall has this name"
+people "a negative weight" "${head}a,one_sided,3,0.3,-1\n" 'walls.csv: line 2: weight = -1: must not be negative'
+people "no weight at all" "${head}a,one_sided,3,0.3,0\n" 'walls.csv: weight: must be positive for at least one wall'
+people "a word for a number" "${head}a,one_sided,tall,0.3,1\n" "walls.csv: line 2: height = 'tall': must be a number"
+people "nan" "${head}a,one_sided,3,nan,1\n" "walls.csv: line 2: thickness = 'nan': must be a number"
+people "an empty cell that is required" "${head}a,one_sided,,0.3,1\n" 'walls.csv: line 2: height: must be given'
+people "a negative thickness" "${head}\n# a comment\na,one_sided,3,-0.3,1\n" \
+   'walls.csv: line 4: thickness = -0.3: must be positive'
+people "unknown mechanism" "${head}a,arch,3,0.3,1\n" "walls.csv: line 2: mechanism = 'arch': must be one of"
+people "a row too short" "${head}a,one_sided,3\n" 'walls.csv: line 2: 3 cells: must be 5'
+people "semicolons" 'name;mechanism\na;one_sided\n' 'walls.csv: line 1'
+people "an empty file" '' 'walls.csv: the file is empty'
+rm walls.csv
+refused "population: no file" "people.nml: &population: file = 'walls.csv': there is no file walls.csv" people.nml
+population_case | sed "s/file = .*/ \//" >bad.nml
+refused "population: file not given" 'bad.nml: &population: file: must be given' bad.nml
+{ population_case; echo "&wall mechanism = 'one_sided' /"; } >bad.nml
+refused "population and a wall" "bad.nml: &wall (line 5): not for task = 'typology', which takes &population" bad.nml
+
+# --- failures while running ----------------------------------------------------------------------------------------
+
+if [ -c /dev/full ]; then
+   mkdir -p out/deep
+   ln -s /dev/full out/deep/wall_histories.csv.part
+   run good.nml
+   check "full disk: exit code" equal "$rc" 1
+   check "full disk: one line" equal "$(wc -l <stderr)" 1
+   check "full disk: says so" contains stderr 'dondolo: out/deep/wall_histories.csv: cannot be written whole: is the disk full?'
+   check "full disk: no file left" equal "$(find out -type f -o -type l)" ""
+   rm -rf out
+fi
+
+# --- warnings ------------------------------------------------------------------------------------------------------
+
+# warned CHANGE PART: the case runs, and warns on stderr and in the results
+warned() {
+   good_case | sed -E -e "$1" >warn.nml
+   run warn.nml
+   check "warning, $1: exit code" equal "$rc" 0
+   check "warning, $1: $2, not: $(cat stderr)" grep -q "^dondolo: warning: .*$2" stderr
+   check "warning, $1: in the results" grep -q "^# warning: .*$2" out/deep/wall_fragility.csv
+   rm -rf out
+}
+warned 's/0.6, 1.0/0.6, 5.0/' 'scale factors above 10 in 6 of 40 histories, the largest 25'
+warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at 0.08333 g'
+warned 's/levels.*/levels = 0.09, 0.1/;/0.6, 1.0/d' 'no collapse at levels 0.09 to 0.1'
+warned 's/levels.*/levels = 2, 3/;/0.6, 1.0/d;s/height = 3.0/height = 1.0/;s/0.25/0.05/' 'every history collapses at levels 2 to 3'
+awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
+cp records/records.csv records/bad.csv
+echo 'still.txt,0.01,g,here' >>records/bad.csv
+warned 's/records.csv/bad.csv/' "record 'still' has a PGA of 0"
+good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/; s/records.csv/bad.csv/; \$s/\$/\n\&history record = 5, im_level = 1 \//" >bad.nml
+refused "a record without motion to a level" "bad.nml: &history: im_level = 1: record 'still' has a pga of 0" bad.nml
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

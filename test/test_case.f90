@@ -1,0 +1,357 @@
+!> Tests of the room case: the namelist reader, the groups, the echo, and what a run gives.
+program test_case
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_case, only : case_type, read_case
+   use dondolo_error, only : error_type, status_input
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist, only : namelist_type, read_namelist
+   use dondolo_namelist_group, only : group_type
+   use dondolo_population, only : population_type, read_population
+   use dondolo_reports, only : check_reports, write_reports
+   use dondolo_run_case, only : results_type, run_case
+   use dondolo_system, only : is_folder, same_file
+   use dondolo_text, only : to_text
+   implicit none
+
+   character(len=*), parameter :: scratch = 'build/test_case', lf = new_line('a')
+
+   !> A catalogue of two records, a case of each task
+   character(len=*), parameter :: records = "&records catalogue = 'records.csv' polarity = 'reversed' /"//lf
+   character(len=*), parameter :: wall = "&wall mechanism = 'two_block', height = 3, thickness = 0.25, "// &
+      & "restitution = 'constant', restitution_value = 0.9, name = 'it''s' /"//lf
+   character(len=*), parameter :: stripes_case = "&job output = '"//scratch//"/out/x' title = 'two words' /"//lf// &
+      & wall//records//"&stripes levels = 0.3, 0.5, 1 /"//lf//"&solver rtol = 1e-7 edp_limit = 0.9 /"
+   character(len=*), parameter :: history_case = "&job task = 'history' output = '"//scratch//"/out/y' /"//lf//wall// &
+      & records//"&history record = 'two', im_level = 0.5 /"//lf//"&solver rtol = 1e-7 edp_limit = 0.9 /"
+   character(len=*), parameter :: typology_case = "&job task = 'typology' output = '"//scratch//"/out/z' /"//lf// &
+      & "&population file = 'walls.csv' /"//lf//records//"&stripes first = 0.3, last = 1.2, count = 4 /"
+
+   call execute_command_line('rm -rf '//scratch//' && mkdir -p '//scratch)
+   call write_inputs()
+   call test_values()
+   call test_grammar()
+   call test_defaults()
+   call test_levels()
+   call test_population()
+   call test_echo()
+   call test_run()
+   call test_output()
+   call finish()
+
+contains
+
+   !> Values as they can be typed
+   subroutine test_values()
+      type(namelist_type) :: namelist
+      type(group_type) :: group
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      real(wp), allocatable :: list(:)
+      real(wp) :: number
+      integer :: whole
+
+      call suite('values')
+      call write_file('a.nml', "! comment"//lf// &
+         & "&Job  Text='it''s / no & end ! of = it' , more=""say """"yes"""""""//lf// &
+         & " number = -1.5D-3 whole= +7,"//lf//"list = 1, .5"//achar(9)//"2.e0"//lf//"  3 ! the last"//lf//"/ &other/")
+      call read_namelist(scratch//'/a.nml', namelist, error)
+      call check_ok(error, 'a good file')
+      group = namelist%group('none')
+      call check(group%line == 0, 'a group that is not there')
+      group = namelist%group('job')
+      call check(group%line == 2, 'line of the group')
+      call group%get_text('text', text, error)
+      call check_text(text, 'it''s / no & end ! of = it', 'text with everything in it')
+      call group%get_text('more', text, error)
+      call check_text(text, 'say "yes"', 'doubled double quotes')
+      call group%get_real('number', number, error)
+      call check_close(number, -1.5e-3_wp, 0.0_wp, 'a number')
+      call group%get_integer('whole', whole, error)
+      call check(whole == 7, 'an integer')
+      call group%get_reals('list', list, error)
+      call check_ok(error, 'a list over two lines')
+      call check(size(list) == 4, 'length of the list')
+      call check(all(list == [1.0_wp, 0.5_wp, 2.0_wp, 3.0_wp]), 'the list')
+      number = 42.0_wp
+      call group%get_real('absent', number, error)
+      call check_ok(error, 'a variable that was not given')
+      call check(number == 42.0_wp, 'keeps its default')
+      call check(.not. group%has_text('whole'), 'a number is no text')
+      call check(group%has_text('text'), 'a text is one')
+      call group%get_integer('number', whole, error)
+      call check_error(error, scratch//'/a.nml: &job: number = -1.5D-3: must be a whole number', &
+         & 'an integer from a real')
+      call check(error%stat == status_input, 'wrong input')
+      call group%get_text('number', text, error)
+      call check_error(error, 'number = -1.5D-3: must be text in quotes', 'a text from a number')
+      call group%get_real('text', number, error)
+      call check_error(error, 'must be a number', 'a number from a text')
+      call group%check_names([character(len=6) :: 'text', 'more'], error)
+      call check_error(error, '&job: number (line 3): no such variable; there are ''text'', ''more''', &
+         & 'unknown variable')
+      call namelist%check_groups([character(len=3) :: 'job'], error)
+      call check_error(error, '&other (line 6): no such group; there are &job', 'unknown group')
+   end subroutine test_values
+
+   !> What does not fit the grammar
+   subroutine test_grammar()
+
+      call suite('grammar')
+      call check_refused('&a x = 1', '&a: not closed')
+      call check_refused('&a x = 1 &b y = 2 /', '&a: not closed: a / must stand before &b')
+      call check_refused('&a x = 1 / y = 2', 'y stands outside a group')
+      call check_refused('/', '/ stands outside a group')
+      call check_refused('&a x = 1,,2 /', 'x (line 1): a value is missing before a comma')
+      call check_refused('&a x = , 1 /', 'a value is missing before a comma')
+      call check_refused('&a x = /', 'x (line 1): no value follows its =')
+      call check_refused('&a x = y = 1 /', 'x (line 1): no value follows its =')
+      call check_refused('&a x = 1 = 2 /', 'a second = follows it')
+      call check_refused('&a x(2) = 1 /', 'subscripts')
+      call check_refused('&a x = 3*0.1 /', 'repeat counts')
+      call check_refused('&a x = 1'//lf//'X = 2 /', 'x: given twice, in lines 1 and 2')
+      call check_refused('&a x = 1 /'//lf//'&A x = 2 /', '&a: given twice, in lines 1 and 2')
+      call check_refused('&a x = ''one /', 'the quote before ''one /'' is not closed')
+      call check_refused('&a x = ../y /', 'text right after a /')
+      call check_refused('& x = 1 /', 'an & without the name')
+      call check_refused('&a ''x'' = 1 /', '''x'' (line 1): must be the name of a variable')
+      call check_refused('&a x /', 'x (line 1): must be the name of a variable and =')
+      call check_refused('!', 'no group')
+      call check_refused('', 'the file is empty')
+      call check_accepted('&a x = 1, / &b/ &c x=1,'//lf//'y=2/')
+      call check_accepted('&a x = 1 &end')
+      call check_accepted('&a x = 1/! comment')
+   end subroutine test_grammar
+
+   !> Defaults as the documentation says
+   subroutine test_defaults()
+      type(case_type) :: case
+      type(error_type), allocatable :: error
+
+      call suite('defaults')
+      call write_file('a.nml', "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"// &
+         & "&records catalogue = 'records.csv' / &stripes levels = 0.1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'a short case')
+      if (allocated(error)) return
+      call check_text(case%job%task, 'stripes', 'task')
+      call check_text(case%job%output, 'dondolo', 'output')
+      call check_text(case%job%title, '', 'title')
+      call check(case%job%threads == 0, 'threads')
+      call check_text(case%records_input%polarity, 'as_recorded', 'polarity')
+      call check_text(case%stripes%im, 'pga', 'im')
+      call check_text(trim(case%solver%solver%engine), 'auto', 'engine')
+      call check_close(case%solver%gravity, 9.81_wp, 0.0_wp, 'gravity')
+      call check_close(case%solver%solver%edp_limit, 1.0_wp, 0.0_wp, 'edp_limit')
+      call check_close(case%population%walls(1)%input%density, 1800.0_wp, 0.0_wp, 'density')
+      call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 9.81_wp/12.0_wp, 1.0e-14_wp, &
+         & 'trigger')
+      call write_file('a.nml', "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"// &
+         & "&records catalogue = 'records.csv' / &stripes levels = 0.1 / &solver gravity = 5 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
+         & 'gravity enters the wall')
+      call check_close(case%scale_to(1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
+   end subroutine test_defaults
+
+   !> Levels from a grid
+   subroutine test_levels()
+      type(case_type) :: case
+      type(error_type), allocatable :: error
+      real(wp), parameter :: expected(9) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.5_wp, 0.6_wp, 0.7_wp, 0.8_wp, 0.9_wp]
+
+      call suite('levels')
+      call write_file('a.nml', wall//records//'&stripes first = 0.1, last = 0.9, count = 9 /')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'a grid')
+      if (allocated(error)) return
+      call check(size(case%stripes%levels) == 9, 'count')
+      call check(all(case%stripes%levels == expected), 'the decimals a person would write')
+      call write_file('a.nml', wall//records//'&stripes first = 0.12345678901234567, last = 0.9, count = 2 /')
+      call read_case(scratch//'/a.nml', case, error)
+      call check(all(case%stripes%levels == [0.12345678901234567_wp, 0.9_wp]), 'both ends as given')
+   end subroutine test_levels
+
+   !> A population
+   subroutine test_population()
+      type(population_type) :: population
+      type(error_type), allocatable :: error
+
+      call suite('population')
+      call read_population(scratch//'/walls.csv', population, error)
+      call check_ok(error, 'a population')
+      if (allocated(error)) return
+      call check(size(population%walls) == 3, 'walls')
+      call check(all(population%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
+      call check_text(population%walls(2)%input%name, 'wall 2', 'a name that is not given')
+      call check_text(population%walls(3)%input%name, 'a, b', 'a name with a comma')
+      call check_close(population%walls(2)%input%hinge, 0.6_wp, 0.0_wp, 'hinge')
+      call check(.not. allocated(population%walls(1)%input%hinge), 'an empty cell was not given')
+      call check(population%walls(2)%mechanism%two_sided, 'mechanism')
+      call read_population(scratch//'/walls.csv', population, error, gravity=5.0_wp)
+      call check_close(population%walls(1)%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
+   end subroutine test_population
+
+   !> The echo of a case is a case with the same echo
+   subroutine test_echo()
+
+      call suite('echo')
+      call check_echo(stripes_case, 'stripes')
+      call check_echo(history_case, 'history')
+      call check_echo(typology_case, 'typology')
+   end subroutine test_echo
+
+   !> Read a case, write its echo, read that
+   subroutine check_echo(content, what)
+      character(len=*), intent(in) :: content, what
+      type(case_type) :: case
+      type(lines_type) :: first, second
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text
+      integer :: i
+
+      call write_file('a.nml', content)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, what)
+      if (allocated(error)) return
+      call case%echo(first)
+      text = ''
+      do i = 1, first%count
+         text = text//first%line(i)%text//lf
+      end do
+      call write_file('b.nml', text)
+      call read_case(scratch//'/b.nml', case, error)
+      call check_ok(error, what//': the echo')
+      if (allocated(error)) return
+      call case%echo(second)
+      call check(first%count == second%count, what//': lines of the echo')
+      do i = 1, min(first%count, second%count)
+         call check_text(second%line(i)%text, first%line(i)%text, what//': line '//to_text(i))
+      end do
+   end subroutine check_echo
+
+   !> Tasks agree with each other
+   subroutine test_run()
+      type(case_type) :: case
+      type(results_type) :: stripes, history, typology
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call suite('run')
+      call write_file('a.nml', stripes_case)
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, stripes, error, threads=1)
+      call check_ok(error, 'stripes')
+      if (allocated(error)) return
+      call check(all(stripes%collapses(:, 1) == stripes%stripes%collapses()), 'collapses')
+      call check(all(stripes%histories == [2]), 'polarity does not double the histories of a symmetric wall')
+      call check(any(stripes%stripes%response%edp > 0.0_wp), 'something moves')
+
+      call write_file('a.nml', history_case)
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, history, error)
+      call check_ok(error, 'history')
+      if (allocated(error)) return
+      call check(case%history%record == 2, 'record by name')
+      call check(history%response%edp == stripes%stripes%response(2, 2)%edp, 'history and stripe give the same EDP')
+      call check(history%response%time_of_peak == stripes%stripes%response(2, 2)%time_of_peak, 'at the same time')
+      call check_close(minval(history%trace%acceleration(:history%trace%rows)) &
+         & *maxval(abs(case%records(2)%acceleration))/maxval(case%records(2)%acceleration), &
+         & -0.5_wp*9.81_wp, 1.0e-12_wp, 'reversed and scaled to its level')
+
+      call write_file('a.nml', typology_case)
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, typology, error)
+      call check_ok(error, 'typology')
+      if (allocated(error)) return
+      call check(size(typology%fragility) == 3, 'a curve for each wall')
+      do i = 1, 4
+         call check_close(typology%typology%mean_fraction(i), (2.0_wp*real(typology%collapses(i, 1), wp) &
+            & + real(typology%collapses(i, 2), wp))/6.0_wp, 1.0e-14_wp, 'weighted mean', atol=1.0e-15_wp)
+      end do
+   end subroutine test_run
+
+   !> Result files appear whole or not at all
+   subroutine test_output()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(lines_type) :: paths
+      type(error_type), allocatable :: error
+      logical :: exists
+
+      call suite('output')
+      call write_file('a.nml', stripes_case)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_reports(case, error)
+      call check_ok(error, 'a folder that can be made')
+      call check(.not. is_folder(scratch//'/out'), 'the trial leaves no folder')
+      call run_case(case, results, error, threads=1)
+      call write_reports(case, results, paths, error)
+      call check_ok(error, 'reports')
+      call check(paths%count == 4, 'four files')
+      inquire (file=scratch//'/out/x_fragility.csv', exist=exists)
+      call check(exists, 'the last one is there')
+      inquire (file=scratch//'/out/x_fragility.csv.part', exist=exists)
+      call check(.not. exists, 'and its part is not')
+      call check(same_file(scratch//'/out/x_walls.csv', scratch//'/out/../out/x_walls.csv'), 'two paths of one file')
+      call check(.not. same_file(scratch//'/out/x_walls.csv', scratch//'/out/x_stripes.csv'), 'two files')
+      call check(.not. same_file(scratch//'/none', scratch//'/none'), 'no file')
+      case%job%output = scratch//'/a.nml/x'
+      call check_reports(case, error)
+      call check_error(error, 'a.nml: &job: output = '''//scratch//'/a.nml/x'': the folder', 'a file for a folder')
+   end subroutine test_output
+
+   !> A file that must be refused
+   subroutine check_refused(content, part)
+      character(len=*), intent(in) :: content, part
+      type(namelist_type) :: namelist
+      type(error_type), allocatable :: error
+
+      call write_file('a.nml', content)
+      call read_namelist(scratch//'/a.nml', namelist, error)
+      call check_error(error, part, content)
+   end subroutine check_refused
+
+   !> A file that must be read
+   subroutine check_accepted(content)
+      character(len=*), intent(in) :: content
+      type(namelist_type) :: namelist
+      type(error_type), allocatable :: error
+
+      call write_file('a.nml', content)
+      call read_namelist(scratch//'/a.nml', namelist, error)
+      call check_ok(error, content)
+   end subroutine check_accepted
+
+   !> The files that the cases name
+   subroutine write_inputs()
+      character(len=:), allocatable :: first, second
+      real(wp) :: t
+      integer :: i
+
+      first = ''
+      second = ''
+      do i = 0, 500
+         t = 0.01_wp*real(i, wp)
+         first = first//to_text(real(nint(3.0e4_wp*sin(6.0_wp*t)*exp(-(t - 2.0_wp)**2)), wp)*1.0e-4_wp)//lf
+         second = second//to_text(real(nint(4.0e4_wp*sin(3.0_wp*t)*exp(-(t - 2.2_wp)**2)), wp)*1.0e-4_wp)//lf
+      end do
+      call write_file('one.txt', first)
+      call write_file('two.txt', second)
+      call write_file('records.csv', 'file,dt_s,units'//lf//'one.txt,0.01,m/s2'//lf//'two.txt,0.01,m/s2'//lf)
+      call write_file('walls.csv', 'name,mechanism,height,thickness,hinge,weight'//lf//'a,one_sided,3,0.25,,2'//lf// &
+         & ',two_block,3,0.25,0.6,'//lf//'"a, b",free_standing,3,0.25,,0'//lf)
+   end subroutine write_inputs
+
+   !> Write a small file
+   subroutine write_file(file, content)
+      character(len=*), intent(in) :: file, content
+      integer :: unit
+
+      open (newunit=unit, file=scratch//'/'//file, access='stream', form='unformatted', action='write', &
+         & status='replace')
+      write (unit) content
+      close (unit)
+   end subroutine write_file
+
+end program test_case
