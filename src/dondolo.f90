@@ -32,12 +32,12 @@ module dondolo
    use dondolo_stripes, only : multiple_stripe, polarity_names, progress_interface, stripes_type
    use dondolo_synthetic, only : synthetic_record
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_version, only : version
+   use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private
 
-   public :: wp, version, error_type
+   public :: wp, dondolo_version_text, error_type
    ! Accelerograms
    public :: record_type, new_record, read_record, read_catalogue, synthetic_record
    public :: im_names, intensity, level_unit
