@@ -1,7 +1,8 @@
 !> The command line: which case, and what to do with it.
 module dondolo_arguments
    use dondolo_error, only : error_type, raise_input
-   use dondolo_job_group, only : largest_threads, task_names
+   use dondolo_job_group, only : task_names
+   use dondolo_stripes, only : largest_threads
    use dondolo_numbers, only : parse_integer
    use dondolo_text, only : join, to_text
    implicit none

@@ -1,7 +1,6 @@
 !> dondolo: from accelerograms and walls to fragility curves, on the command line.
 program dondolo_main
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
-   use omp_lib, only : omp_get_max_threads
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_case, only : case_type, read_case
    use dondolo_error, only : error_type
@@ -12,6 +11,7 @@ program dondolo_main
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_run_case, only : results_type, run_case
+   use dondolo_stripes, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : stderr_is_terminal
    use dondolo_template, only : print_template
@@ -59,7 +59,7 @@ contains
       end if
       threads = case%job%threads
       if (allocated(arguments%threads)) threads = arguments%threads
-      if (threads == 0) threads = omp_get_max_threads()
+      if (threads == 0) threads = available_threads()
 
       call system_clock(start, rate)
       if (stderr_is_terminal() .and. .not. arguments%quiet) then

@@ -116,6 +116,7 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=12) :: level
+      character(len=120) :: line
       character(len=24) :: counts
       real(wp) :: fraction
       integer :: j
@@ -125,7 +126,8 @@ contains
          level = rounded(case%stripes%levels(j))
          counts = to_text(results%collapses(j, 1))//'/'//to_text(results%histories(1))
          fraction = real(results%collapses(j, 1), wp)/real(results%histories(1), wp)
-         write (output_unit, '(2a12, f10.3, 2x, a)') adjustr(level), trim(adjustl(counts)), fraction, bar(fraction)
+         write (line, '(2a12, f10.3, 2x, a)') adjustr(level), trim(adjustl(counts)), fraction, bar(fraction)
+         write (output_unit, '(a)') trim(line)
       end do
       write (output_unit, '(a)') ''
       call print_fit(results%fragility(1), unit_of(case%stripes%im))
@@ -187,14 +189,16 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=12) :: level
+      character(len=120) :: line
       integer :: i, j
 
       associate (typology => results%typologies(size(results%typologies)))
          write (output_unit, '(a12, a15, a12)') case%stripes%im//unit_of(case%stripes%im), 'mean fraction', 'mean curve'
          do j = 1, size(typology%levels)
             level = rounded(typology%levels(j))
-            write (output_unit, '(a12, f15.3, f12.3, 2x, a)') adjustr(level), typology%mean_fraction(j), &
+            write (line, '(a12, f15.3, f12.3, 2x, a)') adjustr(level), typology%mean_fraction(j), &
                & typology%mean_curve(j), bar(typology%mean_curve(j))
+            write (output_unit, '(a)') trim(line)
          end do
          write (output_unit, '(a)') ''
       end associate

@@ -348,7 +348,7 @@ s/height = 3.0/height = nan/|bad.nml: &wall: height = nan: must be a number
 s/height = 3.0/height = inf/|bad.nml: &wall: height = inf: must be a number
 s/height = 3.0/height = +Infinity/|bad.nml: &wall: height = +Infinity: must be a number
 s/height = 3.0/height = 1e400/|bad.nml: &wall: height = 1e400: must be a number that the computer can hold
-s/height = 3.0/height = 1e4/|bad.nml: &wall: height = 10000: must be at most 1000
+s/height = 3.0/height = 1e4/|bad.nml: &wall: height = 10000: must lie between 0.001 and 1000
 s/height = 3.0/height = -3.0/|bad.nml: &wall: height = -3: must be positive
 s/height = 3.0/height = 0/|bad.nml: &wall: height = 0: must be positive
 s/height = 3.0/height =/|bad.nml: &wall: height (line 11): no value follows its =
@@ -487,7 +487,7 @@ people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
 people "no walls" "$head" 'walls.csv: no walls under the header'
 people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
    "walls.csv: line 3: name = 'a': another wall has this name"
-people "a negative weight" "${head}a,one_sided,3,0.3,-1\n" 'walls.csv: line 2: weight = -1: must not be negative'
+people "a negative weight" "${head}a,one_sided,3,0.3,-1\n" 'walls.csv: line 2: weight = -1: must lie between 0 and'
 people "no weight at all" "${head}a,one_sided,3,0.3,0\n" 'walls.csv: weight: must be positive for at least one wall'
 people "a word for a number" "${head}a,one_sided,tall,0.3,1\n" "walls.csv: line 2: height = 'tall': must be a number"
 people "nan" "${head}a,one_sided,3,nan,1\n" "walls.csv: line 2: thickness = 'nan': must be a number"

@@ -402,6 +402,17 @@ contains
          call check(.false., 'every sample has a row')
       end do
       call check(trace%rotation(trace%rows) == 0.0_wp .or. trace%time(trace%rows) >= 12.98_wp, 'until rest or 10 s')
+
+      ! A pulse that ends while the wall is far out: it rocks on in still ground
+      wall = made('free_standing', 6.0_wp, 0.9_wp)
+      record = accelerogram([(2.0_wp*sin(2.0_wp*pi*0.01_wp*i), i=0, 400)], 0.01_wp)
+      trace%rows = 0
+      call simulate_rk45(wall%mechanism, record, 1.0_wp, tight(1.0_wp), one, trace)
+      call check(count(trace%rotation == 0.0_wp .and. trace%velocity /= 0.0_wp .and. trace%time > 4.0_wp) >= 6, &
+         & 'three impacts after the record')
+      call check(trace%time(trace%rows) >= 13.98_wp .or. abs(trace%velocity(trace%rows)) <= 0.06_wp*wall%mechanism%capacity, &
+         & 'until nearly rest or 10 s')
+      call check(maxval(abs(trace%rotation))/wall%mechanism%capacity >= 0.999_wp*one%edp, 'the peak after the record')
    end subroutine test_trace
 
 end program test_motion

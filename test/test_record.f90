@@ -281,7 +281,7 @@ contains
       call check_bad_file('0.1'//lf//'0.2'//lf//lf//'0.3'//lf, ': line 3: 0 values: must be 1')
       call check_bad_file('0.1'//lf//'0.2'//lf//'# remark'//lf//'0.3'//lf, ': line 3: 2 values: must be 1')
       call check_bad_file('0.1'//lf//'0.2'//lf//'1e400'//lf, ': ')
-      call check_bad_file('title'//lf//'0.1'//lf, ': 1 samples: a record needs at least two')
+      call check_bad_file('title'//lf//'0.1'//lf, ': number of samples = 1: must be at least 2')
       call check_bad_file('0.1'//lf//'2e4'//lf, ': sample 2 = 2')
    end subroutine test_one_column
 
@@ -403,7 +403,7 @@ contains
       call check_bad_stated(top//quantity//'NPTS=  3, DT=  .01 SEC'//lf//'.1 .2'//lf//'.3-.4', &
          & ': line 6: value 3 = ''.3-.4''')
       call check_bad_stated(top//quantity//'NPTS=  1, DT=  .01 SEC'//lf//'.1', &
-         & ': 1 samples: a record needs at least two')
+         & ': number of samples = 1: must be at least 2')
       call check_bad_stated(top//quantity//'NPTS=  1, DT=  .01 SEC', ': line 4: the file ends after 0 values')
    end subroutine test_peer
 

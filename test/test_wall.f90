@@ -268,7 +268,7 @@ contains
       call refuse(input, 'density = 0: must be positive')
       input = parapet()
       input%height = 1.0e5_wp
-      call refuse(input, 'height = 100000: must be at most 1000')
+      call refuse(input, 'height = 100000: must lie between 0.001 and 1000')
       input = parapet()
       input%hinge = 0.5_wp
       call refuse(input, 'hinge = 0.5: only for mechanism = ''two_block''')

@@ -49,9 +49,14 @@ contains
       logical :: exists
 
       text%file = file
-      inquire (file=file, exist=exists)
+      inquire (file=file, exist=exists, size=bytes)
       if (.not. exists) then
          call raise_input(error, file//': no such file')
+         return
+      end if
+      ! Seen before it is opened: a pipe has no size either, and would be waited for.
+      if (bytes == 0) then
+         call raise_input(error, file//': the file is empty')
          return
       end if
       open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=stat)

@@ -5,11 +5,12 @@ module dondolo_job_group
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_text, only : join, to_text
+   use dondolo_stripes, only : largest_threads
    implicit none
    private
 
    public :: job_type, read_job, echo_job
-   public :: task_names, job_variables, largest_threads
+   public :: task_names, job_variables
 
    !> Names of the tasks
    character(len=8), parameter :: task_names(3) = [character(len=8) :: 'history', 'stripes', 'typology']
@@ -17,8 +18,6 @@ module dondolo_job_group
    !> Variables of the group
    character(len=7), parameter :: job_variables(4) = [character(len=7) :: 'task', 'title', 'output', 'threads']
 
-   !> More threads than this are surely a slip
-   integer, parameter :: largest_threads = 1024
 
    !> What is to be done
    type :: job_type

@@ -92,9 +92,10 @@ contains
       type(wall_input_type), intent(out) :: input
       !> Its weight
       real(wp), intent(out) :: weight
-      !> A cell that is not a number, or a negative weight
+      !> A cell that is not a number, or a weight out of range
       type(error_type), allocatable, intent(out) :: error
 
+      real(wp), parameter :: largest_weight = 1.0e12_wp
       real(wp) :: number
       integer :: i
 
@@ -113,8 +114,8 @@ contains
       if (.not. given('weight')) return
       call table%get_real(row, table%column('weight'), weight, error)
       if (allocated(error)) return
-      if (.not. weight >= 0.0_wp) call raise_input(error, table%place(row)//': weight = '//to_text(weight)// &
-         & ': must not be negative')
+      if (.not. (weight >= 0.0_wp .and. weight <= largest_weight)) call raise_input(error, table%place(row)// &
+         & ': weight = '//to_text(weight)//': must lie between 0 and '//to_text(largest_weight))
 
    contains
 

@@ -1,6 +1,6 @@
 !> The result files of a case: CSV tables with a head of comment lines, whole or not at all.
 module dondolo_reports
-   use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version
+   use, intrinsic :: iso_fortran_env, only : compiler_version
    use dondolo_case, only : case_type
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
@@ -103,7 +103,6 @@ contains
 
       call files%line('# dondolo '//dondolo_version_text)
       call files%line('# compiler: '//compiler_version())
-      call files%line('# options: '//compiler_options())
       call case%echo(echo)
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)

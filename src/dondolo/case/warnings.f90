@@ -1,7 +1,7 @@
 !> What a user should know of results that are correct but may mislead.
 module dondolo_warnings
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
+   use dondolo_kinds, only : dp, wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
@@ -120,7 +120,7 @@ contains
             & 'their trend is flat or falling')
       case ('separated')
          call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
-            & 'the median lies between '//to_text(fragility%bracket(1))//' and '//to_text(fragility%bracket(2))// &
+            & 'the median lies '//between(fragility%bracket)// &
             & ', more levels there are needed')
       case ('extrapolated')
          call warnings%add('theta = '//rounded(fragility%theta)//' lies outside the levels '//levels// &
@@ -164,6 +164,22 @@ contains
          end associate
       end do
    end subroutine warn_of_fits
+
+   !> Where a bracket lies: between two levels, or above or below one
+   pure function between(bracket) result(text)
+      !> Levels; 0 or huge where the side is open
+      real(dp), intent(in) :: bracket(2)
+      !> Its text
+      character(len=:), allocatable :: text
+
+      if (bracket(2) >= huge(bracket)) then
+         text = 'above '//to_text(bracket(1))
+      else if (.not. bracket(1) > 0.0_dp) then
+         text = 'below '//to_text(bracket(2))
+      else
+         text = 'between '//to_text(bracket(1))//' and '//to_text(bracket(2))
+      end if
+   end function between
 
    !> A number with four significant digits, for people
    pure function rounded(value) result(text)

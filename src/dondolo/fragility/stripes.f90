@@ -18,9 +18,13 @@ module dondolo_stripes
 
    public :: stripes_type, multiple_stripe
    public :: check_levels, check_polarity, polarity_names, progress_interface
+   public :: largest_threads, available_threads
 
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
+
+   !> Most threads that are asked for
+   integer, parameter :: largest_threads = 1024
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -94,7 +98,7 @@ contains
       total = histories*size(levels)
       allocate(stripes%response(histories, size(levels)))
       team = threads
-      if (team == 0) team = omp_get_max_threads()
+      if (team == 0) team = available_threads()
       done = 0
       ! High levels take longest: they go first, so that no thread is left alone with them at the end.
       !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
@@ -115,6 +119,12 @@ contains
       !$omp end parallel do
       if (present(progress)) call progress(total, total)
    end subroutine multiple_stripe
+
+   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
+   integer function available_threads()
+
+      available_threads = min(omp_get_max_threads(), largest_threads)
+   end function available_threads
 
    !> Which records run with which polarity
    subroutine choose_polarities(stripes, records, polarity, two_sided)

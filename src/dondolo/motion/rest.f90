@@ -152,7 +152,7 @@ contains
       type(record_type), intent(in) :: record
       !> Factor on it
       real(wp), intent(in) :: scale
-      !> Sample interval of the impact
+      !> Sample interval of the impact; may lie beyond the record
       integer, intent(in) :: interval
       !> Its time since the first sample of the interval [s]
       real(wp), intent(in) :: time
@@ -176,7 +176,7 @@ contains
          if (interval < n) from = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
          from = self%least_moment(side, from(1))
          least = from
-         do i = interval, n
+         do i = min(interval, n), n
             to = self%least_moment(side, 0.0_wp)
             if (i < n) to = self%least_moment(side, scale*a(i + 1))
             least = min(least, to)

@@ -292,7 +292,8 @@ contains
          x = motion%time/record%dt
          if (i < size(a)) acceleration = scale*(a(i) + x*(a(i + 1) - a(i)))
          if (i == size(a) .and. x == 0.0_wp) acceleration = scale*a(i)
-         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q, s*motion%v)
+         ! Adding zero makes no row show a negative zero.
+         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q + 0.0_wp, s*motion%v + 0.0_wp)
       end associate
    end subroutine add_row
 

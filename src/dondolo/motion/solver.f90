@@ -59,7 +59,7 @@ contains
 
       if (solver%edp_limit*mechanism%capacity < mechanism%geometric_end()) return
       call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be less than '// &
-         & to_text(mechanism%geometric_end()/mechanism%capacity)//', where the upper block of this wall lies flat')
+         & to_text(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends')
    end subroutine check_limit
 
 end module dondolo_solver

@@ -52,7 +52,7 @@ contains
          return
       end if
       if (size(acceleration) < 2) then
-         call raise_input(error, to_text(size(acceleration))//' samples: a record needs at least two')
+         call raise_input(error, 'number of samples = '//to_text(size(acceleration))//': must be at least 2')
          return
       end if
       do i = 1, size(acceleration)

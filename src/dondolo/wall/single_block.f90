@@ -84,14 +84,16 @@ contains
       v = self%weight_moment*cos(self%alpha - q)
    end function potential
 
-   !> A block that turns about one corner is never stopped by its own geometry
+   !> The rotation at which the centroid is level with the corner: the block lies on the ground long before
    pure function geometric_end(self) result(q)
       !> The mechanism
       class(single_block_type), intent(in) :: self
       !> Rotation [rad]
       real(wp) :: q
 
-      q = huge(self%alpha)
+      real(wp), parameter :: right_angle = acos(0.0_wp)
+
+      q = self%alpha + right_angle
    end function geometric_end
 
 end module dondolo_single_block

@@ -241,10 +241,13 @@ contains
       !> The largest value that makes sense
       real(wp), intent(in) :: largest
 
+      real(wp), parameter :: smallest = 1.0e-3_wp
+
       if (.not. value > 0.0_wp) then
          call raise_input(error, name//' = '//to_text(value)//': must be positive')
-      else if (.not. value <= largest) then
-         call raise_input(error, name//' = '//to_text(value)//': must be at most '//to_text(largest))
+      else if (.not. (value >= smallest .and. value <= largest)) then
+         call raise_input(error, name//' = '//to_text(value)//': must lie between '//to_text(smallest)//' and '// &
+            & to_text(largest))
       end if
    end subroutine check_positive
 
