@@ -1,0 +1,280 @@
+!> One accepted step of the engine rk45: to the next sample, less where the error asks for it, or to the first
+!> event on the way.
+!>
+!> Events - impact, turning point, limit - are found on the dense output of a step; the step is then taken again so
+!> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
+module dondolo_adaptive_step
+   use dondolo_bernstein, only : first_descent, nowhere
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_rest, only : rest_type
+   use dondolo_solver, only : solver_type
+   implicit none
+   private
+
+   public :: motion_type, scene_type, advance
+   public :: impact, limit_reached
+   public :: shortest_motion
+
+   !> Events within a step
+   integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
+
+   !> A motion shorter than this part of the sample interval cannot be told from rest
+   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
+
+   !> Smallest step / sample interval
+   real(wp), parameter :: smallest_step = 2.0_wp**(-20)
+
+   !> Where the motion is
+   type :: motion_type
+      !> Sample interval, from 1
+      integer :: interval = 1
+      !> Time since the first sample of the interval [s]
+      real(wp) :: time = 0.0_wp
+      !> What drives it: the accelerogram in this interval and the side
+      type(excitation_type) :: excitation
+      !> Rotation [rad]
+      real(wp) :: q = 0.0_wp
+      !> Angular velocity, positive outwards [rad/s]
+      real(wp) :: v = 0.0_wp
+      !> Angular acceleration [rad/s2]
+      real(wp) :: f = 0.0_wp
+      !> Step proposed by the error control [s]
+      real(wp) :: step = 0.0_wp
+      !> Scaled error of the last accepted step
+      real(wp) :: last_error = 1.0e-4_wp
+      !> Largest rotation so far [rad] and its time [s]
+      real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
+      !> Impacts so far
+      integer :: impacts = 0
+      !> Tiny bounces in a row
+      integer :: tiny_bounces = 0
+   end type motion_type
+
+   !> What stays the same during a history
+   type :: scene_type
+      !> Rest of the wall
+      type(rest_type) :: rest
+      !> Factor on the accelerogram, negative to reverse it
+      real(wp) :: scale
+      !> Tolerances
+      type(solver_type) :: solver
+      !> Rotation that counts as collapse [rad]
+      real(wp) :: limit
+      !> Units of rotation [rad] and velocity [rad/s] of the error: q_c and p q_c
+      real(wp) :: q_unit, v_unit
+   end type scene_type
+
+contains
+
+   !> One accepted step: to the next sample, less where the error asks for it, or to the first event on the way
+   pure subroutine advance(mechanism, scene, dt, motion, event, sample_reached)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> What stays the same
+      type(scene_type), intent(in) :: scene
+      !> Sample interval [s]
+      real(wp), intent(in) :: dt
+      !> Where the motion is
+      type(motion_type), intent(inout) :: motion
+      !> The event the step ends on
+      integer, intent(out) :: event
+      !> Does it end on the next sample?
+      logical, intent(out) :: sample_reached
+
+      real(wp) :: remaining, h, q, v, f, q_error, v_error, error, x
+      logical :: accepted
+      integer :: parts
+
+      remaining = dt - motion%time
+      event = no_event
+      sample_reached = .not. remaining > 0.0_wp
+      if (sample_reached) return
+      do
+         parts = max(1, ceiling(remaining/motion%step))
+         h = remaining/real(parts, wp)
+         call dormand_prince_step(mechanism, motion%excitation, motion%time, h, motion%q, motion%v, motion%f, &
+            & q, v, f, q_error, v_error)
+         ! The sum, since unlike the maximum it is never deaf to a value that is not a number.
+         error = abs(q_error)/(scene%solver%atol*scene%q_unit + scene%solver%rtol*max(abs(motion%q), abs(q))) &
+            & + abs(v_error)/(scene%solver%atol*scene%v_unit + scene%solver%rtol*max(abs(motion%v), abs(v)))
+         call control_step(error, h, smallest_step*dt, motion, accepted)
+         if (accepted) exit
+      end do
+
+      ! In a step too short to be told from none, signs are rounding; what happened shows in the next.
+      if (h > shortest_motion*dt) call find_event(scene, motion, h, q, v, f, event, x)
+      if (event /= no_event) call land(mechanism, scene, motion, h, event, x, q, v, f)
+      sample_reached = parts == 1 .and. event == no_event
+      motion%time = merge(dt, min(motion%time + h, dt), sample_reached)
+      if (event /= no_event) sample_reached = motion%time >= dt
+      motion%q = q
+      motion%v = v
+      motion%f = f
+   end subroutine advance
+
+   !> Accept or reject a step and propose the next (PI control; Hairer, Norsett and Wanner 1993, section II.4)
+   pure subroutine control_step(error, h, smallest, motion, accepted)
+      !> Scaled error of the step
+      real(wp), intent(in) :: error
+      !> The step [s]
+      real(wp), intent(in) :: h
+      !> Smallest step, always accepted [s]
+      real(wp), intent(in) :: smallest
+      !> Where the motion is: the proposal and the last error
+      type(motion_type), intent(inout) :: motion
+      !> Is it accepted?
+      logical, intent(out) :: accepted
+
+      real(wp), parameter :: safety = 0.9_wp, largest_rise = 5.0_wp, largest_fall = 0.2_wp
+      real(wp), parameter :: exponent = 0.17_wp, damping = 0.04_wp, negligible = 1.0e-5_wp
+      real(wp) :: factor
+
+      accepted = error <= 1.0_wp .or. h <= smallest
+      if (.not. accepted) then
+         factor = largest_fall
+         if (error < 1.0e6_wp) factor = max(largest_fall, safety*error**(-0.2_wp))
+         motion%step = max(smallest, h*factor)
+         return
+      end if
+      factor = largest_rise
+      if (error > negligible) factor = min(largest_rise, safety*error**(-exponent)*motion%last_error**damping)
+      motion%last_error = max(error, 1.0e-4_wp)
+      ! A step that was cut at a sample must not shorten the proposal.
+      if (factor >= 1.0_wp) then
+         motion%step = max(motion%step, h*factor)
+      else
+         motion%step = max(smallest, h*factor)
+      end if
+   end subroutine control_step
+
+   !> The first event within a step, on its dense output
+   pure subroutine find_event(scene, motion, h, q, v, f, event, x)
+      !> What stays the same
+      type(scene_type), intent(in) :: scene
+      !> Start of the step
+      type(motion_type), intent(in) :: motion
+      !> The step [s]
+      real(wp), intent(in) :: h
+      !> Rotation [rad], velocity [rad/s] and acceleration [rad/s2] at its end
+      real(wp), intent(in) :: q, v, f
+      !> The event
+      integer, intent(out) :: event
+      !> Its place, as a part of the step
+      real(wp), intent(out) :: x
+
+      real(wp) :: b(0:5), d(0:4), highest, place
+
+      b = dense_rotation(h, motion%q, motion%v, motion%f, q, v, f)
+      highest = maxval(b)
+      event = no_event
+      x = nowhere
+      if (minval(b) <= 0.0_wp) then
+         x = first_descent(b)
+         if (x < nowhere) event = impact
+      end if
+      ! A turning point matters only where it may be a new peak.
+      if (highest > motion%peak) then
+         d = b(1:) - b(:4)
+         place = nowhere
+         if (any(d < 0.0_wp) .and. any(d > 0.0_wp)) place = first_descent(d*initial_sign(d))
+         if (place < x) then
+            x = place
+            event = turning
+         end if
+         if (highest >= scene%limit) then
+            place = first_descent(scene%limit - b)
+            if (place < x) then
+               x = place
+               event = limit_reached
+            end if
+         end if
+      end if
+   end subroutine find_event
+
+   !> Sign of the first coefficient that is not zero
+   pure function initial_sign(c) result(s)
+      !> Coefficients, not all zero
+      real(wp), intent(in) :: c(:)
+      !> +1 or -1
+      real(wp) :: s
+
+      s = sign(1.0_wp, c(findloc(c /= 0.0_wp, .true., dim=1)))
+   end function initial_sign
+
+   !> Take a step again so that it ends on an event: Newton's method on the step itself, kept in a bracket by
+   !> bisection, from the place found on the dense output
+   pure subroutine land(mechanism, scene, motion, h, event, x, q, v, f)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> What stays the same
+      type(scene_type), intent(in) :: scene
+      !> Start of the step
+      type(motion_type), intent(in) :: motion
+      !> In: the whole step; out: the step to the event [s]
+      real(wp), intent(inout) :: h
+      !> The event; `no_event` if the step, taken again, only grazes it
+      integer, intent(inout) :: event
+      !> Its place on the dense output, as a part of the step
+      real(wp), intent(in) :: x
+      !> Rotation [rad], velocity [rad/s] and acceleration [rad/s2] at the end
+      real(wp), intent(inout) :: q, v, f
+
+      integer, parameter :: most_trials = 60
+      real(wp) :: before, after, trial, gap, rate, change, sense, q_error, v_error
+      logical :: crossed
+      integer :: i
+
+      before = 0.0_wp
+      after = h
+      trial = x*h
+      crossed = .false.
+      sense = 1.0_wp
+      if (motion%v < 0.0_wp .or. (motion%v == 0.0_wp .and. motion%f < 0.0_wp)) sense = -1.0_wp
+      do i = 1, most_trials
+         call dormand_prince_step(mechanism, motion%excitation, motion%time, trial, motion%q, motion%v, motion%f, &
+            & q, v, f, q_error, v_error)
+         ! The gap is positive before the event and falls to zero at it.
+         select case (event)
+         case (impact)
+            gap = q
+            rate = v
+         case (limit_reached)
+            gap = scene%limit - q
+            rate = -v
+         case default
+            gap = sense*v
+            rate = sense*f
+         end select
+         if (gap > 0.0_wp) then
+            before = trial
+         else
+            after = trial
+            crossed = .true.
+         end if
+         change = huge(change)
+         if (rate < 0.0_wp) change = -gap/rate
+         if (abs(change) <= sqrt(epsilon(h))*trial) exit
+         if (after - before <= 2.0_wp*epsilon(h)*after) then
+            change = 0.0_wp
+            exit
+         end if
+         trial = trial + change
+         if (.not. (trial > before .and. trial < after)) trial = 0.5_wp*(before + after)
+      end do
+      if (i > most_trials) change = 0.0_wp
+      if (gap > 0.0_wp .and. change == 0.0_wp .and. .not. crossed) then
+         ! The dense output dipped, the motion does not: the whole step was right.
+         event = no_event
+         return
+      end if
+      h = trial + change
+      q = q + change*(v + 0.5_wp*change*f)
+      v = v + change*f
+      if (event == impact) q = 0.0_wp
+      if (event == turning) v = 0.0_wp
+      f = angular_acceleration(mechanism, motion%excitation, motion%time + h, q, v)
+   end subroutine land
+
+end module dondolo_adaptive_step
