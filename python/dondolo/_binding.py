@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import functools
 import os
+import sys
 import warnings
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +21,8 @@ from dondolo import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 FloatArray = NDArray[np.float64]
+
+_PACKAGE = Path(__file__).parent
 
 WALL_NUMBERS = (
     "height",
@@ -125,10 +129,13 @@ def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Par
     return Parcel(integers, reals, text.split("\n")[:-1])
 
 
-def warn(sentences: Iterable[str], stacklevel: int = 3) -> None:
-    """Warn of each sentence where the user's own line is."""
+def warn(sentences: Iterable[str]) -> None:
+    """Warn of each sentence, where the user's own line is."""
+    frame, depth = sys._getframe(), 1
+    while frame.f_back is not None and Path(frame.f_code.co_filename).parent == _PACKAGE:
+        frame, depth = frame.f_back, depth + 1
     for sentence in sentences:
-        warnings.warn(sentence, DondoloWarning, stacklevel=stacklevel + 1)
+        warnings.warn(sentence, DondoloWarning, stacklevel=depth)
 
 
 def as_number(name: str, value: Any) -> float:
