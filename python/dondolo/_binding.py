@@ -246,7 +246,9 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
     lengths = parcel.integers[integers : integers + count]
     ends = reals + count + np.cumsum(lengths)
     return [
-        RecordData(parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]])
+        RecordData(
+            parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]]
+        )
         for i in range(count)
     ]
 

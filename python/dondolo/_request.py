@@ -69,9 +69,7 @@ class Request:
     threads: int
 
     def _settings(self) -> tuple[Any, ...]:
-        words = (
-            _binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")
-        )
+        words = (_binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
         return (*self.records, self.levels, *words, self.tolerances, self.threads)
 
     def plan(self) -> Plan:

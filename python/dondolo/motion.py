@@ -158,7 +158,9 @@ def simulate(
         rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
         rows.flags.writeable = False
         side = _sides(rows, wall.two_sided)
-        for what, row in zip(("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True):
+        for what, row in zip(
+            ("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True
+        ):
             object.__setattr__(response, what, row)
     return response
 

@@ -180,9 +180,7 @@ class TwoBlockWall(Wall):
     eccentricity: float | None = None
 
 
-MECHANISMS: dict[str, type[Wall]] = {
-    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)
-}
+MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
 
 
 def wall_from(data: _binding.WallData) -> Wall:
