@@ -15,7 +15,7 @@ from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
 from dondolo.records import Record, read_catalogue, read_record
 from dondolo.stripes import Stripes, multiple_stripe
-from dondolo.typology import Typology, typology
+from dondolo.typology import Group, Typology, typology
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, TwoBlockWall, Wall, read_population
 
 __version__ = _constants().version
@@ -28,6 +28,7 @@ __all__ = [
     "DondoloWarning",
     "Fragility",
     "FreeStandingWall",
+    "Group",
     "InputError",
     "Interrupted",
     "OneSidedWall",

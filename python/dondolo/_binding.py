@@ -102,6 +102,16 @@ class Parcel(NamedTuple):
     lines: list[str]
 
 
+class GroupData(NamedTuple):
+    """The curve of a population, or of its walls of one mechanism."""
+
+    mechanism: str
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    curve: CurveData
+
+
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
@@ -296,15 +306,19 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
 
 def fit_walls(
     walls: FlatWall, levels: FloatArray, collapses: NDArray[np.int32], histories: NDArray[np.int32], weights: FloatArray
-) -> tuple[float, FloatArray, FloatArray, list[CurveData], CurveData, list[str]]:
-    """Curves of walls and of their population: collapses are (walls, levels)."""
+) -> tuple[list[CurveData], list[GroupData], list[str]]:
+    """Curves of walls, of their population (the last of all) and warnings: collapses are (walls, levels)."""
     parcel = receive(*_core.fit_walls(*walls, levels, np.ascontiguousarray(collapses).T, histories, weights))
     m, w = len(levels), len(weights)
     names = ("", *constants().statuses)
-    numbers = parcel.reals[1 + 2 * m :].reshape(w + 1, 8)
-    curves = [CurveData(names[code], row) for code, row in zip(parcel.integers, numbers, strict=True)]
-    fractions, mean_curve = parcel.reals[1 : 1 + m], parcel.reals[1 + m : 1 + 2 * m]
-    return float(parcel.reals[0]), fractions, mean_curve, curves[:-1], curves[-1], parcel.lines
+    status = [names[code] for code in parcel.integers]
+    curves = [CurveData(*pair) for pair in zip(status, parcel.reals[: 8 * w].reshape(w, 8), strict=False)]
+    rows = parcel.reals[8 * w :].reshape(len(status) - w, 1 + 2 * m + 8)
+    groups = [
+        GroupData(mechanism, float(row[0]), row[1 : 1 + m], row[1 + m : 1 + 2 * m], CurveData(what, row[1 + 2 * m :]))
+        for mechanism, what, row in zip(parcel.lines, status[w:], rows, strict=False)
+    ]
+    return curves, groups, parcel.lines[len(groups) :]
 
 
 def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:

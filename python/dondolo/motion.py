@@ -27,7 +27,8 @@ class Response:
     scale : float
         Factor on the record, negative if its polarity was reversed.
     edp : float
-        Engineering demand parameter: largest rotation / capacity, equation (6) of Nale et al.; edp_limit for a collapse.
+        Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
+        collapse.
     collapsed : bool
         Did it reach the limit?
     impacts : int
