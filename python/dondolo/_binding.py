@@ -166,6 +166,9 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
         raise InputError(f"{name}: must be numbers") from None
     if array.ndim != 1:
         raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
+    if not array.size:
+        # f2py takes no empty arrays
+        raise InputError(f"{name}: must be given")
     return array
 
 
