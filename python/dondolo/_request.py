@@ -109,7 +109,7 @@ class Request:
                 edp[here], collapsed[here], impacts[here], peak[here] = rows
                 done += count
                 bar.update(count)
-                size = count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0)
+                size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
         except KeyboardInterrupt:
             interrupted = True
         finally:
