@@ -98,9 +98,9 @@ def test_two_python_threads_at_once(analysis, wall, few):
 
 
 def test_the_lock_is_released(wall):
-    long = dd.Record(np.sin(0.03 * np.arange(400_000)), 0.01)
+    long = dd.Record(np.sin(0.3 * np.arange(1_000_000)), 0.01)
     ticks = []
-    motion = threading.Thread(target=lambda: dd.simulate(wall, long, 2.5, edp_limit=5.0, history=False))
+    motion = threading.Thread(target=lambda: dd.simulate(wall, long, 2.0, history=False))
     start = time.perf_counter()
     motion.start()
     while motion.is_alive():
@@ -113,7 +113,7 @@ def test_the_lock_is_released(wall):
 def test_pickle(analysis):
     again = pickle.loads(pickle.dumps(analysis))
     assert np.array_equal(again.edp, analysis.edp)
-    assert again.fit().theta == analysis.fit().theta
+    assert repr(again) == repr(analysis)
 
 
 @pytest.mark.parametrize(

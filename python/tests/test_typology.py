@@ -9,6 +9,8 @@ import pytest
 
 import dondolo as dd
 
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
 LEVELS = [0.2, 0.4, 0.6, 0.9, 1.3]
 
 
