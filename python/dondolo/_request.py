@@ -1,6 +1,6 @@
 """Long work in blocks: many histories of one wall or of many, each block one call of Fortran.
 
-A block takes about a quarter of a second, so that Ctrl-C is answered soon and what is finished is kept.
+A block takes less than half a second, so that Ctrl-C is answered soon and what is finished is kept.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from dondolo.errors import InputError
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
 
-_SECONDS = 0.25
+_SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
 _FIRST_SAMPLES = 200_000
 

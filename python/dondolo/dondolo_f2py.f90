@@ -223,6 +223,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    use dondolo_error, only : add_place, error_type
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
+   use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : scale_warning_type, warn_of_records
@@ -243,6 +244,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    type(error_type), allocatable :: error
    integer, allocatable :: histories(:)
    integer :: i
+   logical :: fresh
 
    handle = 0
    sizes = 0
@@ -252,7 +254,15 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
       do i = 1, w
-         call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+         ! Of a wall, sides and gravity alone count in a plan: most walls of a population share one.
+         fresh = i == 1
+         if (i > 1) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
+            & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
+         if (fresh) then
+            call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+         else
+            call check_limit(as_solver(engine, tolerances), walls(i)%mechanism, error)
+         end if
          if (allocated(error)) then
             if (w > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
             exit
