@@ -13,13 +13,16 @@ module dondolo_fragility
    implicit none
    private
 
-   public :: fragility_type, fit_fragility
+   public :: fragility_type, fit_fragility, status_names
    public :: normal_cdf
+
+   !> What can come of a fit; the first two have a curve
+   character(len=12), parameter :: status_names(7) = [character(len=12) :: 'ok', 'extrapolated', 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
-      !> 'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated',
-      !> 'single_level' or 'decreasing'; the first two have a curve
+      !> One of status_names; 'extrapolated' is a theta outside the levels
       character(len=12) :: status = 'no_collapse'
       !> Median, in the unit of the levels
       real(dp) :: theta = 0.0_dp

@@ -16,7 +16,7 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe
+   public :: stripes_type, multiple_stripe, plan_stripes, run_histories
    public :: check_levels, check_polarity, polarity_names, progress_interface
    public :: largest_threads, available_threads
 
@@ -80,7 +80,29 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
-      integer :: i, j, k, histories, total, done, now, team
+      call plan_stripes(stripes, wall, records, levels, im, polarity, solver, error)
+      if (allocated(error)) return
+      call run_histories(stripes, wall, records, solver, 1, size(stripes%response), threads, progress)
+   end subroutine multiple_stripe
+
+   !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
+   subroutine plan_stripes(stripes, wall, records, levels, im, polarity, solver, error)
+      !> Result; the responses have room but no values
+      type(stripes_type), intent(out) :: stripes
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Levels of intensity, positive and increasing, in g for accelerations
+      real(wp), intent(in) :: levels(:)
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
+      character(len=*), intent(in) :: polarity
+      !> Engine, tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> What cannot be run: `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
 
       call check_im(im, error)
       if (.not. allocated(error)) call check_levels(levels, error)
@@ -93,17 +115,39 @@ contains
       call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
       call choose_scales(stripes, records, wall%gravity, error)
       if (allocated(error)) return
+      allocate(stripes%response(size(stripes%record), size(levels)))
+   end subroutine plan_stripes
+
+   !> Run some of the histories of a plan; they are numbered stripe by stripe, from the lowest level
+   subroutine run_histories(stripes, wall, records, solver, first, last, threads, progress)
+      !> The plan; the responses of these histories are set
+      type(stripes_type), intent(inout) :: stripes
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Engine, tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> The first history to run, from 1
+      integer, intent(in) :: first
+      !> The last history to run
+      integer, intent(in) :: last
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      integer :: i, j, k, histories, total, done, now, team
 
       histories = size(stripes%record)
-      total = histories*size(levels)
-      allocate(stripes%response(histories, size(levels)))
+      total = last - first + 1
       team = threads
       if (team == 0) team = available_threads()
       done = 0
       ! High levels take longest: they go first, so that no thread is left alone with them at the end.
       !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
-      !$omp & shared(stripes, records, wall, solver, histories, total, done)
-      do k = total - 1, 0, -1
+      !$omp & shared(stripes, records, wall, solver, histories, first, last, total, done)
+      do k = last - 1, first - 1, -1
          i = modulo(k, histories) + 1
          j = k/histories + 1
          call simulate_rk45(wall%mechanism, records(stripes%record(i)), &
@@ -118,7 +162,7 @@ contains
       end do
       !$omp end parallel do
       if (present(progress)) call progress(total, total)
-   end subroutine multiple_stripe
+   end subroutine run_histories
 
    !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
    integer function available_threads()

@@ -1,0 +1,335 @@
+"""The only module that touches the Fortran extension.
+
+Statuses become exceptions with the sentence of the executable, parcels become arrays, and arrays become contiguous
+float64 before they cross.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import sys
+import warnings
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo import _core
+from dondolo.errors import DondoloError, DondoloWarning, InputError
+
+FloatArray = NDArray[np.float64]
+
+_PACKAGE = Path(__file__).parent
+
+WALL_NUMBERS = (
+    "height",
+    "thickness",
+    "density",
+    "hinge",
+    "restitution_value",
+    "restitution_factor",
+    "overburden",
+    "eccentricity",
+)
+_WALL_REALS = len(WALL_NUMBERS) + 7
+_WALL_INTEGERS = len(WALL_NUMBERS) + 1
+
+
+class Constants(NamedTuple):
+    """What Fortran says of itself."""
+
+    rtol: float
+    atol: float
+    edp_limit: float
+    gravity: float
+    version: str
+    statuses: tuple[str, ...]
+
+
+class FlatWall(NamedTuple):
+    """A wall, or several, as Fortran takes them."""
+
+    texts: bytes
+    numbers: FloatArray
+    given: NDArray[np.int32]
+    gravity: Any
+
+
+class FlatRecords(NamedTuple):
+    """Records as Fortran takes them."""
+
+    names: bytes
+    lengths: NDArray[np.int32]
+    dt: FloatArray
+    acceleration: FloatArray
+
+
+class WallData(NamedTuple):
+    """A wall as Fortran has understood it."""
+
+    name: str
+    mechanism: str
+    restitution: str
+    numbers: dict[str, float | None]
+    gravity: float
+    statics: tuple[float, ...]
+    two_sided: bool
+
+
+class RecordData(NamedTuple):
+    """A record as Fortran has read it."""
+
+    name: str
+    dt: float
+    acceleration: FloatArray
+
+
+class CurveData(NamedTuple):
+    """A fitted curve, or why there is none."""
+
+    status: str
+    numbers: FloatArray
+
+
+class Parcel(NamedTuple):
+    """Contents that came from Fortran."""
+
+    integers: NDArray[np.int32]
+    reals: FloatArray
+    lines: list[str]
+
+
+class GroupData(NamedTuple):
+    """The curve of a population, or of its walls of one mechanism."""
+
+    mechanism: str
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    curve: CurveData
+
+
+@functools.cache
+def constants() -> Constants:
+    """Ask Fortran for its version, defaults and the names of its statuses."""
+    defaults, version, statuses = _core.constants()
+    return Constants(
+        *(float(value) for value in defaults),
+        version=version.decode().strip(),
+        statuses=tuple(statuses.decode().split()),
+    )
+
+
+def check(stat: int, message: bytes) -> None:
+    """Raise what a status says."""
+    if stat == 0:
+        return
+    sentence = message.decode("utf-8", "replace").strip()
+    raise InputError(sentence) if stat == 2 else DondoloError(sentence)
+
+
+def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:
+    """Take the parcel that a procedure has sent."""
+    check(stat, message)
+    integers, reals, characters = _core.take_parcel(handle, *sizes)
+    text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
+    return Parcel(integers, reals, text.split("\n")[:-1])
+
+
+def warn(sentences: Iterable[str]) -> None:
+    """Warn of each sentence, where the user's own line is."""
+    frame, depth = sys._getframe(), 1
+    while frame.f_back is not None and Path(frame.f_code.co_filename).parent == _PACKAGE:
+        frame, depth = frame.f_back, depth + 1
+    for sentence in sentences:
+        warnings.warn(sentence, DondoloWarning, stacklevel=depth)
+
+
+def as_number(name: str, value: Any) -> float:
+    """Turn what a user gives for a number into one."""
+    if isinstance(value, (str, bytes)):
+        raise InputError(f"{name} = {value!r}: must be a number")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} = {value!r}: must be a number") from None
+
+
+def as_array(name: str, values: ArrayLike) -> FloatArray:
+    """Turn what a user gives for a row of numbers into one."""
+    try:
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: must be numbers") from None
+    if array.ndim != 1:
+        raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
+    if not array.size:
+        # f2py takes no empty arrays
+        raise InputError(f"{name}: must be given")
+    return array
+
+
+def as_text(name: str, value: Any) -> bytes:
+    """Turn what a user gives for a word into the bytes Fortran takes."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} = {value!r}: must be a text")
+    if "\n" in value or "\r" in value:
+        raise InputError(f"{name}: must stand on one line")
+    return value.encode()
+
+
+def as_path(path: str | os.PathLike[str]) -> bytes:
+    """Turn a path into the bytes Fortran takes."""
+    return os.fsencode(path)
+
+
+def tolerances(rtol: float | None, atol: float | None, edp_limit: float | None) -> FloatArray:
+    """rtol, atol and edp_limit, with Fortran's own defaults where there is None."""
+    if rtol is None and atol is None and edp_limit is None:
+        return _default_tolerances()
+    default = constants()
+    return np.array(
+        [
+            default.rtol if rtol is None else as_number("rtol", rtol),
+            default.atol if atol is None else as_number("atol", atol),
+            default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
+        ]
+    )
+
+
+@functools.cache
+def _default_tolerances() -> FloatArray:
+    default = constants()
+    return np.array([default.rtol, default.atol, default.edp_limit])
+
+
+def describe_wall(
+    name: str | None, mechanism: str, restitution: str | None, numbers: Sequence[Any], gravity: Any
+) -> tuple[FlatWall, WallData]:
+    """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
+    texts = b"\n".join(
+        b"" if text is None else as_text(what, text)
+        for what, text in (("name", name), ("mechanism", mechanism), ("restitution", restitution))
+    )
+    values = np.array(
+        [0.0 if value is None else as_number(what, value) for what, value in zip(WALL_NUMBERS, numbers, strict=True)]
+    )
+    given = np.array([value is not None for value in numbers], dtype=np.int32)
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
+    parcel = receive(*_core.describe_wall(texts, values, given, pull))
+    data = unpack_walls(parcel, 1)[0]
+    return FlatWall(texts, values, given, pull), data
+
+
+def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
+    """Walls out of a parcel, from given places on."""
+    walls = []
+    known = len(WALL_NUMBERS)
+    for i in range(count):
+        numbers = parcel.reals[reals + i * _WALL_REALS :][:_WALL_REALS]
+        given = parcel.integers[integers + i * _WALL_INTEGERS :][:_WALL_INTEGERS]
+        name, mechanism, restitution = parcel.lines[lines + 3 * i : lines + 3 * i + 3]
+        walls.append(
+            WallData(
+                name,
+                mechanism,
+                restitution,
+                {
+                    what: float(value) if mask else None
+                    for what, value, mask in zip(WALL_NUMBERS, numbers[:known], given[:known], strict=True)
+                },
+                float(numbers[known]),
+                tuple(float(value) for value in numbers[known + 1 :]),
+                bool(given[known]),
+            )
+        )
+    return walls
+
+
+def walls_end(count: int) -> tuple[int, int, int]:
+    """How many reals, integers and lines of a parcel so many walls take."""
+    return count * _WALL_REALS, count * _WALL_INTEGERS, 3 * count
+
+
+def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
+    """Records out of a parcel, from given places on."""
+    lengths = parcel.integers[integers : integers + count]
+    ends = reals + count + np.cumsum(lengths)
+    return [
+        RecordData(
+            parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]]
+        )
+        for i in range(count)
+    ]
+
+
+def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
+    """Several walls, one after the other."""
+    return FlatWall(
+        b"\n".join(wall.texts for wall in walls),
+        np.stack([wall.numbers for wall in walls]).T,
+        np.stack([wall.given for wall in walls]).T,
+        np.array([wall.gravity for wall in walls]),
+    )
+
+
+def read_records(
+    path: str | os.PathLike[str], catalogue: bool, dt: float | None = None, units: str | None = None
+) -> list[RecordData]:
+    """Read one accelerogram, or all of a catalogue."""
+    step = 0.0 if dt is None else as_number("dt", dt)
+    unit = b"" if units is None else as_text("units", units)
+    parcel = receive(*_core.read_records(as_path(path), int(catalogue), int(dt is not None), step, unit))
+    return unpack_records(parcel, len(parcel.integers))
+
+
+def read_walls(path: str | os.PathLike[str], gravity: float | None) -> tuple[list[WallData], FloatArray]:
+    """Read a population: its walls and their weights."""
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
+    parcel = receive(*_core.read_walls(as_path(path), pull))
+    count = len(parcel.lines) // 3
+    return unpack_walls(parcel, count), parcel.reals[count * _WALL_REALS :]
+
+
+def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
+    """Fit many curves in one call: collapses and histories are (curves, levels).
+
+    A fit that fails has the status '' and raises only where it is the only one.
+    """
+    z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
+    curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
+    if stat == 2 or len(codes) == 1:
+        check(stat, message)
+    names = ("", *constants().statuses)
+    return curves.T, [names[code] for code in codes]
+
+
+def fit_walls(
+    walls: FlatWall, levels: FloatArray, collapses: NDArray[np.int32], histories: NDArray[np.int32], weights: FloatArray
+) -> tuple[list[CurveData], list[GroupData], list[str]]:
+    """Curves of walls, of their population (the last of all) and warnings: collapses are (walls, levels)."""
+    parcel = receive(*_core.fit_walls(*walls, levels, np.ascontiguousarray(collapses).T, histories, weights))
+    m, w = len(levels), len(weights)
+    names = ("", *constants().statuses)
+    status = [names[code] for code in parcel.integers]
+    curves = [CurveData(*pair) for pair in zip(status, parcel.reals[: 8 * w].reshape(w, 8), strict=False)]
+    rows = parcel.reals[8 * w :].reshape(len(status) - w, 1 + 2 * m + 8)
+    groups = [
+        GroupData(mechanism, float(row[0]), row[1 : 1 + m], row[1 + m : 1 + 2 * m], CurveData(what, row[1 + 2 * m :]))
+        for mechanism, what, row in zip(parcel.lines, status[w:], rows, strict=False)
+    ]
+    return curves, groups, parcel.lines[len(groups) :]
+
+
+def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:
+    """What the executable would warn of, of the curve of one wall."""
+    code = constants().statuses.index(curve.status) + 1
+    return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+
+
+def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
+    """Probabilities of collapse of a lognormal curve."""
+    return _core.probability(theta, beta, x)

@@ -1,0 +1,371 @@
+!> Between the flat arguments of dondolo_f2py and the types of the library.
+!>
+!> f2py cannot pass results whose size only the library knows. They travel as a parcel: a procedure that opens one
+!> returns its address and its sizes, and `take` copies its contents into arrays of these sizes and frees it.
+module dondolo_boundary
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_intptr_t, c_loc, c_ptr
+   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_fragility, only : fragility_type, status_names
+   use dondolo_lines, only : lines_type
+   use dondolo_record, only : record_type
+   use dondolo_response, only : response_type
+   use dondolo_solver, only : solver_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   implicit none
+   private
+
+   public :: parcel_type, send, take
+   public :: report, line_of, pack_lines, as_solver, check_threads
+   public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
+
+   !> Numbers of a wall, in this order in all flat arrays
+   integer, parameter, public :: wall_numbers = 8
+
+   !> Contents of unknown size on their way to Python
+   type :: parcel_type
+      !> Integers
+      integer(c_int), allocatable :: integers(:)
+      !> Reals
+      real(c_double), allocatable :: reals(:)
+      !> Text
+      character(len=:), allocatable :: text
+   end type parcel_type
+
+contains
+
+   !> Send a parcel: its address and its sizes
+   subroutine send(parcel, handle, sizes)
+      !> The parcel; it is moved away
+      type(parcel_type), intent(inout) :: parcel
+      !> Address to take it from
+      integer(c_intptr_t), intent(out) :: handle
+      !> Number of integers, reals and characters
+      integer(c_int), intent(out) :: sizes(3)
+
+      type(parcel_type), pointer :: sent
+
+      if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
+      if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
+      if (.not. allocated(parcel%text)) parcel%text = ''
+      allocate (sent)
+      call move_alloc(parcel%integers, sent%integers)
+      call move_alloc(parcel%reals, sent%reals)
+      call move_alloc(parcel%text, sent%text)
+      sizes = [size(sent%integers), size(sent%reals), len(sent%text)]
+      handle = transfer(c_loc(sent), handle)
+   end subroutine send
+
+   !> Take a parcel and free it
+   subroutine take(handle, integers, reals, characters)
+      !> Its address, which is valid once
+      integer(c_intptr_t), intent(in) :: handle
+      !> Its integers
+      integer(c_int), intent(out) :: integers(:)
+      !> Its reals
+      real(c_double), intent(out) :: reals(:)
+      !> Codes of its characters (bytes)
+      integer(c_int), intent(out) :: characters(:)
+
+      type(parcel_type), pointer :: sent
+      type(c_ptr) :: address
+      integer :: i
+
+      address = transfer(handle, address)
+      call c_f_pointer(address, sent)
+      integers = sent%integers
+      reals = sent%reals
+      do i = 1, size(characters)
+         characters(i) = ichar(sent%text(i:i))
+      end do
+      deallocate (sent)
+   end subroutine take
+
+   !> An error as status and message
+   subroutine report(error, stat, message)
+      !> The error; not allocated: success
+      type(error_type), allocatable, intent(in) :: error
+      !> 0, or the kind of the error
+      integer(c_int), intent(out) :: stat
+      !> Its sentence
+      character(len=*), intent(out) :: message
+
+      stat = 0
+      message = ''
+      if (.not. allocated(error)) return
+      stat = error%stat
+      message = error%message
+   end subroutine report
+
+   !> One line out of a text
+   pure function line_of(text, number) result(line)
+      !> Lines, separated by new_line
+      character(len=*), intent(in) :: text
+      !> Number of the line, from 1
+      integer, intent(in) :: number
+      !> The line; blanks at its end are lost
+      character(len=:), allocatable :: line
+
+      integer :: first, length, i
+
+      first = 1
+      do i = 1, number
+         length = index(text(first:), new_line('a')) - 1
+         if (length < 0) length = len(text) - first + 1
+         if (i == number) exit
+         first = min(first + length + 1, len(text) + 1)
+      end do
+      line = trim(text(first:first + length - 1))
+   end function line_of
+
+   !> Lines as one text
+   pure function pack_lines(lines) result(text)
+      !> Lines
+      type(lines_type), intent(in) :: lines
+      !> The same, each ended by new_line
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, lines%count
+         text = text//lines%line(i)%text//new_line('a')
+      end do
+   end function pack_lines
+
+   !> Settings of the computation
+   pure function as_solver(engine, tolerances) result(solver)
+      !> Engine
+      character(len=*), intent(in) :: engine
+      !> rtol, atol, edp_limit
+      real(c_double), intent(in) :: tolerances(3)
+      !> The settings
+      type(solver_type) :: solver
+
+      solver%engine = engine
+      solver%rtol = tolerances(1)
+      solver%atol = tolerances(2)
+      solver%edp_limit = tolerances(3)
+   end function as_solver
+
+   !> Check a number of threads
+   subroutine check_threads(threads, error)
+      !> Number
+      integer(c_int), intent(in) :: threads
+      !> It makes no sense
+      type(error_type), allocatable, intent(out) :: error
+
+      if (threads < 0 .or. threads > 4096) &
+         & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
+   end subroutine check_threads
+
+   !> Make walls
+   subroutine set_walls(walls, texts, numbers, given, gravity, error)
+      !> The walls
+      type(wall_type), intent(out) :: walls(:)
+      !> Three lines a wall: name, mechanism, restitution; empty: not given
+      character(len=*), intent(in) :: texts
+      !> height, thickness, density, hinge, restitution_value, restitution_factor, overburden, eccentricity
+      real(c_double), intent(in) :: numbers(:, :)
+      !> 1 where the number was given
+      integer(c_int), intent(in) :: given(:, :)
+      !> Gravity [m/s2]
+      real(c_double), intent(in) :: gravity(:)
+      !> The first thing that is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+      integer :: i
+
+      do i = 1, size(walls)
+         input = wall_input_type()
+         call set_text(input%name, line_of(texts, 3*i - 2))
+         call set_text(input%mechanism, line_of(texts, 3*i - 1))
+         call set_text(input%restitution, line_of(texts, 3*i))
+         call set_number(input%height, 1)
+         call set_number(input%thickness, 2)
+         call set_number(input%density, 3)
+         call set_number(input%hinge, 4)
+         call set_number(input%restitution_value, 5)
+         call set_number(input%restitution_factor, 6)
+         call set_number(input%overburden, 7)
+         call set_number(input%eccentricity, 8)
+         call new_wall(walls(i), input, error, gravity(i))
+         if (.not. allocated(error)) cycle
+         if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
+         return
+      end do
+
+   contains
+
+      !> Set a text that was given
+      subroutine set_text(variable, text)
+         !> The variable
+         character(len=:), allocatable, intent(inout) :: variable
+         !> Its text, empty if not given
+         character(len=*), intent(in) :: text
+
+         if (len(text) > 0) variable = text
+      end subroutine set_text
+
+      !> Set a number that was given
+      subroutine set_number(variable, k)
+         !> The variable
+         real(c_double), allocatable, intent(inout) :: variable
+         !> Its place among the numbers
+         integer, intent(in) :: k
+
+         if (given(k, i) /= 0) variable = numbers(k, i)
+      end subroutine set_number
+
+   end subroutine set_walls
+
+   !> Walls as they were understood: names, numbers and static quantities
+   subroutine pack_walls(walls, parcel)
+      !> The walls
+      type(wall_type), intent(in) :: walls(:)
+      !> Integers: a wall's 8 given, two_sided; reals: its 8 numbers, gravity, R, alpha, p, trigger, q_c, e;
+      !> text: its three lines
+      type(parcel_type), intent(inout) :: parcel
+
+      real(c_double) :: numbers(wall_numbers)
+      integer(c_int) :: given(wall_numbers)
+      integer :: i
+
+      if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
+      if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
+      if (.not. allocated(parcel%text)) parcel%text = ''
+      do i = 1, size(walls)
+         associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
+            call get_number(1, input%height)
+            call get_number(2, input%thickness)
+            call get_number(3, input%density)
+            call get_number(4, input%hinge)
+            call get_number(5, input%restitution_value)
+            call get_number(6, input%restitution_factor)
+            call get_number(7, input%overburden)
+            call get_number(8, input%eccentricity)
+            parcel%integers = [parcel%integers, given, merge(1, 0, mechanism%two_sided)]
+            parcel%reals = [parcel%reals, numbers, walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
+               & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
+               & mechanism%restitution]
+            parcel%text = parcel%text//input%name//new_line('a')//input%mechanism//new_line('a')// &
+               & input%restitution//new_line('a')
+         end associate
+      end do
+
+   contains
+
+      !> Put a number among the others
+      subroutine get_number(k, variable)
+         !> Its place
+         integer, intent(in) :: k
+         !> The number; not allocated: it does not apply
+         real(c_double), allocatable, intent(in) :: variable
+
+         given(k) = merge(1, 0, allocated(variable))
+         numbers(k) = 0.0_c_double
+         if (allocated(variable)) numbers(k) = variable
+      end subroutine get_number
+
+   end subroutine pack_walls
+
+   !> Make records of what Python has checked when it made its own
+   subroutine set_records(records, names, lengths, dt, acceleration)
+      !> The records
+      type(record_type), allocatable, intent(out) :: records(:)
+      !> Their names, one a line
+      character(len=*), intent(in) :: names
+      !> Numbers of samples
+      integer(c_int), intent(in) :: lengths(:)
+      !> Time steps [s]
+      real(c_double), intent(in) :: dt(:)
+      !> All samples, one record after the other [m/s2]
+      real(c_double), intent(in) :: acceleration(:)
+
+      integer :: i, from
+
+      allocate (records(size(lengths)))
+      from = 0
+      do i = 1, size(records)
+         records(i)%name = line_of(names, i)
+         records(i)%dt = dt(i)
+         records(i)%acceleration = acceleration(from + 1:from + lengths(i))
+         from = from + lengths(i)
+      end do
+   end subroutine set_records
+
+   !> Records in a parcel, after what is in it
+   subroutine pack_records(records, parcel)
+      !> The records
+      type(record_type), intent(in) :: records(:)
+      !> Integers: lengths; reals: time steps, all samples; text: names
+      type(parcel_type), intent(inout) :: parcel
+
+      real(c_double), allocatable :: reals(:)
+      integer :: i, from, samples
+
+      if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
+      if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
+      if (.not. allocated(parcel%text)) parcel%text = ''
+      samples = 0
+      do i = 1, size(records)
+         samples = samples + size(records(i)%acceleration)
+         parcel%integers = [parcel%integers, size(records(i)%acceleration)]
+         parcel%text = parcel%text//records(i)%name//new_line('a')
+      end do
+      from = size(parcel%reals)
+      allocate (reals(from + size(records) + samples))
+      reals(:from) = parcel%reals
+      do i = 1, size(records)
+         reals(from + i) = records(i)%dt
+      end do
+      from = from + size(records)
+      do i = 1, size(records)
+         reals(from + 1:from + size(records(i)%acceleration)) = records(i)%acceleration
+         from = from + size(records(i)%acceleration)
+      end do
+      call move_alloc(reals, parcel%reals)
+   end subroutine pack_records
+
+   !> A response as flat numbers
+   elemental subroutine pack_response(response, edp, collapsed, impacts, time_of_peak)
+      !> The response
+      type(response_type), intent(in) :: response
+      !> Largest rotation / capacity
+      real(c_double), intent(out) :: edp
+      !> 1: collapsed
+      integer(c_int), intent(out) :: collapsed
+      !> Impacts
+      integer(c_int), intent(out) :: impacts
+      !> Time of the peak [s]
+      real(c_double), intent(out) :: time_of_peak
+
+      edp = response%edp
+      collapsed = merge(1, 0, response%collapsed)
+      impacts = response%impacts
+      time_of_peak = response%time_of_peak
+   end subroutine pack_response
+
+   !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket
+   pure function pack_curve(curve) result(numbers)
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> Its numbers
+      real(c_double) :: numbers(8)
+
+      numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
+         & curve%log_likelihood, curve%bracket]
+   end function pack_curve
+
+   !> Place of a status among the names
+   pure function status_code(curve) result(code)
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> From 1
+      integer(c_int) :: code
+
+      code = findloc(status_names, curve%status, dim=1)
+   end function status_code
+
+end module dondolo_boundary

@@ -1,0 +1,534 @@
+! The one boundary between Fortran and Python: all that f2py reads.
+!
+! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
+! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
+! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
+! 0, or 1 and 2 as the exit codes of the executable. Each procedure releases Python's lock (threadsafe).
+
+! Version, defaults and limits that Python must not repeat
+subroutine constants(defaults, version, statuses)
+   use, intrinsic :: iso_c_binding, only : c_double
+   use dondolo_fragility, only : status_names
+   use dondolo_solver, only : solver_type
+   use dondolo_version, only : dondolo_version_text
+   use dondolo_wall, only : standard_gravity
+   implicit none
+   !f2py threadsafe
+   ! rtol, atol, edp_limit, gravity
+   real(c_double), intent(out) :: defaults(4)
+   character(len=32), intent(out) :: version
+   character(len=256), intent(out) :: statuses
+   type(solver_type) :: solver
+   integer :: i
+
+   defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity]
+   version = dondolo_version_text
+   statuses = ''
+   do i = 1, size(status_names)
+      statuses = trim(statuses)//' '//status_names(i)
+   end do
+end subroutine constants
+
+! Contents of a parcel that another procedure has sent
+subroutine take_parcel(handle, m, n, k, integers, reals, characters)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : take
+   implicit none
+   !f2py threadsafe
+   integer(c_intptr_t), intent(in) :: handle
+   integer(c_int), intent(in) :: m, n, k
+   integer(c_int), intent(out) :: integers(m), characters(k)
+   real(c_double), intent(out) :: reals(n)
+
+   call take(handle, integers, reals, characters)
+end subroutine take_parcel
+
+! A wall with its defaults filled in and its static quantities, as pack_walls has them
+subroutine describe_wall(texts, numbers, given, gravity, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_walls, parcel_type, report, send, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts
+   real(c_double), intent(in) :: numbers(8), gravity
+   integer(c_int), intent(in) :: given(8)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) then
+      call pack_walls(walls, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine describe_wall
+
+! Check what a record is to be made of
+subroutine check_record(acceleration, n, dt, pga, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_record, only : new_record, record_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: acceleration(n), dt
+   real(c_double), intent(out) :: pga
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(record_type) :: record
+   type(error_type), allocatable :: error
+
+   pga = 0
+   call new_record(record, acceleration, dt, '', error)
+   if (.not. allocated(error)) pga = record%pga()
+   call report(error, stat, message)
+end subroutine check_record
+
+! Read one accelerogram (dt 0 and units empty where they are not given) or, with catalogue = 1, all of a catalogue
+subroutine read_records(path, catalogue, dt_given, dt, units, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_records, parcel_type, report, send
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_record_reader, only : read_record
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: path, units
+   integer(c_int), intent(in) :: catalogue, dt_given
+   real(c_double), intent(in) :: dt
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(record_type), allocatable :: records(:)
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   if (catalogue == 1) then
+      call read_catalogue(path, records, error)
+   else
+      allocate (records(1))
+      if (dt_given == 1) then
+         call read_record(path, records(1), error, dt, units)
+      else
+         call read_record(path, records(1), error, units=units)
+      end if
+   end if
+   if (.not. allocated(error)) then
+      call pack_records(records, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_records
+
+! Read a population: walls as pack_walls has them, then their weights
+subroutine read_walls(path, gravity, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_walls, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_population, only : population_type, read_population
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: path
+   real(c_double), intent(in) :: gravity
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(population_type) :: population
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call read_population(path, population, error, gravity)
+   if (.not. allocated(error)) then
+      call pack_walls(population%walls, parcel)
+      parcel%reals = [parcel%reals, population%weight]
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_walls
+
+! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
+subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, tolerances, history, &
+      & edp, collapsed, impacts, time_of_peak, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : as_solver, pack_response, parcel_type, report, send, set_records, set_walls
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_response, only : response_type, trace_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts, name, engine
+   integer(c_int), intent(in) :: n, given(8), history
+   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, tolerances(3)
+   real(c_double), intent(out) :: edp, time_of_peak
+   integer(c_int), intent(out) :: collapsed, impacts
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(record_type), allocatable :: records(:)
+   type(solver_type) :: solver
+   type(response_type) :: response
+   type(trace_type) :: trace
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   solver = as_solver(engine, tolerances)
+   if (.not. allocated(error)) call check_solver(solver, error)
+   if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
+   if (.not. allocated(error)) then
+      call set_records(records, name, [n], [dt], acceleration)
+      if (.not. abs(scale)*records(1)%pga() <= largest_acceleration) call raise_input(error, 'scale = '// &
+         & to_text(scale)//': makes record '''//name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+   end if
+   if (.not. allocated(error)) then
+      if (history == 1) then
+         call simulate_rk45(walls(1)%mechanism, records(1), scale, solver, response, trace)
+         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+         call send(parcel, handle, sizes)
+      else
+         call simulate_rk45(walls(1)%mechanism, records(1), scale, solver, response)
+      end if
+   end if
+   call pack_response(response, edp, collapsed, impacts, time_of_peak)
+   call report(error, stat, message)
+end subroutine simulate
+
+! Check what stripes of some walls would be, without running them. Integers: histories of a stripe of each wall, then
+! record and polarity of each history of the last wall; reals: its scales (histories, levels); text: warnings
+subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, polarity, &
+      & engine, tolerances, threads, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : as_solver, check_threads, pack_lines, parcel_type, report, send, set_records, set_walls
+   use dondolo_error, only : add_place, error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_record, only : record_type
+   use dondolo_solver, only : check_limit
+   use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : scale_warning_type, warn_of_records
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts, names, im, polarity, engine
+   integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), tolerances(3)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type), allocatable :: walls(:)
+   type(record_type), allocatable :: records(:)
+   type(stripes_type) :: stripes
+   type(scale_warning_type) :: scales
+   type(lines_type) :: warnings
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   integer, allocatable :: histories(:)
+   integer :: i
+   logical :: fresh
+
+   handle = 0
+   sizes = 0
+   allocate (walls(w), histories(w))
+   call check_threads(threads, error)
+   if (.not. allocated(error)) call set_walls(walls, texts, numbers, given, gravity, error)
+   if (.not. allocated(error)) then
+      call set_records(records, names, lengths, dt, acceleration)
+      do i = 1, w
+         ! Of a wall, sides and gravity alone count in a plan: most walls of a population share one.
+         fresh = i == 1
+         if (i > 1) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
+            & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
+         if (fresh) then
+            call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+         else
+            call check_limit(as_solver(engine, tolerances), walls(i)%mechanism, error)
+         end if
+         if (allocated(error)) then
+            if (w > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
+            exit
+         end if
+         histories(i) = size(stripes%record)
+         call scales%look(stripes, records)
+      end do
+   end if
+   if (.not. allocated(error)) then
+      call warn_of_records(records, warnings)
+      call scales%warn(warnings)
+      parcel%integers = [histories, stripes%record, stripes%polarity]
+      parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
+      parcel%text = pack_lines(warnings)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine plan
+
+! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe
+subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, &
+      & polarity, engine, tolerances, threads, first, count, edp, collapsed, impacts, time_of_peak, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts, names, im, polarity, engine
+   integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), tolerances(3)
+   real(c_double), intent(out) :: edp(count), time_of_peak(count)
+   integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type), allocatable :: walls(:)
+   type(record_type), allocatable :: records(:)
+   type(stripes_type) :: stripes
+   type(error_type), allocatable :: error
+   integer :: i, j, k, before, from, to, done
+
+   edp = 0
+   collapsed = 0
+   impacts = 0
+   time_of_peak = 0
+   allocate (walls(w))
+   call set_walls(walls, texts, numbers, given, gravity, error)
+   if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
+   before = 0
+   done = 0
+   do i = 1, w
+      if (allocated(error) .or. done == count) exit
+      call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+      if (allocated(error)) exit
+      from = max(first - before, 1)
+      to = min(first + count - 1 - before, size(stripes%response))
+      if (from <= to) call run_histories(stripes, walls(i), records, as_solver(engine, tolerances), from, to, threads)
+      do k = from - 1, to - 1
+         j = k/size(stripes%record) + 1
+         done = done + 1
+         call pack_response(stripes%response(modulo(k, size(stripes%record)) + 1, j), edp(done), collapsed(done), &
+            & impacts(done), time_of_peak(done))
+      end do
+      before = before + size(stripes%response)
+   end do
+   call report(error, stat, message)
+end subroutine run_block
+
+! Fit k curves, each to m levels. A status of 0 is a fit that failed; message tells of the first that went wrong
+subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : pack_curve, report, status_code
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: m, k
+   real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
+   real(c_double), intent(out) :: curves(8, k)
+   integer(c_int), intent(out) :: statuses(k), stat
+   character(len=2048), intent(out) :: message
+   type(fragility_type) :: curve
+   type(error_type), allocatable :: error
+   character(len=2048) :: sentence
+   integer(c_int) :: this
+   integer :: i, worst
+
+   curves = 0
+   stat = 0
+   message = ''
+   worst = k + 1
+   !$omp parallel do default(none) private(curve, error, sentence, this) &
+   !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, stat, message)
+   do i = 1, k
+      call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
+      statuses(i) = 0
+      if (allocated(error)) then
+         call report(error, this, sentence)
+         !$omp critical (first_error)
+         if (i < worst) then
+            worst = i
+            stat = this
+            message = sentence
+         end if
+         !$omp end critical (first_error)
+      else
+         statuses(i) = status_code(curve)
+      end if
+      curves(:, i) = pack_curve(curve)
+   end do
+   !$omp end parallel do
+end subroutine fit_curves
+
+! Curves of walls and of their population. Integers: statuses of the walls, then of the population's curves (one for each
+! mechanism, and the last for all); reals: numbers of each wall's curve, then for each of the population's the sum of the
+! weights, mean fractions, mean curve and numbers; text: mechanisms of the population's curves, then warnings
+subroutine fit_walls(texts, numbers, given, gravity, w, levels, collapses, m, histories, weights, handle, sizes, stat, &
+      & message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_curve, pack_lines, parcel_type, report, send, set_walls, status_code
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_lines, only : lines_type
+   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_wall, only : mechanism_names, wall_type
+   use dondolo_warnings, only : warn_of_fits
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: w, m, given(8, w), collapses(m, w), histories(w)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), levels(m), weights(w)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type), allocatable :: walls(:)
+   type(fragility_type), allocatable :: curves(:)
+   type(typology_type), allocatable :: groups(:)
+   type(lines_type) :: lines
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   character(len=len(mechanism_names)), allocatable :: mechanisms(:)
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   allocate (walls(w), curves(w), mechanisms(w))
+   call set_walls(walls, texts, numbers, given, gravity, error)
+   do i = 1, w
+      if (allocated(error)) exit
+      mechanisms(i) = walls(i)%input%mechanism
+      call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
+         & spread(real(histories(i), c_double), 1, m), error)
+   end do
+   if (.not. allocated(error)) &
+      & call combine_population(groups, mechanisms, levels, collapses, histories, curves, weights, error)
+   if (.not. allocated(error)) then
+      parcel%integers = [(status_code(curves(i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups))]
+      parcel%reals = [(pack_curve(curves(i)), i=1, w), (groups(i)%weight, groups(i)%mean_fraction, &
+         & groups(i)%mean_curve, pack_curve(groups(i)%fit), i=1, size(groups))]
+      do i = 1, size(groups)
+         call lines%add(groups(i)%mechanism)
+      end do
+      call warn_of_fits(walls, curves, groups, lines)
+      parcel%text = pack_lines(lines)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine fit_walls
+
+! What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
+subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp, curve, status, handle, sizes, stat, &
+      & message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fragility_type, status_names
+   use dondolo_lines, only : lines_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : warn_of_fit
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: m, given(8), status
+   real(c_double), intent(in) :: numbers(8), gravity, levels(m), largest_edp, curve(8)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(stripes_type) :: stripes
+   type(fragility_type) :: fragility
+   type(lines_type) :: warnings
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) then
+      fragility%status = status_names(status)
+      fragility%theta = curve(1)
+      fragility%bracket = curve(7:8)
+      stripes%levels = levels
+      ! Of the responses the sentences need the largest only
+      allocate (stripes%response(1, 1))
+      stripes%response%edp = largest_edp
+      call warn_of_fit(walls(1), stripes, fragility, warnings)
+      parcel%text = pack_lines(warnings)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine warn_of_curve
+
+! Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
+subroutine probability(theta, beta, x, n, p)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_fragility, only : fragility_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: theta, beta, x(n)
+   real(c_double), intent(out) :: p(n)
+   type(fragility_type) :: curve
+
+   curve%theta = theta
+   curve%beta = beta
+   p = curve%probability(x)
+end subroutine probability
+
+! Read a case. Integers: number of walls, of levels, of records, threads, record of the history from 1, then walls and
+! records as they are packed; reals: rtol, atol, edp_limit, scale of the history (with its sign), levels, weights,
+! walls, records; text: task, title, output, im, polarity, engine, then walls and records
+subroutine read_case(path, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_records, pack_walls, parcel_type, report, send
+   use dondolo_case, only : case_type, load_case => read_case
+   use dondolo_error, only : error_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: path
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(case_type) :: case
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   character(len=1), parameter :: line = new_line('a')
+   real(c_double) :: scale
+
+   handle = 0
+   sizes = 0
+   call load_case(path, case, error)
+   if (.not. allocated(error)) then
+      if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
+      scale = 1
+      if (case%job%task == 'history') scale = case%history_scale()
+      parcel%integers = [size(case%population%walls), size(case%stripes%levels), size(case%records), &
+         & case%job%threads, case%history%record]
+      parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
+         & scale, case%stripes%levels, case%population%weight]
+      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line//case%stripes%im//line// &
+         & case%records_input%polarity//line//trim(case%solver%solver%engine)//line
+      call pack_walls(case%population%walls, parcel)
+      call pack_records(case%records, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_case

@@ -1,0 +1,183 @@
+"""One motion of one wall."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo import _binding, _core, tables
+from dondolo.errors import DondoloError, InputError
+from dondolo.records import Record
+from dondolo.walls import Wall
+
+FloatArray = _binding.FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """What a motion leaves.
+
+    Attributes
+    ----------
+    wall, record : Wall, Record
+        What moved, and what moved it.
+    scale : float
+        Factor on the record, negative if its polarity was reversed.
+    edp : float
+        Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
+        collapse.
+    collapsed : bool
+        Did it reach the limit?
+    impacts : int
+        Impacts located before the end of the record; chains of bounces that are closed at once are not counted.
+    time_of_peak : float
+        Time of the largest rotation, or of reaching the limit [s].
+    time, ground_acceleration, rotation, velocity : ndarray, shape (rows,), or None
+        Time history at every sample and before and after every impact, until rest or 10 s past the end of the record
+        [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. None with history=False.
+    side : ndarray of int, shape (rows,), or None
+        +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
+    """
+
+    wall: Wall
+    record: Record
+    scale: float
+    edp: float
+    collapsed: bool
+    impacts: int
+    time_of_peak: float
+    edp_limit: float = 1.0
+    time: FloatArray | None = None
+    ground_acceleration: FloatArray | None = None
+    rotation: FloatArray | None = None
+    velocity: FloatArray | None = None
+    side: np.ndarray[Any, np.dtype[np.int8]] | None = None
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("wall", self.wall.name),
+            ("record", self.record.name),
+            ("scale", f"{self.scale:.6g}"),
+            ("EDP", f"{self.edp:.6g}"),
+            ("collapsed", "yes" if self.collapsed else "no"),
+            ("impacts", str(self.impacts)),
+            ("time of the peak", f"{self.time_of_peak:.6g} s"),
+        ]
+
+    def __repr__(self) -> str:
+        return "<Response: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
+
+    def _repr_html_(self) -> str:
+        return tables.html_of("Response", self._facts())
+
+    def _table(self) -> tables.Table:
+        if self.time is None:
+            raise DondoloError("this response has no time history: simulate with history=True")
+        return tables.history_table(self)
+
+    def to_frame(self) -> Any:
+        """The time history as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the time history as the executable's ``_history.csv``."""
+        comments = [
+            f"record: {self.record.name}",
+            f"scale: {tables.cell(self.scale)}",
+            f"edp: {tables.cell(self.edp)}",
+            f"collapsed: {int(self.collapsed)}",
+            f"impacts: {self.impacts}",
+            f"time_of_peak_s: {tables.cell(self.time_of_peak)}",
+        ]
+        tables.write_csv(path, self._table(), comments)
+
+
+def simulate(
+    wall: Wall,
+    record: Record,
+    scale: float = 1.0,
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    history: bool = True,
+) -> Response:
+    """The motion of a wall under an accelerogram.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall, at rest at the start.
+    record : Record
+        The accelerogram.
+    scale : float
+        Factor on it; negative reverses its polarity.
+    engine : str
+        'auto' or the name of an engine.
+    rtol, atol : float, optional
+        Tolerances of a step, in units of q_c and p q_c; the library's own if left out.
+    edp_limit : float, optional
+        Rotation / capacity that counts as collapse, 1 if left out.
+    history : bool
+        Keep the time history?
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    InputError
+        A setting that makes no sense, with the sentence of the executable.
+
+    Notes
+    -----
+    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    if not isinstance(record, Record):
+        raise InputError(f"record: {type(record).__name__} is no record")
+    factor = _binding.as_number("scale", scale)
+    settings = _binding.tolerances(rtol, atol, edp_limit)
+    edp, collapsed, impacts, time_of_peak, handle, sizes, stat, message = _core.simulate(
+        *wall._flat,
+        record.acceleration,
+        record.dt,
+        record.name.encode(),
+        factor,
+        _binding.as_text("engine", engine),
+        settings,
+        int(history),
+    )
+    _binding.check(stat, message)
+    response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
+    if history:
+        rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
+        rows.flags.writeable = False
+        side = _sides(rows, wall.two_sided)
+        for what, row in zip(
+            ("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True
+        ):
+            object.__setattr__(response, what, row)
+    return response
+
+
+def _sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
+    """The side of every row: the sign of the rotation, and where that is zero of what comes before or after."""
+    time, _, rotation, velocity = rows
+    if not two_sided:
+        return np.ones(len(time), dtype=np.int8)
+    side = np.sign(rotation)
+    upright = rotation == 0.0
+    # An impact has two rows of the same time: the first is still on the side before it.
+    before = upright & np.append((time[1:] == time[:-1]) & upright[1:], False)
+    leaving = upright & ~before & (velocity != 0.0)
+    side[leaving] = np.sign(velocity[leaving])
+    known = np.maximum.accumulate(np.where(side != 0.0, np.arange(len(side)), 0))
+    side = side[known]
+    side[side == 0.0] = 1.0
+    return side.astype(np.int8)

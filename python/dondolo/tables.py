@@ -1,0 +1,205 @@
+"""Tables: the executable's CSV files, column by column and digit by digit, and pandas where it is installed."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo import _binding
+from dondolo.errors import DondoloError, InputError
+
+if TYPE_CHECKING:
+    from dondolo.fragility import Fragility
+    from dondolo.motion import Response
+    from dondolo.stripes import Stripes
+    from dondolo.typology import Typology
+    from dondolo.walls import Wall
+
+Table = dict[str, Sequence[Any]]
+
+
+def cell(value: Any) -> str:
+    """A value as it stands in a table: 17 significant digits, flags 0/1, empty where there is none."""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, (bool, np.bool_)):
+        return str(int(value))
+    if isinstance(value, (int, np.integer)):
+        return str(value)
+    return "" if np.isnan(value) else f"{value:.16E}"
+
+
+def quoted(text: str) -> str:
+    """A text as a cell: in quotes where RFC 4180 asks for them, or where a # would begin a comment."""
+    if any(character in text for character in ',"#\n\r'):
+        return '"' + text.replace('"', '""') + '"'
+    return text
+
+
+def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str] = ()) -> None:
+    """Write a table; it appears whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The file; its folder must exist.
+    table : dict
+        Columns of equal length.
+    comments : iterable of str
+        Lines for the head of the file.
+    """
+    target = Path(path)
+    part = target.with_name(target.name + ".part")
+    lines = [f"# dondolo {_binding.constants().version}", *(f"# {comment}" for comment in comments), ",".join(table)]
+    lines += [",".join(map(cell, row)) for row in zip(*table.values(), strict=True)]
+    try:
+        part.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        part.replace(target)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
+
+
+def frame(table: Table) -> Any:
+    """A table as a pandas DataFrame."""
+    try:
+        import pandas as pd
+    except ImportError:
+        raise DondoloError("pandas is not installed: pip install 'dondolo[tables]'; CSV files need no pandas") from None
+    return pd.DataFrame(table)
+
+
+def html_of(title: str, facts: Sequence[tuple[str, str]]) -> str:
+    """A small table for notebooks."""
+    rows = "".join(f"<tr><th>{html.escape(what)}</th><td>{html.escape(text)}</td></tr>" for what, text in facts)
+    return f"<table><caption>{html.escape(title)}</caption>{rows}</table>"
+
+
+def walls_table(walls: Sequence[Wall], weights: Iterable[float]) -> Table:
+    """Columns of ``_walls.csv``."""
+
+    def column(what: str) -> list[Any]:
+        return [getattr(wall, what, None) for wall in walls]
+
+    return {
+        "wall": column("name"),
+        "mechanism": column("mechanism"),
+        "height_m": column("height"),
+        "thickness_m": column("thickness"),
+        "density_kg_m3": column("density"),
+        "hinge": column("hinge"),
+        "restitution_model": column("restitution"),
+        "restitution_value": column("restitution_value"),
+        "restitution_factor": column("restitution_factor"),
+        "overburden_n_m": column("overburden"),
+        "eccentricity_m": column("eccentricity"),
+        "alpha_rad": column("slenderness_angle"),
+        "p_rad_s": column("frequency_parameter"),
+        "trigger_acceleration_m_s2": column("trigger_acceleration"),
+        "capacity_rad": column("capacity_angle"),
+        "restitution": column("restitution_coefficient"),
+        "weight": list(weights),
+    }
+
+
+def history_table(response: Response) -> Table:
+    """Columns of ``_history.csv``."""
+    return {
+        "time_s": response.time,
+        "ground_acceleration_m_s2": response.ground_acceleration,
+        "rotation_rad": response.rotation,
+        "velocity_rad_s": response.velocity,
+        "edp": np.abs(response.rotation) / response.wall.capacity_angle,
+    }
+
+
+def histories_table(stripes: Stripes) -> Table:
+    """Columns of ``_histories.csv``."""
+    levels, histories = stripes.edp.shape
+    polarity = ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity]
+    return {
+        "wall": [stripes.wall.name] * stripes.edp.size,
+        "mechanism": [stripes.wall.mechanism] * stripes.edp.size,
+        "record": list(stripes.record_names) * levels,
+        "polarity": polarity * levels,
+        "im": [stripes.im] * stripes.edp.size,
+        "im_level": np.repeat(stripes.levels, histories),
+        "scale": stripes.scale.ravel(),
+        "edp": stripes.edp.ravel(),
+        "collapsed": stripes.collapsed.ravel().astype(int),
+        "impacts": stripes.impacts.ravel(),
+        "time_of_peak_s": stripes.time_of_peak.ravel(),
+    }
+
+
+def stripes_table(
+    walls: Sequence[Wall],
+    im: str,
+    levels: _binding.FloatArray,
+    collapses: np.ndarray[Any, Any],
+    histories: Sequence[int],
+) -> Table:
+    """Columns of ``_stripes.csv``; collapses are (levels, walls)."""
+    number = len(levels)
+    counts = collapses.T.ravel()
+    sizes = np.repeat(np.asarray(histories), number)
+    return {
+        "wall": [wall.name for wall in walls for _ in range(number)],
+        "mechanism": [wall.mechanism for wall in walls for _ in range(number)],
+        "im": [im] * len(counts),
+        "im_level": np.tile(levels, len(walls)),
+        "histories": sizes,
+        "collapses": counts,
+        "fraction": counts / sizes,
+    }
+
+
+def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -> Table:
+    """Columns of ``_fragility.csv``."""
+    return {
+        "wall": [wall.name if wall else "" for wall in walls],
+        "mechanism": [wall.mechanism if wall else "" for wall in walls],
+        "im": [curve.im for curve in curves],
+        "theta": [curve.theta for curve in curves],
+        "beta": [curve.beta for curve in curves],
+        "se_ln_theta": [curve.se_ln_theta for curve in curves],
+        "se_beta": [curve.se_beta for curve in curves],
+        "log_likelihood": [curve.log_likelihood for curve in curves],
+        "status": [curve.status for curve in curves],
+        "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
+        "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
+    }
+
+
+def typology_table(typology: Typology) -> Table:
+    """Columns of ``_typology.csv``."""
+    number, groups = len(typology.levels), typology.groups
+
+    def repeated(values: Iterable[Any]) -> list[Any]:
+        return [value for value in values for _ in range(number)]
+
+    return {
+        "mechanism": repeated(group.mechanism for group in groups),
+        "im": [typology.im] * (number * len(groups)),
+        "im_level": np.tile(typology.levels, len(groups)),
+        "weight": repeated(group.weight for group in groups),
+        "mean_fraction": np.concatenate([group.mean_fraction for group in groups]),
+        "mean_curve": np.concatenate([group.mean_curve for group in groups]),
+        "theta": repeated(group.fit.theta for group in groups),
+        "beta": repeated(group.fit.beta for group in groups),
+        "status": repeated(group.fit.status for group in groups),
+    }
+
+
+def choose(tables: Mapping[str, Any], name: str) -> Table:
+    """One of several tables of an object, made when it is asked for."""
+    if name not in tables:
+        raise InputError(f"table = {name!r}: must be one of {', '.join(map(repr, tables))}")
+    return tables[name]()

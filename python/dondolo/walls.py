@@ -1,0 +1,269 @@
+"""Walls: what is said of them, and the mechanism that follows."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from dondolo import _binding, tables
+from dondolo.errors import InputError
+
+_GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
+
+
+@dataclass(frozen=True, repr=False)
+class Wall:
+    """What all walls share. Use `OneSidedWall`, `FreeStandingWall` or `TwoBlockWall`.
+
+    Every number that is left out (None) gets its default from the Fortran library, and stands in the wall afterwards.
+    """
+
+    mechanism: ClassVar[str] = ""
+
+    height: float
+    thickness: float
+    density: float | None = None
+    restitution: str | None = None
+    restitution_value: float | None = None
+    restitution_factor: float | None = None
+    gravity: float | None = None
+    name: str | None = None
+
+    def __post_init__(self) -> None:
+        if not self.mechanism:
+            raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
+        numbers = [getattr(self, what, None) for what in _binding.WALL_NUMBERS]
+        flat, data = _binding.describe_wall(self.name, self.mechanism, self.restitution, numbers, self.gravity)
+        filled: dict[str, Any] = {"name": data.name, "restitution": data.restitution, "gravity": data.gravity}
+        own = {field.name for field in dataclasses.fields(self)}
+        filled |= {what: value for what, value in data.numbers.items() if what in own}
+        filled |= {"_flat": flat, "_statics": data.statics, "_two_sided": data.two_sided}
+        for what, value in filled.items():
+            object.__setattr__(self, what, value)
+
+    @property
+    def radius(self) -> float:
+        """Half diagonal R [m], of the lower block of a two-block wall."""
+        return self._statics[0]
+
+    @property
+    def slenderness_angle(self) -> float:
+        """Slenderness angle alpha [rad], of the lower block of a two-block wall."""
+        return self._statics[1]
+
+    @property
+    def frequency_parameter(self) -> float:
+        """Frequency parameter p [rad/s]; p^2 = 3 g/(4 R) for one block."""
+        return self._statics[2]
+
+    @property
+    def trigger_acceleration(self) -> float:
+        """Ground acceleration at which the wall begins to rock [m/s2]."""
+        return self._statics[3]
+
+    @property
+    def capacity_angle(self) -> float:
+        """Rotation at which the restoring moment vanishes [rad]."""
+        return self._statics[4]
+
+    @property
+    def restitution_coefficient(self) -> float:
+        """Speed after an impact / speed before it, 0 <= e < 1."""
+        return self._statics[5]
+
+    @property
+    def two_sided(self) -> bool:
+        """Does it rock to both sides?"""
+        return self._two_sided
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """What a reader wants to know, name and text."""
+        own = [
+            (field.name, getattr(self, field.name))
+            for field in dataclasses.fields(self)
+            if field.name != "name" and getattr(self, field.name) is not None
+        ]
+        facts = [(what, value if isinstance(value, str) else f"{value:.6g}") for what, value in own]
+        facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
+        trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
+        return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
+
+    def __repr__(self) -> str:
+        facts = ", ".join(f"{what}={text}" for what, text in self._facts())
+        return f"<{type(self).__name__} {self.name!r}: {facts}>"
+
+    def _repr_html_(self) -> str:
+        return tables.html_of(f"{type(self).__name__} '{self.name}'", self._facts())
+
+    def to_frame(self) -> Any:
+        """The wall and its static quantities as a pandas DataFrame of one row."""
+        return tables.frame(tables.walls_table([self], [1.0]))
+
+
+@dataclass(frozen=True, repr=False)
+class OneSidedWall(Wall):
+    """A wall that rotates outwards only, about its outer base edge (a facade that came loose, a parapet).
+
+    Parameters
+    ----------
+    height, thickness : float
+        Its size [m].
+    density : float, optional
+        [kg/m3], 1800 if left out.
+    restitution : {'default', 'sorrentino', 'constant'}, optional
+        Model of the impacts against the walls behind (Sorrentino, AlShawa and Decanini 2011 by default).
+    restitution_value : float, optional
+        Speed ratio, only with 'constant': 0 <= value < 1.
+    restitution_factor : float, optional
+        Factor on the speed ratio of any model, 1 if left out.
+    gravity : float, optional
+        [m/s2], 9.81 if left out.
+    name : str, optional
+        Name in tables and figures.
+
+    Raises
+    ------
+    InputError
+        A value that makes no sense, with the sentence of the executable.
+
+    Notes
+    -----
+    Equation (1) of Nale et al.; docs/theory.md, section 2.
+
+    Examples
+    --------
+    >>> wall = OneSidedWall(height=3.0, thickness=0.25)
+    >>> round(wall.frequency_parameter, 6)
+    2.210895
+    """
+
+    mechanism: ClassVar[str] = "one_sided"
+
+
+@dataclass(frozen=True, repr=False)
+class FreeStandingWall(Wall):
+    """A wall that stands free and rocks to both sides (the block of Housner 1963).
+
+    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
+    1 - 3/2 sin^2 alpha) and 'constant'.
+    """
+
+    mechanism: ClassVar[str] = "free_standing"
+
+
+@dataclass(frozen=True, repr=False)
+class TwoBlockWall(Wall):
+    """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
+
+    Parameters are those of `OneSidedWall`, the models of restitution 'default', 'sorrentino', 'impulse' and 'constant',
+    and:
+
+    Parameters
+    ----------
+    hinge : float, optional
+        Height of the hinge / height of the wall, 0.5 if left out.
+    overburden : float, optional
+        Vertical load on the top [N per metre of wall], 0 if left out.
+    eccentricity : float, optional
+        Its distance from the centreline towards the active top hinge [m], 0 if left out.
+    """
+
+    mechanism: ClassVar[str] = "two_block"
+
+    hinge: float | None = None
+    overburden: float | None = None
+    eccentricity: float | None = None
+
+
+MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
+
+
+def wall_from(data: _binding.WallData) -> Wall:
+    """A wall that Fortran has read."""
+    kind = MECHANISMS[data.mechanism]
+    own = {field.name for field in dataclasses.fields(kind)}
+    numbers = {what: value for what, value in data.numbers.items() if what in own}
+    return kind(**numbers, restitution=data.restitution, gravity=data.gravity, name=data.name)
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """Walls and how many of the kind each stands for.
+
+    Attributes
+    ----------
+    walls : tuple of Wall
+        The walls.
+    weights : ndarray, shape (walls,)
+        Their weights, not negative and not all zero; 1 each if left out.
+    """
+
+    walls: tuple[Wall, ...]
+    weights: _binding.FloatArray = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        walls = (self.walls,) if isinstance(self.walls, Wall) else tuple(self.walls)
+        if not walls:
+            raise InputError("walls: must be given")
+        for wall in walls:
+            if not isinstance(wall, Wall):
+                raise InputError(f"walls: {type(wall).__name__} is no wall")
+        weights = np.ones(len(walls)) if self.weights is None else _binding.as_array("weights", self.weights).copy()
+        if len(weights) != len(walls):
+            raise InputError(f"{len(walls)} walls, {len(weights)} weights: must be as many")
+        for weight in weights:
+            if not 0.0 <= weight < np.inf:
+                raise InputError(f"weight = {weight}: must not be negative")
+        if not np.any(weights > 0.0):
+            raise InputError("weight: must be positive for at least one wall")
+        weights.flags.writeable = False
+        object.__setattr__(self, "walls", walls)
+        object.__setattr__(self, "weights", weights)
+
+    def __len__(self) -> int:
+        return len(self.walls)
+
+    def __iter__(self) -> Iterator[Wall]:
+        return iter(self.walls)
+
+    def __getitem__(self, index: int) -> Wall:
+        return self.walls[index]
+
+    def __repr__(self) -> str:
+        return f"<Population of {len(self)} walls, sum of the weights {self.weights.sum():.6g}>"
+
+    def to_frame(self) -> Any:
+        """The walls, their static quantities and weights as a pandas DataFrame."""
+        return tables.frame(tables.walls_table(self.walls, self.weights))
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the walls as the executable's ``_walls.csv``."""
+        tables.write_csv(path, tables.walls_table(self.walls, self.weights))
+
+
+def read_population(path: str | os.PathLike[str], gravity: float | None = None) -> Population:
+    """Read a population of walls.
+
+    Parameters
+    ----------
+    path : path
+        A CSV table: one row a wall, columns named as the parameters of the walls, and weight.
+    gravity : float, optional
+        [m/s2], 9.81 if left out.
+
+    Returns
+    -------
+    Population
+
+    Raises
+    ------
+    InputError
+        The table or one of its walls is wrong.
+    """
+    walls, weights = _binding.read_walls(path, gravity)
+    return Population(tuple(wall_from(data) for data in walls), weights)
