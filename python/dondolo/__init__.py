@@ -1,0 +1,53 @@
+"""dondolo: fragility of masonry walls that rock and overturn in earthquakes.
+
+>>> import dondolo as dd
+>>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
+>>> records = dd.read_catalogue("records.csv")                         # doctest: +SKIP
+>>> stripes = dd.multiple_stripe(wall, records, levels=[0.1, 0.2, 0.3])  # doctest: +SKIP
+>>> curve = stripes.fit()                                               # doctest: +SKIP
+"""
+
+from dondolo._binding import constants as _constants
+from dondolo.cases import Case, Results, read_case, run_case
+from dondolo.comparison import Comparison, compare
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
+from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.motion import Response, simulate
+from dondolo.records import Record, read_catalogue, read_record
+from dondolo.stripes import Stripes, multiple_stripe
+from dondolo.typology import Typology, typology
+from dondolo.walls import FreeStandingWall, OneSidedWall, Population, TwoBlockWall, Wall, read_population
+
+__version__ = _constants().version
+
+__all__ = [
+    "Bootstrap",
+    "Case",
+    "Comparison",
+    "DondoloError",
+    "DondoloWarning",
+    "Fragility",
+    "FreeStandingWall",
+    "InputError",
+    "Interrupted",
+    "OneSidedWall",
+    "Population",
+    "Record",
+    "Response",
+    "Results",
+    "Stripes",
+    "TwoBlockWall",
+    "Typology",
+    "Wall",
+    "__version__",
+    "compare",
+    "fit_fragility",
+    "multiple_stripe",
+    "read_case",
+    "read_catalogue",
+    "read_population",
+    "read_record",
+    "run_case",
+    "simulate",
+    "typology",
+]

@@ -1,0 +1,151 @@
+"""Long work in blocks: many histories of one wall or of many, each block one call of Fortran.
+
+A block takes about a quarter of a second, so that Ctrl-C is answered soon and what is finished is kept.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo import _binding, _core
+from dondolo.errors import InputError
+from dondolo.records import Record, flatten
+from dondolo.walls import Wall
+
+_SECONDS = 0.25
+# A guess for the first block: samples that are surely gone through within a block's time
+_FIRST_SAMPLES = 200_000
+
+
+class Plan(NamedTuple):
+    """What will be run, checked.
+
+    Attributes
+    ----------
+    histories : ndarray of int, shape (walls,)
+        Histories of a stripe of each wall.
+    record, polarity : ndarray of int, shape (histories,)
+        Of the last wall: index of each history's record, and +1 or -1.
+    scale : ndarray, shape (levels, histories)
+        Of the last wall: factors on the records, without the sign of the polarity.
+    warnings : list of str
+        What the user should know.
+    """
+
+    histories: Any
+    record: Any
+    polarity: Any
+    scale: _binding.FloatArray
+    warnings: list[str]
+
+
+class Outcome(NamedTuple):
+    """Flat results, wall by wall and level by level."""
+
+    edp: _binding.FloatArray
+    collapsed: Any
+    impacts: Any
+    time_of_peak: _binding.FloatArray
+    done: int
+
+
+@dataclass(frozen=True)
+class Request:
+    """Stripes of some walls, as asked for; it can be sent to another process."""
+
+    walls: tuple[Wall, ...]
+    records: _binding.FlatRecords
+    levels: _binding.FloatArray
+    im: str
+    polarity: str
+    engine: str
+    tolerances: _binding.FloatArray
+    threads: int
+
+    def _settings(self) -> tuple[Any, ...]:
+        words = (
+            _binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")
+        )
+        return (*self.records, self.levels, *words, self.tolerances, self.threads)
+
+    def plan(self) -> Plan:
+        """Check everything; nothing is run."""
+        flat = _binding.join_walls([wall._flat for wall in self.walls])
+        parcel = _binding.receive(*_core.plan(*flat, *self._settings()))
+        walls, count = len(self.walls), int(parcel.integers[len(self.walls) - 1])
+        record, polarity = parcel.integers[walls:].reshape(2, count)
+        scale = parcel.reals.reshape(len(self.levels), count)
+        return Plan(parcel.integers[:walls], record - 1, polarity, scale, parcel.lines)
+
+    def run(self, histories: Sequence[int], progress: bool, label: str) -> tuple[Outcome, bool]:
+        """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
+        ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
+        total = int(ends[-1])
+        edp, peak = np.empty(total), np.empty(total)
+        collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
+        flats = [wall._flat for wall in self.walls]
+        settings = self._settings()
+        samples = float(self.records.lengths.mean())
+        size = max(1.0, _FIRST_SAMPLES / samples)
+        done, interrupted = 0, False
+        bar = progress_bar(total, progress, label, "history")
+        try:
+            while done < total:
+                count = min(int(size), total - done)
+                # The walls that the block touches
+                one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
+                before = int(ends[one - 1]) if one else 0
+                start = time.perf_counter()
+                *rows, stat, message = _core.run_block(
+                    *_binding.join_walls(flats[one : last + 1]), *settings, done - before + 1, count
+                )
+                seconds = time.perf_counter() - start
+                _binding.check(stat, message)
+                here = slice(done, done + count)
+                edp[here], collapsed[here], impacts[here], peak[here] = rows
+                done += count
+                bar.update(count)
+                size = count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0)
+        except KeyboardInterrupt:
+            interrupted = True
+        finally:
+            bar.close()
+        return Outcome(edp, collapsed, impacts, peak, done), interrupted
+
+
+def new_request(
+    walls: Sequence[Wall],
+    records: Sequence[Record],
+    levels: ArrayLike,
+    im: str,
+    polarity: str,
+    engine: str,
+    rtol: float | None,
+    atol: float | None,
+    edp_limit: float | None,
+    threads: int,
+) -> Request:
+    """A request out of what a user gives."""
+    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
+        raise InputError(f"threads = {threads!r}: must be a whole number")
+    if not -(2**31) <= threads < 2**31:
+        raise InputError(f"threads = {threads}: must lie between 0 (all) and 4096")
+    levels = _binding.as_array("levels", levels).copy()
+    if not len(levels):
+        raise InputError("levels: must be given")
+    levels.flags.writeable = False
+    settings = _binding.tolerances(rtol, atol, edp_limit)
+    return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, int(threads))
+
+
+def progress_bar(total: int, wanted: bool, label: str, unit: str) -> Any:
+    """A progress bar on stderr; silent where that is no terminal."""
+    from tqdm import tqdm
+
+    return tqdm(total=total, desc=label, unit=f" {unit}", disable=None if wanted else True, leave=False)

@@ -1,0 +1,156 @@
+"""The executable's job from Python: a case file in, results as objects out."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from dondolo import _binding, _core
+from dondolo.fragility import Fragility
+from dondolo.motion import Response, simulate
+from dondolo.records import Record
+from dondolo.stripes import Stripes, multiple_stripe
+from dondolo.typology import Typology, typology
+from dondolo.walls import Population, wall_from
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A case file, read and checked.
+
+    Attributes
+    ----------
+    task : str
+        'history', 'stripes' or 'typology'.
+    title, output : str
+        Title, and path prefix of the result files; running a case from Python writes none.
+    population : Population
+        The walls; one unless the task is 'typology'.
+    records : tuple of Record
+    im, polarity, engine : str
+    levels : ndarray, shape (levels,)
+    rtol, atol, edp_limit : float
+    threads : int
+    record : int
+        Index of the record of a time history, from 0.
+    scale : float
+        Factor on it, with the sign of its polarity.
+    """
+
+    task: str
+    title: str
+    output: str
+    population: Population
+    records: tuple[Record, ...]
+    im: str
+    polarity: str
+    engine: str
+    levels: _binding.FloatArray
+    rtol: float
+    atol: float
+    edp_limit: float
+    threads: int
+    record: int
+    scale: float
+
+    def run(self, progress: bool = True) -> Results:
+        """Run it; see `run_case`."""
+        solver = {"engine": self.engine, "rtol": self.rtol, "atol": self.atol, "edp_limit": self.edp_limit}
+        if self.task == "history":
+            return Results(self, response=simulate(self.population[0], self.records[self.record], self.scale, **solver))
+        ensemble = {"im": self.im, "polarity": self.polarity, "threads": self.threads, "progress": progress, **solver}
+        if self.task == "stripes":
+            stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
+            return Results(self, stripes=stripes, fragility=stripes.fit())
+        return Results(self, typology=typology(self.population, self.records, self.levels, **ensemble))
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """Results of a case; what its task does not make is None.
+
+    Attributes
+    ----------
+    case : Case
+    response : Response or None
+        Of the task 'history'.
+    stripes, fragility : Stripes, Fragility or None
+        Of the task 'stripes'.
+    typology : Typology or None
+        Of the task 'typology'.
+    """
+
+    case: Case
+    response: Response | None = None
+    stripes: Stripes | None = None
+    fragility: Fragility | None = None
+    typology: Typology | None = None
+
+
+def read_case(path: str | os.PathLike[str]) -> Case:
+    """Read a case file and all it names, and check everything.
+
+    Parameters
+    ----------
+    path : path
+        A namelist file.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        The first thing that is wrong, with the sentence of the executable.
+    """
+    parcel = _binding.receive(*_core.read_case(_binding.as_path(path)))
+    walls, levels, records, threads, record = (int(value) for value in parcel.integers[:5])
+    rtol, atol, edp_limit, scale = (float(value) for value in parcel.reals[:4])
+    task, title, output, im, polarity, engine = parcel.lines[:6]
+    weights = 4 + levels
+    places = [weights + walls, 5, 6]
+    people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
+    places = [place + more for place, more in zip(places, _binding.walls_end(walls), strict=True)]
+    motions = _binding.unpack_records(parcel, records, *places)
+    return Case(
+        task,
+        title,
+        output,
+        Population(tuple(people), parcel.reals[weights : weights + walls]),
+        tuple(Record(data.acceleration, data.dt, data.name) for data in motions),
+        im,
+        polarity,
+        engine,
+        parcel.reals[4:weights].copy(),
+        rtol,
+        atol,
+        edp_limit,
+        threads,
+        record - 1,
+        scale,
+    )
+
+
+def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
+    """Run a case file as the executable does, with the results as objects and no files written.
+
+    Parameters
+    ----------
+    path : path
+        A namelist file; paths in it are relative to it.
+    progress : bool
+        Show a progress bar where stderr is a terminal.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    InputError
+        The case is wrong.
+    Interrupted
+        Ctrl-C; its `partial` has what is complete.
+    """
+    return read_case(path).run(progress)

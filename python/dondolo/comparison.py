@@ -1,0 +1,121 @@
+"""Are two fragility curves the same?"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dondolo import fragility
+from dondolo.errors import DondoloError, InputError
+from dondolo.fragility import Fragility
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Two curves compared.
+
+    Attributes
+    ----------
+    method : str
+        'likelihood' or 'bootstrap'.
+    p_value : float
+        Probability of a difference at least as large if the curves were one and the same ('likelihood'), or if their
+        medians were ('bootstrap').
+    ratio : float
+        Median of the first / median of the second.
+    interval : (float, float)
+        Confidence interval of the ratio.
+    statistic : float
+        Twice the gain in log likelihood of two curves over one, chi-squared with 2 degrees of freedom if there is but one;
+        NaN for 'bootstrap'.
+    """
+
+    method: str
+    p_value: float
+    ratio: float
+    interval: tuple[float, float]
+    statistic: float
+
+
+def compare(
+    first: Fragility,
+    second: Fragility,
+    method: str = "likelihood",
+    level: float = 0.95,
+    n: int = 2000,
+    seed: int | np.random.Generator | None = 0,
+) -> Comparison:
+    """Compare two fragility curves of the same intensity measure.
+
+    Parameters
+    ----------
+    first, second : Fragility
+        Curves with a fit.
+    method : {'likelihood', 'bootstrap'}
+        Likelihood ratio test of equal theta and beta, for curves from independent records; or bootstrap over records of the
+        ratio of the medians, which draws the same records for both where both have the same, and so keeps what they share.
+    level : float
+        Confidence of the interval of the ratio.
+    n, seed
+        Number of samples of the bootstrap, and seed of its random numbers.
+
+    Returns
+    -------
+    Comparison
+    """
+    if first.im != second.im:
+        raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
+    for curve in (first, second):
+        curve._need_fit()
+    if method == "likelihood":
+        return _by_likelihood(first, second, level)
+    if method == "bootstrap":
+        return _by_bootstrap(first, second, level, n, seed)
+    raise InputError(f"method = {method!r}: must be one of 'likelihood', 'bootstrap'")
+
+
+def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Comparison:
+    pairs = zip(
+        (first.levels, first.collapses, first.histories),
+        (second.levels, second.collapses, second.histories),
+        strict=True,
+    )
+    together = fragility.fit(*(np.concatenate(pair) for pair in pairs))
+    together._need_fit()
+    statistic = max(0.0, 2.0 * (first.log_likelihood + second.log_likelihood - together.log_likelihood))
+    ratio = first.theta / second.theta
+    half = fragility._quantile(level) * np.hypot(first.se_ln_theta, second.se_ln_theta)
+    # The survival function of chi-squared with 2 degrees of freedom is exp(-x/2).
+    return Comparison(
+        "likelihood",
+        float(np.exp(-0.5 * statistic)),
+        ratio,
+        fragility._spread(ratio, half),
+        statistic,
+    )
+
+
+def _by_bootstrap(
+    first: Fragility, second: Fragility, level: float, n: int, seed: int | np.random.Generator | None
+) -> Comparison:
+    if first.stripes is None or second.stripes is None:
+        raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
+    random = np.random.default_rng(seed)
+    times = fragility.draw(first.stripes, n, random)
+    paired = set(first.stripes.record_names) == set(second.stripes.record_names)
+    order = np.arange(times.shape[1])
+    if paired:
+        names = list(dict.fromkeys(first.stripes.record_names))
+        order = np.array([names.index(name) for name in dict.fromkeys(second.stripes.record_names)])
+    others = times[:, order] if paired else fragility.draw(second.stripes, n, random)
+    difference = np.log(fragility.resample(first.stripes, times).theta)
+    difference = difference - np.log(fragility.resample(second.stripes, others).theta)
+    difference = difference[~np.isnan(difference)]
+    if not len(difference):
+        raise DondoloError("none of the samples of the bootstrap has a fit")
+    low, high = np.exp(np.quantile(difference, fragility._tails(level)))
+    below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)
+    above = (np.sum(difference >= 0.0) + 1.0) / (len(difference) + 1.0)
+    p_value = float(min(1.0, 2.0 * min(below, above)))
+    return Comparison("bootstrap", p_value, first.theta / second.theta, (float(low), float(high)), float("nan"))

@@ -1,0 +1,234 @@
+"""Multiple stripe analysis of one wall."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo import _binding, tables
+from dondolo._request import Outcome, Plan, Request, new_request
+from dondolo.errors import InputError, Interrupted
+from dondolo.fragility import Fragility, fit
+from dondolo.records import Record, as_records
+from dondolo.walls import Wall
+
+FloatArray = _binding.FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Stripes:
+    """Every record at every level of intensity, and who collapses.
+
+    Attributes
+    ----------
+    wall : Wall
+        The wall.
+    im : str
+        Intensity measure.
+    levels : ndarray, shape (levels,)
+        Its levels, in g for accelerations.
+    edp : ndarray, shape (levels, histories)
+        Largest rotation / capacity; edp_limit for a collapse.
+    collapsed : ndarray of bool, shape (levels, histories)
+    impacts : ndarray of int, shape (levels, histories)
+    time_of_peak : ndarray, shape (levels, histories)
+        [s]
+    scale : ndarray, shape (levels, histories)
+        Factor on the record, without the sign of the polarity.
+    record_names : tuple of str, length histories
+        Record of each history.
+    polarity : ndarray of int, shape (histories,)
+        +1 as recorded, -1 reversed.
+    engine, edp_limit, rtol, atol
+        How it was computed.
+    """
+
+    wall: Wall
+    im: str
+    levels: FloatArray
+    edp: FloatArray
+    collapsed: np.ndarray[Any, np.dtype[np.bool_]]
+    impacts: np.ndarray[Any, np.dtype[np.int32]]
+    time_of_peak: FloatArray
+    scale: FloatArray
+    record_names: tuple[str, ...]
+    polarity: np.ndarray[Any, np.dtype[np.int32]]
+    engine: str
+    rtol: float
+    atol: float
+    edp_limit: float
+
+    @property
+    def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Collapses in each stripe, shape (levels,)."""
+        return self.collapsed.sum(axis=1)
+
+    @property
+    def histories(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Histories of each stripe, shape (levels,)."""
+        return np.full(len(self.levels), self.edp.shape[1])
+
+    @property
+    def fraction(self) -> FloatArray:
+        """Fraction of collapses in each stripe, shape (levels,)."""
+        return self.collapses / self.histories
+
+    def fit(self) -> Fragility:
+        """Fit a fragility curve by maximum likelihood.
+
+        Returns
+        -------
+        Fragility
+            Its status says whether there is a curve.
+
+        Warns
+        -----
+        DondoloWarning
+            With the sentence of the executable, where there is no curve or it extrapolates.
+        """
+        curve = fit(
+            self.levels,
+            self.collapses.astype(np.float64),
+            self.histories.astype(np.float64),
+            im=self.im,
+            wall=self.wall,
+            stripes=self,
+        )
+        low, high = curve.bracket
+        numbers = np.zeros(8)
+        numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
+        data = _binding.CurveData(curve.status, numbers)
+        _binding.warn(_binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data))
+        return curve
+
+    def _tables(self) -> dict[str, Any]:
+        return {
+            "histories": lambda: tables.histories_table(self),
+            "stripes": lambda: tables.stripes_table(
+                [self.wall], self.im, self.levels, self.collapses[:, None], [self.edp.shape[1]]
+            ),
+            "walls": lambda: tables.walls_table([self.wall], [1.0]),
+        }
+
+    def to_frame(self, table: str = "histories") -> Any:
+        """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
+        return tables.frame(tables.choose(self._tables(), table))
+
+    def to_csv(self, path: str | os.PathLike[str], table: str = "histories") -> None:
+        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
+        comments = [
+            repr(self.wall),
+            f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
+        ]
+        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("wall", self.wall.name),
+            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g}"),
+            ("histories of a stripe", str(self.edp.shape[1])),
+            ("collapses", " ".join(map(str, self.collapses))),
+        ]
+
+    def __repr__(self) -> str:
+        return "<Stripes: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
+
+    def _repr_html_(self) -> str:
+        return tables.html_of("Stripes", self._facts())
+
+
+def multiple_stripe(
+    wall: Wall,
+    records: Record | Iterable[Record],
+    levels: ArrayLike,
+    im: str = "pga",
+    polarity: str = "as_recorded",
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    threads: int = 0,
+    progress: bool = True,
+) -> Stripes:
+    """Run every record at every level of intensity.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+    records : Record or iterable of Record
+        The accelerograms.
+    levels : array_like, shape (levels,)
+        Levels of intensity, positive and increasing, in g for accelerations.
+    im : str
+        Intensity measure.
+    polarity : {'as_recorded', 'reversed', 'both'}
+        'both' doubles the histories, except for two-sided walls, which are symmetric.
+    engine, rtol, atol, edp_limit
+        As for `simulate`.
+    threads : int
+        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
+    progress : bool
+        Show a progress bar where stderr is a terminal.
+
+    Returns
+    -------
+    Stripes
+
+    Raises
+    ------
+    InputError
+        What cannot be run, with the sentence of the executable.
+    Interrupted
+        Ctrl-C; its `partial` has the stripes that are complete.
+
+    Warns
+    -----
+    DondoloWarning
+        Scale factors above 10, records without motion.
+
+    Notes
+    -----
+    Section 3.3 of Nale et al.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    several = as_records(records)
+    request = new_request((wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads)
+    plan = request.plan()
+    _binding.warn(plan.warnings)
+    outcome, interrupted = request.run(plan.histories, progress, wall.name)
+    if not interrupted:
+        return _stripes(request, several, plan, outcome, len(request.levels))
+    complete = outcome.done // len(plan.record)
+    partial = _stripes(request, several, plan, outcome, complete) if complete else None
+    raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
+
+
+def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome: Outcome, complete: int) -> Stripes:
+    """The stripes up to a level."""
+    shape = (complete, len(plan.record))
+    size = complete * len(plan.record)
+    rows = [values[:size].reshape(shape) for values in outcome[:4]]
+    levels, scale = request.levels[:complete], plan.scale[:complete]
+    for array in (*rows, scale, plan.polarity):
+        array.flags.writeable = False
+    rtol, atol, edp_limit = (float(value) for value in request.tolerances)
+    return Stripes(
+        request.walls[0],
+        request.im,
+        levels,
+        *rows,
+        scale,
+        tuple(records[i].name for i in plan.record),
+        plan.polarity,
+        request.engine,
+        rtol,
+        atol,
+        edp_limit,
+    )

@@ -1,0 +1,267 @@
+"""Typological fragility: the curve of a population of walls."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Iterable
+from concurrent.futures import Executor, Future, as_completed
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo import _binding, tables
+from dondolo._request import Request, new_request, progress_bar
+from dondolo.errors import Interrupted
+from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
+from dondolo.records import Record, as_records
+from dondolo.walls import Population, Wall
+
+FloatArray = _binding.FloatArray
+IntArray = np.ndarray[Any, np.dtype[np.int32]]
+
+# Blocks of walls that an executor gets: enough for many workers, few enough that sending the records does not show
+_BLOCKS = 64
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Typology:
+    """Fragility of a population of walls.
+
+    Attributes
+    ----------
+    walls : tuple of Wall
+    weights : ndarray, shape (walls,)
+    im : str
+        Intensity measure.
+    levels : ndarray, shape (levels,)
+    collapses : ndarray of int, shape (levels, walls)
+    histories : ndarray of int, shape (walls,)
+        Histories of a stripe of each wall.
+    curves : tuple of Fragility
+        Curve of each wall.
+    weight : float
+        Sum of the weights.
+    mean_fraction : ndarray, shape (levels,)
+        Weighted mean of the walls' fractions of collapse.
+    mean_curve : ndarray, shape (levels,)
+        Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part with
+        its fractions.
+    """
+
+    walls: tuple[Wall, ...]
+    weights: FloatArray
+    im: str
+    levels: FloatArray
+    collapses: IntArray
+    histories: IntArray
+    curves: tuple[Fragility, ...]
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    _fit: Fragility
+
+    def fit(self) -> Fragility:
+        """The lognormal curve fitted to the weighted counts.
+
+        Its standard errors take the walls' histories for independent.
+        """
+        return self._fit
+
+    def mean(self, x: ArrayLike) -> Any:
+        """Weighted mean of the walls' curves.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative. Between the levels, the fractions of a wall without a fit are interpolated
+            linearly in x, from 0 at x = 0; above the highest level they stay.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+        """
+        values = _levels_of(x)
+        flat = values.ravel()
+        mean = np.zeros(len(flat))
+        for i, (curve, weight) in enumerate(zip(self.curves, self.weights, strict=True)):
+            if curve.has_fit:
+                part = curve(flat)
+            else:
+                fraction = self.collapses[:, i] / self.histories[i]
+                part = np.interp(flat, np.append(0.0, self.levels), np.append(0.0, fraction))
+            mean += weight / self.weight * part
+        return shaped(mean, values)
+
+    def _tables(self) -> dict[str, Any]:
+        return {
+            "typology": lambda: tables.typology_table(self),
+            "fragility": lambda: tables.fragility_table(self.walls, self.curves),
+            "stripes": lambda: tables.stripes_table(
+                self.walls, self.im, self.levels, self.collapses, list(self.histories)
+            ),
+            "walls": lambda: tables.walls_table(self.walls, self.weights),
+        }
+
+    def to_frame(self, table: str = "typology") -> Any:
+        """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
+        return tables.frame(tables.choose(self._tables(), table))
+
+    def to_csv(self, path: str | os.PathLike[str], table: str = "typology") -> None:
+        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
+        tables.write_csv(path, tables.choose(self._tables(), table))
+
+    def _facts(self) -> list[tuple[str, str]]:
+        fitted = sum(curve.has_fit for curve in self.curves)
+        return [
+            ("walls", f"{len(self.walls)}, {fitted} of them with a curve"),
+            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g}"),
+            *self._fit._facts(),
+        ]
+
+    def __repr__(self) -> str:
+        return "<Typology: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
+
+    def _repr_html_(self) -> str:
+        return tables.html_of("Typology", self._facts())
+
+
+def typology(
+    population: Population | Iterable[Wall],
+    records: Record | Iterable[Record],
+    levels: ArrayLike,
+    im: str = "pga",
+    polarity: str = "as_recorded",
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    threads: int = 0,
+    executor: Executor | None = None,
+    progress: bool = True,
+) -> Typology:
+    """Fragility of a population of walls.
+
+    Parameters
+    ----------
+    population : Population or iterable of Wall
+        The walls; without weights they count alike.
+    records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
+        As for `multiple_stripe`.
+    executor : concurrent.futures.Executor, optional
+        Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one thread
+        unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of processes must not
+        fork after a run of this process: OpenMP's threads do not survive it.
+
+    Returns
+    -------
+    Typology
+
+    Raises
+    ------
+    InputError
+        What cannot be run, with the sentence of the executable.
+    Interrupted
+        Ctrl-C; its `partial` is the typology of the walls that are complete.
+
+    Warns
+    -----
+    DondoloWarning
+        Scale factors above 10, records without motion, walls without a fit, a fit that extrapolates.
+    """
+    people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
+    if executor is not None and threads == 0:
+        threads = 1
+    several = as_records(records)
+    request = new_request(people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads)
+    plan = request.plan()
+    if executor is None:
+        collapses, complete = _run_here(request, plan.histories, progress)
+    else:
+        collapses, complete = _run_there(request, plan.histories, progress, executor)
+    if not complete.any():
+        raise Interrupted("interrupted: no wall is complete")
+    result, sentences = _combine(people, request, plan.histories, collapses, complete)
+    if not complete.all():
+        raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
+    _binding.warn([*plan.warnings, *sentences])
+    return result
+
+
+def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[IntArray, np.ndarray[Any, Any]]:
+    """Collapses (walls, levels), and which walls are complete."""
+    outcome, _ = request.run(histories, progress, f"{len(request.walls)} walls")
+    number = len(request.levels)
+    ends = np.cumsum(histories.astype(np.int64) * number)
+    collapses = np.zeros((len(histories), number), dtype=np.int32)
+    complete = ends <= outcome.done
+    for i in np.flatnonzero(complete):
+        block = outcome.collapsed[ends[i] - histories[i] * number : ends[i]]
+        collapses[i] = block.reshape(number, -1).sum(axis=1)
+    return collapses, complete
+
+
+def _run_there(
+    request: Request, histories: IntArray, progress: bool, executor: Executor
+) -> tuple[IntArray, np.ndarray[Any, Any]]:
+    """The same by an executor: a block of walls is a task."""
+    walls = len(request.walls)
+    collapses = np.zeros((walls, len(request.levels)), dtype=np.int32)
+    complete = np.zeros(walls, dtype=bool)
+    tasks: dict[Future[Any], Any] = {}
+    bar = progress_bar(walls, progress, f"{walls} walls", "wall")
+    try:
+        for block in np.array_split(np.arange(walls), min(walls, _BLOCKS)):
+            part = dataclasses.replace(request, walls=tuple(request.walls[i] for i in block))
+            tasks[executor.submit(_run_here, part, histories[block], False)] = block
+        for task in as_completed(tasks):
+            collapses[tasks[task]], complete[tasks[task]] = task.result()
+            bar.update(len(tasks[task]))
+    except KeyboardInterrupt:
+        for task in tasks:
+            task.cancel()
+    finally:
+        bar.close()
+    return collapses, complete
+
+
+def _combine(
+    people: Population, request: Request, histories: IntArray, collapses: IntArray, complete: np.ndarray[Any, Any]
+) -> tuple[Typology, list[str]]:
+    """The curve of the walls that are complete."""
+    chosen = np.flatnonzero(complete)
+    walls = tuple(people.walls[i] for i in chosen)
+    weights = np.ascontiguousarray(people.weights[chosen])
+    histories, collapses = histories[chosen], collapses[chosen]
+    if not weights.any():
+        weights = np.ones(len(chosen))
+    flat = _binding.join_walls([wall._flat for wall in walls])
+    weight, fractions, mean_curve, curves, overall, sentences = _binding.fit_walls(
+        flat, request.levels, collapses, histories, weights
+    )
+    share = weights / weight * len(walls)
+    sizes = np.repeat(histories.astype(np.float64)[:, None], len(request.levels), axis=1)
+    counts = collapses.astype(np.float64)
+    own = tuple(
+        curve_of(curve, request.levels, z, n, im=request.im, wall=wall)
+        for curve, z, n, wall in zip(curves, counts, sizes, walls, strict=True)
+    )
+    # The counts that the overall curve was fitted to, for its profile likelihood
+    together = np.minimum(share @ counts, share @ sizes), share @ sizes
+    fit = curve_of(overall, request.levels, *together, im=request.im)
+    result = Typology(
+        walls,
+        weights,
+        request.im,
+        request.levels,
+        np.ascontiguousarray(collapses.T),
+        histories,
+        own,
+        weight,
+        fractions,
+        mean_curve,
+        fit,
+    )
+    return result, sentences
