@@ -10,9 +10,11 @@
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.comparison import Comparison, compare
+from dondolo.drawing import animate_history, plot_wall
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
+from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
 from dondolo.records import Record, read_catalogue, read_record
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.typology import Typology, typology
@@ -40,9 +42,15 @@ __all__ = [
     "Typology",
     "Wall",
     "__version__",
+    "animate_history",
     "compare",
     "fit_fragility",
     "multiple_stripe",
+    "plot_fragility",
+    "plot_history",
+    "plot_stripes",
+    "plot_typology",
+    "plot_wall",
     "read_case",
     "read_catalogue",
     "read_population",

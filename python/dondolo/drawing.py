@@ -139,8 +139,8 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
         ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
     ax.plot(*moved.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     _frame(ax, wall)
-    ax.set_title(f"{wall.name}: {rotation:.3g} rad{title}")
-    style.legend(ax, loc="upper right")
+    ax.set_title(f"{wall.name}: {rotation:.3g} rad{title}", loc="left")
+    style.legend(ax, loc="center right")
     return ax
 
 
@@ -159,8 +159,8 @@ def _draw_surroundings(ax: Axes, wall: Wall) -> None:
     ax.plot([-reach, t + reach], [0.0, 0.0], color=style.BLACK, linewidth=1.6)
     if isinstance(wall, TwoBlockWall):
         for left in (-0.5 * reach, t):
-            ax.fill_between([left, left + 0.5 * reach], 1.0 * h, 1.03 * h, facecolor=style.LIGHT, linewidth=0.0)
-        ax.annotate("held at the top", (t + 0.05 * reach, 1.04 * h), fontsize=7.5, color=style.GREY)
+            ax.fill_between([left, left + 0.5 * reach], h, 1.03 * h, facecolor=style.LIGHT, linewidth=0.0)
+        ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=7.5)
     elif not wall.two_sided:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
         ax.annotate(
@@ -234,7 +234,7 @@ def animate_history(response: Response, frames_per_second: int = 25, speed: floa
     (point,) = right.plot([], [], linestyle="none", marker="o", color=style.RED)
     right.set_xlabel("time [s]")
     right.set_ylabel("rotation / capacity")
-    right.set_title(f"{wall.name}, record {response.record.name}")
+    right.set_title(f"{wall.name}, record {response.record.name}", loc="left")
     instants = np.arange(time[0], time[-1] + 0.5 * speed / frames_per_second, speed / frames_per_second)
 
     def draw(frame: int) -> list[Any]:

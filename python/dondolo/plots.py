@@ -57,8 +57,8 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
     above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label="trigger acceleration")
     above.set_ylabel("ground\nacceleration [g]")
-    above.set_title(f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}")
-    style.legend(above, loc="upper right")
+    above.set_title(f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left")
+    style.legend(above, loc="upper left")
 
     ratio = response.rotation / wall.capacity_angle
     below.plot(time, ratio, color=style.BLUE, label="rotation")
@@ -86,7 +86,7 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
     )
     below.set_xlabel("time [s]")
     below.set_ylabel("rotation / capacity")
-    style.legend(below, loc="upper right")
+    style.legend(below, loc="upper left")
     return np.asarray([above, below])
 
 
@@ -143,7 +143,7 @@ def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
     ax.set_xlim(left=0.0)
     ax.set_xlabel(style.im_label(stripes.im))
     ax.set_ylabel("EDP = largest rotation / capacity")
-    ax.set_title(stripes.wall.name)
+    ax.set_title(stripes.wall.name, loc="left")
     style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
     return ax
 
@@ -226,7 +226,7 @@ def plot_fragility(
     ax.set_xlabel(style.im_label(fragility.im))
     ax.set_ylabel("probability of collapse")
     if stripes is not None:
-        ax.set_title(stripes.wall.name)
+        ax.set_title(stripes.wall.name, loc="left")
     style.legend(ax, loc="upper left")
     return ax
 
@@ -256,11 +256,7 @@ def plot_typology(typology: Typology, ax: Axes | None = None) -> Axes:
     for curve in fitted:
         ax.plot(grid, curve(grid), color=style.GREY, linewidth=0.6)
     ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(typology.curves)} walls")
-    if len(fitted) == len(typology.curves):
-        ax.plot(grid, typology.mean(grid), color=style.RED, linewidth=2.4, label="weighted mean")
-    else:
-        # A wall without a curve takes part with its fractions, which are known at the levels only.
-        ax.plot(typology.levels, typology.mean_curve, color=style.RED, linewidth=2.4, label="weighted mean")
+    ax.plot(grid, typology.mean(grid), color=style.RED, linewidth=2.4, label="weighted mean")
     curve = typology.fit()
     if curve.has_fit:
         text = f"lognormal, θ = {curve.theta:.3g}, β = {curve.beta:.3g}"

@@ -24,7 +24,6 @@ RC = {
     "axes.axisbelow": True,
     "font.size": 9.5,
     "axes.titlesize": 10.5,
-    "axes.titlelocation": "left",
     "legend.frameon": False,
     "legend.fontsize": 8.5,
     "figure.dpi": 110,
