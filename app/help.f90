@@ -7,7 +7,7 @@ module dondolo_help
    public :: print_help
 
    !> The page
-   character(len=*), parameter :: page(*) = [character(len=100) :: &
+   character(len=*), parameter :: page(*) = [character(len=110) :: &
       & 'dondolo: fragility of masonry walls that rock and overturn in earthquakes', &
       & '', &
       & '   dondolo CASE.nml             run a case and write its result files', &

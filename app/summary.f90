@@ -179,7 +179,7 @@ contains
       write (output_unit, '(a)') ''
    end subroutine print_curves
 
-   !> Print the curve of the population
+   !> Print the curves of the population: the fits, and the mean curve of all walls
    subroutine print_typology(case, results)
       !> The case
       type(case_type), intent(in) :: case
@@ -187,9 +187,9 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=12) :: level
-      integer :: j
+      integer :: i, j
 
-      associate (typology => results%typology)
+      associate (typology => results%typologies(size(results%typologies)))
          write (output_unit, '(a12, a15, a12)') case%stripes%im//unit_of(case%stripes%im), 'mean fraction', 'mean curve'
          do j = 1, size(typology%levels)
             level = rounded(typology%levels(j))
@@ -197,13 +197,17 @@ contains
                & typology%mean_curve(j), bar(typology%mean_curve(j))
          end do
          write (output_unit, '(a)') ''
-         if (typology%fit%has_fit()) then
-            write (output_unit, '(a)') 'population: theta = '//rounded(typology%fit%theta)//unit_of(case%stripes%im)// &
-               & ', beta = '//rounded(typology%fit%beta)//', status '//trim(typology%fit%status)
-         else
-            write (output_unit, '(a)') 'population: no fragility curve, status '//trim(typology%fit%status)
-         end if
       end associate
+      do i = 1, size(results%typologies)
+         associate (mechanism => results%typologies(i)%mechanism, fit => results%typologies(i)%fit)
+            if (fit%has_fit()) then
+               write (output_unit, '(a)') 'population, '//mechanism//': theta = '//rounded(fit%theta)// &
+                  & unit_of(case%stripes%im)//', beta = '//rounded(fit%beta)//', status '//trim(fit%status)
+            else
+               write (output_unit, '(a)') 'population, '//mechanism//': no fragility curve, status '//trim(fit%status)
+            end if
+         end associate
+      end do
    end subroutine print_typology
 
    !> A bar as long as a fraction

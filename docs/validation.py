@@ -30,7 +30,7 @@ HEAD = """# Validation: the main job on recorded accelerograms
 Magenes 2025, CC BY 4.0; not part of this repository), each scaled to 20 levels of peak ground acceleration from 0.05 to
 1.00 g: 880 histories a wall. Every number below was written by `./run validation`, which runs the executable at three
 tolerances (rtol; atol = rtol/100) with the engine rk45 on one thread. Times are medians of {repeats} runs on
-{machine}, and inform only: they include the reading of the records' text files.
+{machine}, without the reading of files, and inform only.
 
 How far these results are from the exact motion is the subject of the verification; here they are compared with
 themselves at the tightest of the three tolerances.

@@ -1,12 +1,56 @@
 !> dondolo: fragility of masonry walls that rock and overturn in earthquakes. The names a program needs.
+!>
+!>     use dondolo
+!>     type(wall_input_type) :: input
+!>     type(wall_type) :: wall
+!>     type(record_type), allocatable :: records(:)
+!>     type(stripes_type) :: stripes
+!>     type(error_type), allocatable :: error
+!>
+!>     input%mechanism = 'one_sided'; input%height = 3.0_wp; input%thickness = 0.25_wp
+!>     call new_wall(wall, input, error)
+!>     if (.not. allocated(error)) call read_catalogue('records.csv', records, error)
+!>     if (.not. allocated(error)) call multiple_stripe(stripes, wall, records, [0.2_wp, 0.4_wp], 'pga', &
+!>        & 'as_recorded', solver_type(), 0, error)
+!>     if (allocated(error)) print *, error%message
 module dondolo
+   use dondolo_case, only : case_type, read_case
+   use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_intensity, only : im_names, intensity, level_unit
    use dondolo_kinds, only : wp
-   use dondolo_record, only : record_type, new_record
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_population, only : population_type, read_population
+   use dondolo_record, only : new_record, record_type
+   use dondolo_record_reader, only : read_record
+   use dondolo_reports, only : check_reports, write_reports
+   use dondolo_response, only : response_type, trace_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_run_case, only : results_type, run_case
+   use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
+   use dondolo_stripes, only : multiple_stripe, polarity_names, progress_interface, stripes_type
+   use dondolo_synthetic, only : synthetic_record
+   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_version, only : dondolo_version_text
+   use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private
 
-   public :: wp, error_type
-   public :: record_type, new_record
+   public :: wp, dondolo_version_text, error_type
+   ! Accelerograms
+   public :: record_type, new_record, read_record, read_catalogue, synthetic_record
+   public :: im_names, intensity, level_unit
+   ! Walls
+   public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type
+   ! Motion
+   public :: solver_type, check_solver, check_limit, engine_names
+   public :: simulate_rk45, response_type, trace_type
+   ! Fragility
+   public :: stripes_type, multiple_stripe, polarity_names, progress_interface
+   public :: fragility_type, fit_fragility, typology_type, combine_population
+   ! Cases
+   public :: case_type, read_case, results_type, run_case, check_reports, write_reports
+   public :: population_type, read_population
 
 end module dondolo

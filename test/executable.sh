@@ -180,13 +180,14 @@ check "typology: files" equal "$(ls out | tr '\n' ' ')" \
    "people_fragility.csv people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
    "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status"
-check "typology: rows" equal "$(rows out/people_typology.csv)" 4
+check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
-check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR == 2 { print $4 + 0 }')" 3
-check "typology: mechanisms" contains out/people_typology.csv 'several,pga,'
+check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $4 + 0 }' | tr '\n' ' ')" "2 1 3 "
+check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $1 }' | tr '\n' ' ')" \
+   "one_sided two_block all "
 check "typology: mean fraction" equal \
-   "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR > 1 { printf "%.9f ", $5 }')" \
+   "$(grep '^all,' out/people_typology.csv | awk -F, '{ printf "%.9f ", $5 }')" \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $NF / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out

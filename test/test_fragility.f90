@@ -5,7 +5,7 @@ program test_fragility
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
    use dondolo_kinds, only : dp
-   use dondolo_typology, only : combine_walls, typology_type
+   use dondolo_typology, only : combine_population, combine_walls, typology_type
    implicit none
 
    call test_two_stripes()
@@ -158,6 +158,7 @@ contains
       integer, parameter :: z(3, 2) = reshape([4, 20, 40, 0, 0, 10], [3, 2])
       type(fragility_type) :: curves(2)
       type(typology_type) :: typology
+      type(typology_type), allocatable :: typologies(:)
       type(error_type), allocatable :: error
 
       call suite('typology')
@@ -173,6 +174,14 @@ contains
       call combine_walls(typology, x, z(:, [1, 1]), [44, 44], curves([1, 1]), [1.0_dp, 1.0_dp], error)
       call check_close(typology%fit%theta, curves(1)%theta, 1.0e-12_dp, 'theta of two equal walls')
       call check_close(typology%fit%se_beta(), curves(1)%se_beta()*sqrt(0.5_dp), 1.0e-10_dp, 'standard error of two')
+
+      call combine_population(typologies, ['b', 'a', 'b', 'c'], x, z(:, [1, 2, 1, 2]), [44, 44, 44, 44], &
+         & curves([1, 2, 1, 2]), [2.0_dp, 1.0_dp, 1.0_dp, 0.0_dp], error)
+      call check_ok(error, 'combine a population')
+      call check(size(typologies) == 3, 'two mechanisms have weight')
+      call check_text(typologies(1)%mechanism//typologies(2)%mechanism//typologies(3)%mechanism, 'baall', 'mechanisms')
+      call check_close(typologies(1)%fit%theta, curves(1)%theta, 1.0e-12_dp, 'theta of the first mechanism')
+      call check_close(typologies(3)%mean_fraction(3), 130.0_dp/176.0_dp, 1.0e-14_dp, 'mean fraction of all')
    end subroutine test_typology
 
 end program test_fragility

@@ -223,18 +223,20 @@ contains
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: fit
-      integer :: j
+      integer :: i, j
 
       call files%line('mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status')
-      associate (typology => results%typology)
-         fit = ','
-         if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
-         do j = 1, size(typology%levels)
-            call files%line(common_mechanism(case)//','//case%stripes%im//','//to_table(typology%levels(j))//','// &
-               & to_table(typology%weight)//','//to_table(typology%mean_fraction(j))//','// &
-               & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status))
-         end do
-      end associate
+      do i = 1, size(results%typologies)
+         associate (typology => results%typologies(i))
+            fit = ','
+            if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
+            do j = 1, size(typology%levels)
+               call files%line(typology%mechanism//','//case%stripes%im//','//to_table(typology%levels(j))//','// &
+                  & to_table(typology%weight)//','//to_table(typology%mean_fraction(j))//','// &
+                  & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status))
+            end do
+         end associate
+      end do
    end subroutine write_typology
 
    !> The time history
@@ -265,21 +267,6 @@ contains
          end do
       end associate
    end subroutine write_history
-
-   !> The mechanism of all walls, or 'several'
-   pure function common_mechanism(case) result(name)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Name of the mechanism
-      character(len=:), allocatable :: name
-
-      integer :: i
-
-      name = case%population%walls(1)%input%mechanism
-      do i = 2, size(case%population%walls)
-         if (case%population%walls(i)%input%mechanism /= name) name = 'several'
-      end do
-   end function common_mechanism
 
    !> Name and mechanism of a wall
    pure function wall_cells(case, i) result(cells)

@@ -8,7 +8,8 @@ module dondolo_run_case
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_stripes, only : multiple_stripe, progress_interface, stripes_type
-   use dondolo_typology, only : combine_walls, typology_type
+   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_wall, only : mechanism_names
    use dondolo_warnings, only : scale_warning_type, warn_of_fit, warn_of_fits, warn_of_records
    implicit none
    private
@@ -25,8 +26,8 @@ module dondolo_run_case
       integer, allocatable :: histories(:)
       !> Curve of each wall: tasks 'stripes' and 'typology'
       type(fragility_type), allocatable :: fragility(:)
-      !> Curve of the population: task 'typology'
-      type(typology_type) :: typology
+      !> Curves of the population, the last that of all its walls: task 'typology'
+      type(typology_type), allocatable :: typologies(:)
       !> The one response: task 'history'
       type(response_type) :: response
       !> Its time history
@@ -105,6 +106,7 @@ contains
 
       type(scale_warning_type) :: scales
       type(stripes_type) :: stripes
+      character(len=len(mechanism_names)), allocatable :: mechanisms(:)
       integer :: i, levels
 
       call make_room(case, results)
@@ -115,12 +117,16 @@ contains
          call scales%look(stripes, case%records)
          if (present(progress)) call progress(levels*sum(results%histories(:i)), levels*sum(results%histories))
       end do
-      call combine_walls(results%typology, real(case%stripes%levels, dp), results%collapses, results%histories, &
-         & results%fragility, real(case%population%weight, dp), error)
+      allocate(mechanisms(size(case%population%walls)))
+      do i = 1, size(mechanisms)
+         mechanisms(i) = case%population%walls(i)%input%mechanism
+      end do
+      call combine_population(results%typologies, mechanisms, real(case%stripes%levels, dp), results%collapses, &
+         & results%histories, results%fragility, real(case%population%weight, dp), error)
       if (allocated(error)) return
       call warn_of_records(case%records, results%warnings)
       call scales%warn(results%warnings)
-      call warn_of_fits(case%population%walls, results%fragility, results%typology%fit, results%warnings)
+      call warn_of_fits(case%population%walls, results%fragility, results%typologies, results%warnings)
    end subroutine run_typology
 
    !> Room for the counts and curves of all walls

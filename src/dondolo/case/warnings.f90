@@ -6,6 +6,7 @@ module dondolo_warnings
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
    use dondolo_text, only : to_text
+   use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -128,13 +129,13 @@ contains
    end subroutine warn_of_fit
 
    !> Warn of the curves of a population, and of the one fitted to all
-   subroutine warn_of_fits(walls, fragility, typology, warnings)
+   subroutine warn_of_fits(walls, fragility, typologies, warnings)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
       !> Their curves
       type(fragility_type), intent(in) :: fragility(:)
-      !> The curve fitted to all
-      type(fragility_type), intent(in) :: typology
+      !> The curves of the population
+      type(typology_type), intent(in) :: typologies(:)
       !> Warnings to add to
       type(lines_type), intent(inout) :: warnings
 
@@ -152,12 +153,16 @@ contains
          call warnings%add(to_text(number)//' of '//to_text(size(walls))//' walls '//consequence//' ('// &
             & trim(status(i))//'; the first is '''//walls(first)%input%name//''')')
       end do
-      if (.not. typology%has_fit()) then
-         call warnings%add('the population as a whole has no fit ('//trim(typology%status)//')')
-      else if (typology%status == 'extrapolated') then
-         call warnings%add('the median of the population, '//rounded(typology%theta)// &
-            & ', lies outside the levels: the fit extrapolates')
-      end if
+      do i = 1, size(typologies)
+         associate (mechanism => typologies(i)%mechanism, fit => typologies(i)%fit)
+            if (.not. fit%has_fit()) then
+               call warnings%add('the population has no fit (mechanism '//mechanism//', status '//trim(fit%status)//')')
+            else if (fit%status == 'extrapolated') then
+               call warnings%add('the median of the population, '//rounded(fit%theta)//' (mechanism '//mechanism// &
+                  & '), lies outside the levels: the fit extrapolates')
+            end if
+         end associate
+      end do
    end subroutine warn_of_fits
 
    !> A number with four significant digits, for people

@@ -254,7 +254,11 @@ contains
       !> Number of collapses at each level
       integer :: counts(size(self%levels))
 
-      counts = count(self%response%collapsed, dim=1)
+      integer :: j
+
+      do j = 1, size(counts)
+         counts(j) = count(self%response(:, j)%collapsed)
+      end do
    end function collapses
 
 end module dondolo_stripes

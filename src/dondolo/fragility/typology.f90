@@ -9,10 +9,12 @@ module dondolo_typology
    implicit none
    private
 
-   public :: typology_type, combine_walls
+   public :: typology_type, combine_walls, combine_population
 
-   !> The curve of a population
+   !> The curve of a population, or of its walls of one mechanism
    type :: typology_type
+      !> Mechanism of the walls, 'all' for walls of several
+      character(len=:), allocatable :: mechanism
       !> Levels of intensity
       real(dp), allocatable :: levels(:)
       !> Sum of the weights of the walls
@@ -27,7 +29,58 @@ module dondolo_typology
 
 contains
 
-   !> Combine the walls of a population
+   !> Combine a population: a curve for each of its mechanisms, as in figure 5 of Nale et al., and one for all
+   subroutine combine_population(typologies, mechanisms, levels, collapses, histories, curves, weights, error)
+      !> The curves: mechanisms in the order they appear in, those of no weight left out, and 'all' last if several
+      type(typology_type), allocatable, intent(out) :: typologies(:)
+      !> Mechanism of each wall
+      character(len=*), intent(in) :: mechanisms(:)
+      !> Levels of intensity
+      real(dp), intent(in) :: levels(:)
+      !> Collapses (levels, walls)
+      integer, intent(in) :: collapses(:, :)
+      !> Histories of a stripe of each wall
+      integer, intent(in) :: histories(:)
+      !> Curve of each wall
+      type(fragility_type), intent(in) :: curves(:)
+      !> Weight of each wall, not negative and not all zero
+      real(dp), intent(in) :: weights(:)
+      !> Counts that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, allocatable :: walls(:), first(:)
+      integer :: i
+
+      first = pack([(i, i=1, size(mechanisms))], [(weights(i) > 0.0_dp &
+         & .and. .not. any(mechanisms(:i - 1) == mechanisms(i) .and. weights(:i - 1) > 0.0_dp), i=1, size(mechanisms))])
+      allocate(typologies(size(first) + merge(1, 0, size(first) > 1)))
+      do i = 1, size(typologies)
+         if (i <= size(first)) then
+            walls = positions(mechanisms == mechanisms(first(i)))
+         else
+            walls = positions(weights >= 0.0_dp)
+         end if
+         call combine_walls(typologies(i), levels, collapses(:, walls), histories(walls), curves(walls), &
+            & weights(walls), error)
+         if (allocated(error)) return
+         typologies(i)%mechanism = 'all'
+         if (i <= size(first)) typologies(i)%mechanism = trim(mechanisms(first(i)))
+      end do
+   end subroutine combine_population
+
+   !> Where a mask is true
+   pure function positions(mask) result(places)
+      !> The mask
+      logical, intent(in) :: mask(:)
+      !> The places
+      integer, allocatable :: places(:)
+
+      integer :: i
+
+      places = pack([(i, i=1, size(mask))], mask)
+   end function positions
+
+   !> Combine walls
    subroutine combine_walls(typology, levels, collapses, histories, curves, weights, error)
       !> The curve of the population
       type(typology_type), intent(out) :: typology

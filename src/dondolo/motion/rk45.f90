@@ -256,8 +256,8 @@ contains
          else if (moment > 0.0_wp) then
             flight = 2.0_wp*motion%v*rest%inertia/moment
             if (flight <= shortest_motion*record%dt) ending = at_rest
-            if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, motion%peak)) &
-               & ending = at_rest
+            if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
+               & motion%peak)) ending = at_rest
          end if
       end associate
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
