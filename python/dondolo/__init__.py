@@ -16,8 +16,9 @@ from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
 from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
 from dondolo.records import Record, read_catalogue, read_record
+from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
-from dondolo.typology import Typology, typology
+from dondolo.typology import Group, Typology, typology
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, TwoBlockWall, Wall, read_population
 
 __version__ = _constants().version
@@ -30,6 +31,7 @@ __all__ = [
     "DondoloWarning",
     "Fragility",
     "FreeStandingWall",
+    "Group",
     "InputError",
     "Interrupted",
     "OneSidedWall",
@@ -37,6 +39,7 @@ __all__ = [
     "Record",
     "Response",
     "Results",
+    "StoredResults",
     "Stripes",
     "TwoBlockWall",
     "Typology",
@@ -55,6 +58,7 @@ __all__ = [
     "read_catalogue",
     "read_population",
     "read_record",
+    "read_results",
     "run_case",
     "simulate",
     "typology",

@@ -74,6 +74,10 @@ def _plot(options: argparse.Namespace) -> None:
     if results.typology is not None:
         people = results.typology
         _save(options, "typology", lambda: dd.plot_typology(people))
+        if len(people.groups) > 1:
+            for group in people.groups[:-1]:
+                name = group.mechanism
+                _save(options, f"typology_{name}", lambda name=name: dd.plot_typology(people, mechanism=name))
 
 
 def _save(options: argparse.Namespace, name: str, draw: Callable[[], Any]) -> None:

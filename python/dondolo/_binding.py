@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import functools
 import os
+import sys
 import warnings
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +21,8 @@ from dondolo import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 FloatArray = NDArray[np.float64]
+
+_PACKAGE = Path(__file__).parent
 
 WALL_NUMBERS = (
     "height",
@@ -98,6 +102,16 @@ class Parcel(NamedTuple):
     lines: list[str]
 
 
+class GroupData(NamedTuple):
+    """The curve of a population, or of its walls of one mechanism."""
+
+    mechanism: str
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    curve: CurveData
+
+
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
@@ -125,10 +139,13 @@ def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Par
     return Parcel(integers, reals, text.split("\n")[:-1])
 
 
-def warn(sentences: Iterable[str], stacklevel: int = 3) -> None:
-    """Warn of each sentence where the user's own line is."""
+def warn(sentences: Iterable[str]) -> None:
+    """Warn of each sentence, where the user's own line is."""
+    frame, depth = sys._getframe(), 1
+    while frame.f_back is not None and Path(frame.f_code.co_filename).parent == _PACKAGE:
+        frame, depth = frame.f_back, depth + 1
     for sentence in sentences:
-        warnings.warn(sentence, DondoloWarning, stacklevel=stacklevel + 1)
+        warnings.warn(sentence, DondoloWarning, stacklevel=depth)
 
 
 def as_number(name: str, value: Any) -> float:
@@ -149,6 +166,9 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
         raise InputError(f"{name}: must be numbers") from None
     if array.ndim != 1:
         raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
+    if not array.size:
+        # f2py takes no empty arrays
+        raise InputError(f"{name}: must be given")
     return array
 
 
@@ -239,7 +259,9 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
     lengths = parcel.integers[integers : integers + count]
     ends = reals + count + np.cumsum(lengths)
     return [
-        RecordData(parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]])
+        RecordData(
+            parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]]
+        )
         for i in range(count)
     ]
 
@@ -287,15 +309,19 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
 
 def fit_walls(
     walls: FlatWall, levels: FloatArray, collapses: NDArray[np.int32], histories: NDArray[np.int32], weights: FloatArray
-) -> tuple[float, FloatArray, FloatArray, list[CurveData], CurveData, list[str]]:
-    """Curves of walls and of their population: collapses are (walls, levels)."""
+) -> tuple[list[CurveData], list[GroupData], list[str]]:
+    """Curves of walls, of their population (the last of all) and warnings: collapses are (walls, levels)."""
     parcel = receive(*_core.fit_walls(*walls, levels, np.ascontiguousarray(collapses).T, histories, weights))
     m, w = len(levels), len(weights)
     names = ("", *constants().statuses)
-    numbers = parcel.reals[1 + 2 * m :].reshape(w + 1, 8)
-    curves = [CurveData(names[code], row) for code, row in zip(parcel.integers, numbers, strict=True)]
-    fractions, mean_curve = parcel.reals[1 : 1 + m], parcel.reals[1 + m : 1 + 2 * m]
-    return float(parcel.reals[0]), fractions, mean_curve, curves[:-1], curves[-1], parcel.lines
+    status = [names[code] for code in parcel.integers]
+    curves = [CurveData(*pair) for pair in zip(status, parcel.reals[: 8 * w].reshape(w, 8), strict=False)]
+    rows = parcel.reals[8 * w :].reshape(len(status) - w, 1 + 2 * m + 8)
+    groups = [
+        GroupData(mechanism, float(row[0]), row[1 : 1 + m], row[1 + m : 1 + 2 * m], CurveData(what, row[1 + 2 * m :]))
+        for mechanism, what, row in zip(parcel.lines, status[w:], rows, strict=False)
+    ]
+    return curves, groups, parcel.lines[len(groups) :]
 
 
 def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:

@@ -69,9 +69,7 @@ class Request:
     threads: int
 
     def _settings(self) -> tuple[Any, ...]:
-        words = (
-            _binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")
-        )
+        words = (_binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
         return (*self.records, self.levels, *words, self.tolerances, self.threads)
 
     def plan(self) -> Plan:
@@ -137,8 +135,6 @@ def new_request(
     if not -(2**31) <= threads < 2**31:
         raise InputError(f"threads = {threads}: must lie between 0 (all) and 4096")
     levels = _binding.as_array("levels", levels).copy()
-    if not len(levels):
-        raise InputError("levels: must be given")
     levels.flags.writeable = False
     settings = _binding.tolerances(rtol, atol, edp_limit)
     return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, int(threads))

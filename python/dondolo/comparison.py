@@ -27,8 +27,8 @@ class Comparison:
     interval : (float, float)
         Confidence interval of the ratio.
     statistic : float
-        Twice the gain in log likelihood of two curves over one, chi-squared with 2 degrees of freedom if there is but one;
-        NaN for 'bootstrap'.
+        Twice the gain in log likelihood of two curves over one, chi-squared with 2 degrees of freedom if there is but
+        one; NaN for 'bootstrap'.
     """
 
     method: str
@@ -53,8 +53,9 @@ def compare(
     first, second : Fragility
         Curves with a fit.
     method : {'likelihood', 'bootstrap'}
-        Likelihood ratio test of equal theta and beta, for curves from independent records; or bootstrap over records of the
-        ratio of the medians, which draws the same records for both where both have the same, and so keeps what they share.
+        Likelihood ratio test of equal theta and beta, for curves from independent records; or bootstrap over records of
+        the ratio of the medians, which draws the same records for both where both have the same, and so keeps what they
+        share.
     level : float
         Confidence of the interval of the ratio.
     n, seed

@@ -234,17 +234,19 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(w)
+   type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
    type(lines_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   integer :: i, histories(w)
+   integer, allocatable :: histories(:)
+   integer :: i
 
    handle = 0
    sizes = 0
+   allocate (walls(w), histories(w))
    call check_threads(threads, error)
    if (.not. allocated(error)) call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) then
@@ -287,7 +289,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    real(c_double), intent(out) :: edp(count), time_of_peak(count)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(w)
+   type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
    type(stripes_type) :: stripes
    type(error_type), allocatable :: error
@@ -297,6 +299,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    collapsed = 0
    impacts = 0
    time_of_peak = 0
+   allocate (walls(w))
    call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
    before = 0
@@ -364,8 +367,9 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    !$omp end parallel do
 end subroutine fit_curves
 
-! Curve of a population and warnings. Integers: statuses of the walls and of the population; reals: sum of the weights,
-! mean fractions, mean curve, numbers of each wall's curve, those of the population's; text: warnings
+! Curves of walls and of their population. Integers: statuses of the walls, then of the population's curves (one for each
+! mechanism, and the last for all); reals: numbers of each wall's curve, then for each of the population's the sum of the
+! weights, mean fractions, mean curve and numbers; text: mechanisms of the population's curves, then warnings
 subroutine fit_walls(texts, numbers, given, gravity, w, levels, collapses, m, histories, weights, handle, sizes, stat, &
       & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -373,8 +377,8 @@ subroutine fit_walls(texts, numbers, given, gravity, w, levels, collapses, m, hi
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
-   use dondolo_typology, only : combine_walls, typology_type
-   use dondolo_wall, only : wall_type
+   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_wall, only : mechanism_names, wall_type
    use dondolo_warnings, only : warn_of_fits
    implicit none
    !f2py threadsafe
@@ -384,29 +388,36 @@ subroutine fit_walls(texts, numbers, given, gravity, w, levels, collapses, m, hi
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(w)
-   type(fragility_type) :: curves(w)
-   type(typology_type) :: typology
-   type(lines_type) :: warnings
+   type(wall_type), allocatable :: walls(:)
+   type(fragility_type), allocatable :: curves(:)
+   type(typology_type), allocatable :: groups(:)
+   type(lines_type) :: lines
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   character(len=len(mechanism_names)), allocatable :: mechanisms(:)
    integer :: i
 
    handle = 0
    sizes = 0
+   allocate (walls(w), curves(w), mechanisms(w))
    call set_walls(walls, texts, numbers, given, gravity, error)
    do i = 1, w
       if (allocated(error)) exit
+      mechanisms(i) = walls(i)%input%mechanism
       call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
          & spread(real(histories(i), c_double), 1, m), error)
    end do
-   if (.not. allocated(error)) call combine_walls(typology, levels, collapses, histories, curves, weights, error)
+   if (.not. allocated(error)) &
+      & call combine_population(groups, mechanisms, levels, collapses, histories, curves, weights, error)
    if (.not. allocated(error)) then
-      call warn_of_fits(walls, curves, typology%fit, warnings)
-      parcel%integers = [(status_code(curves(i)), i=1, w), status_code(typology%fit)]
-      parcel%reals = [typology%weight, typology%mean_fraction, typology%mean_curve, (pack_curve(curves(i)), i=1, w), &
-         & pack_curve(typology%fit)]
-      parcel%text = pack_lines(warnings)
+      parcel%integers = [(status_code(curves(i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups))]
+      parcel%reals = [(pack_curve(curves(i)), i=1, w), (groups(i)%weight, groups(i)%mean_fraction, &
+         & groups(i)%mean_curve, pack_curve(groups(i)%fit), i=1, size(groups))]
+      do i = 1, size(groups)
+         call lines%add(groups(i)%mechanism)
+      end do
+      call warn_of_fits(walls, curves, groups, lines)
+      parcel%text = pack_lines(lines)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)

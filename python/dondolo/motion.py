@@ -27,7 +27,8 @@ class Response:
     scale : float
         Factor on the record, negative if its polarity was reversed.
     edp : float
-        Engineering demand parameter: largest rotation / capacity, equation (6) of Nale et al.; edp_limit for a collapse.
+        Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
+        collapse.
     collapsed : bool
         Did it reach the limit?
     impacts : int
@@ -157,13 +158,15 @@ def simulate(
     if history:
         rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
         rows.flags.writeable = False
-        side = _sides(rows, wall.two_sided)
-        for what, row in zip(("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True):
+        side = sides(rows, wall.two_sided)
+        for what, row in zip(
+            ("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True
+        ):
             object.__setattr__(response, what, row)
     return response
 
 
-def _sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
+def sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
     """The side of every row: the sign of the rotation, and where that is zero of what comes before or after."""
     time, _, rotation, velocity = rows
     if not two_sided:

@@ -231,7 +231,7 @@ def plot_fragility(
     return ax
 
 
-def plot_typology(typology: Typology, ax: Axes | None = None) -> Axes:
+def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | None = None) -> Axes:
     """Draw the curves of a population, thin, and their weighted mean.
 
     Figure 5 of Nale et al.: the red line is the typological curve.
@@ -242,28 +242,40 @@ def plot_typology(typology: Typology, ax: Axes | None = None) -> Axes:
         Result of `typology`.
     ax : Axes, optional
         Where to draw; a new figure if left out.
+    mechanism : str, optional
+        Only the walls of this mechanism.
 
     Returns
     -------
     Axes
         Probability of collapse against intensity.
+
+    Raises
+    ------
+    InputError
+        No wall has this mechanism.
     """
+    group = typology.group(mechanism)
     if ax is None:
         ax = style.new_axes()
     right = 1.05 * float(np.max(typology.levels))
     grid = np.linspace(right / _POINTS, right, _POINTS)
-    fitted = [curve for curve in typology.curves if curve.has_fit]
+    chosen = [
+        curve
+        for wall, curve in zip(typology.walls, typology.curves, strict=True)
+        if group.mechanism in ("all", wall.mechanism)
+    ]
+    fitted = [curve for curve in chosen if curve.has_fit]
     for curve in fitted:
         ax.plot(grid, curve(grid), color=style.GREY, linewidth=0.6)
-    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(typology.curves)} walls")
-    ax.plot(grid, typology.mean(grid), color=style.RED, linewidth=2.4, label="weighted mean")
-    curve = typology.fit()
-    if curve.has_fit:
-        text = f"lognormal, θ = {curve.theta:.3g}, β = {curve.beta:.3g}"
-        ax.plot(grid, curve(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=text)
+    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(chosen)} walls")
+    ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label="weighted mean")
+    if group.fit.has_fit:
+        text = f"lognormal, θ = {group.fit.theta:.3g}, β = {group.fit.beta:.3g}"
+        ax.plot(grid, group.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=text)
     ax.plot(
         typology.levels,
-        typology.mean_fraction,
+        group.mean_fraction,
         linestyle="none",
         marker="o",
         markersize=4,
@@ -275,5 +287,6 @@ def plot_typology(typology: Typology, ax: Axes | None = None) -> Axes:
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(typology.im))
     ax.set_ylabel("probability of collapse")
+    ax.set_title("all mechanisms" if group.mechanism == "all" else group.mechanism.replace("_", "-"), loc="left")
     style.legend(ax, loc="upper left")
     return ax

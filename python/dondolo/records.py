@@ -13,7 +13,7 @@ from dondolo import _binding, _core, tables
 from dondolo.errors import InputError
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, init=False)
 class Record:
     """An accelerogram: ground acceleration at equal steps of time, linear in between.
 

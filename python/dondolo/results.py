@@ -16,7 +16,7 @@ from dondolo.fragility import Fragility
 from dondolo.motion import Response, sides
 from dondolo.records import Record
 from dondolo.stripes import Stripes
-from dondolo.typology import Typology, typology_of_counts
+from dondolo.typology import Typology, combine
 from dondolo.walls import MECHANISMS, Population, Wall
 
 # Columns of _walls.csv and the arguments of a wall
@@ -147,7 +147,7 @@ def _response(path: str, wall: Wall, case: list[str]) -> Response:
     _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
     name = next(comment[len("record:") :].strip() for comment in comments if comment.startswith("record:"))
     record = Record(acceleration[at_sample][first] / scale, dt, name=name)
-    response = Response(
+    return Response(
         wall,
         record,
         scale,
@@ -160,9 +160,8 @@ def _response(path: str, wall: Wall, case: list[str]) -> Response:
         acceleration,
         rotation,
         velocity,
-        sides(time, rotation, velocity, wall.two_sided),
+        sides(np.asarray([time, acceleration, rotation, velocity]), wall.two_sided),
     )
-    return response
 
 
 def _stripes(path: str, wall: Wall) -> Stripes:
@@ -197,4 +196,5 @@ def _typology(path: str, population: Population) -> Typology:
     shape = (len(population), len(levels))
     collapses = _numbers(rows, "collapses").reshape(shape).astype(np.int32)
     histories = _numbers(rows, "histories").reshape(shape)[:, 0].astype(np.int32)
-    return typology_of_counts(population, rows["im"][0], levels, collapses, histories)
+    everyone = np.ones(len(population), dtype=bool)
+    return combine(population, rows["im"][0], levels, histories, collapses, everyone)[0]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo import _binding
-from dondolo.errors import DondoloError
+from dondolo.errors import DondoloError, InputError
 
 if TYPE_CHECKING:
     from dondolo.fragility import Fragility
@@ -180,26 +180,26 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
 
 def typology_table(typology: Typology) -> Table:
     """Columns of ``_typology.csv``."""
-    number = len(typology.levels)
-    mechanisms = {wall.mechanism for wall in typology.walls}
-    curve = typology.fit()
+    number, groups = len(typology.levels), typology.groups
+
+    def repeated(values: Iterable[Any]) -> list[Any]:
+        return [value for value in values for _ in range(number)]
+
     return {
-        "mechanism": [mechanisms.pop() if len(mechanisms) == 1 else "several"] * number,
-        "im": [typology.im] * number,
-        "im_level": typology.levels,
-        "weight": [typology.weight] * number,
-        "mean_fraction": typology.mean_fraction,
-        "mean_curve": typology.mean_curve,
-        "theta": [curve.theta] * number,
-        "beta": [curve.beta] * number,
-        "status": [curve.status] * number,
+        "mechanism": repeated(group.mechanism for group in groups),
+        "im": [typology.im] * (number * len(groups)),
+        "im_level": np.tile(typology.levels, len(groups)),
+        "weight": repeated(group.weight for group in groups),
+        "mean_fraction": np.concatenate([group.mean_fraction for group in groups]),
+        "mean_curve": np.concatenate([group.mean_curve for group in groups]),
+        "theta": repeated(group.fit.theta for group in groups),
+        "beta": repeated(group.fit.beta for group in groups),
+        "status": repeated(group.fit.status for group in groups),
     }
 
 
 def choose(tables: Mapping[str, Any], name: str) -> Table:
     """One of several tables of an object, made when it is asked for."""
-    from dondolo.errors import InputError
-
     if name not in tables:
         raise InputError(f"table = {name!r}: must be one of {', '.join(map(repr, tables))}")
     return tables[name]()

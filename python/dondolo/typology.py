@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._request import Request, new_request, progress_bar
-from dondolo.errors import Interrupted
+from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
 from dondolo.walls import Population, Wall
@@ -24,6 +24,33 @@ IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 # Blocks of walls that an executor gets: enough for many workers, few enough that sending the records does not show
 _BLOCKS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Walls of one mechanism, or all walls of a population, together.
+
+    Attributes
+    ----------
+    mechanism : str
+        'all' for walls of several mechanisms.
+    weight : float
+        Sum of the weights.
+    mean_fraction : ndarray, shape (levels,)
+        Weighted mean of the walls' fractions of collapse.
+    mean_curve : ndarray, shape (levels,)
+        Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part
+        with its fractions.
+    fit : Fragility
+        The lognormal curve fitted to the weighted counts; its standard errors take the walls' histories for
+        independent.
+    """
+
+    mechanism: str
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    fit: Fragility
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,13 +69,9 @@ class Typology:
         Histories of a stripe of each wall.
     curves : tuple of Fragility
         Curve of each wall.
-    weight : float
-        Sum of the weights.
-    mean_fraction : ndarray, shape (levels,)
-        Weighted mean of the walls' fractions of collapse.
-    mean_curve : ndarray, shape (levels,)
-        Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part with
-        its fractions.
+    groups : tuple of Group
+        A group for each mechanism, in the order they appear in, and the last for all walls (the same where there is
+        but one mechanism).
     """
 
     walls: tuple[Wall, ...]
@@ -58,26 +81,46 @@ class Typology:
     collapses: IntArray
     histories: IntArray
     curves: tuple[Fragility, ...]
-    weight: float
-    mean_fraction: FloatArray
-    mean_curve: FloatArray
-    _fit: Fragility
+    groups: tuple[Group, ...]
 
-    def fit(self) -> Fragility:
-        """The lognormal curve fitted to the weighted counts.
+    @property
+    def weight(self) -> float:
+        """Sum of the weights."""
+        return self.groups[-1].weight
 
-        Its standard errors take the walls' histories for independent.
-        """
-        return self._fit
+    @property
+    def mean_fraction(self) -> FloatArray:
+        """Weighted mean of the walls' fractions of collapse, shape (levels,)."""
+        return self.groups[-1].mean_fraction
 
-    def mean(self, x: ArrayLike) -> Any:
+    @property
+    def mean_curve(self) -> FloatArray:
+        """Weighted mean of the walls' curves, shape (levels,)."""
+        return self.groups[-1].mean_curve
+
+    def group(self, mechanism: str | None = None) -> Group:
+        """The walls of a mechanism together; of all if None."""
+        known = {group.mechanism: group for group in self.groups}
+        if mechanism is None:
+            return self.groups[-1]
+        if mechanism not in known:
+            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, known))}")
+        return known[mechanism]
+
+    def fit(self, mechanism: str | None = None) -> Fragility:
+        """The lognormal curve fitted to the weighted counts of the walls of a mechanism, of all if None."""
+        return self.group(mechanism).fit
+
+    def mean(self, x: ArrayLike, mechanism: str | None = None) -> Any:
         """Weighted mean of the walls' curves.
 
         Parameters
         ----------
         x : array_like
-            Levels of intensity, not negative. Between the levels, the fractions of a wall without a fit are interpolated
-            linearly in x, from 0 at x = 0; above the highest level they stay.
+            Levels of intensity, not negative. Between the levels, the fractions of a wall without a fit are
+            interpolated linearly in x, from 0 at x = 0; above the highest level they stay.
+        mechanism : str, optional
+            Of its walls only.
 
         Returns
         -------
@@ -86,13 +129,16 @@ class Typology:
         values = _levels_of(x)
         flat = values.ravel()
         mean = np.zeros(len(flat))
+        group = self.group(mechanism)
         for i, (curve, weight) in enumerate(zip(self.curves, self.weights, strict=True)):
+            if group.mechanism not in ("all", self.walls[i].mechanism):
+                continue
             if curve.has_fit:
                 part = curve(flat)
             else:
                 fraction = self.collapses[:, i] / self.histories[i]
                 part = np.interp(flat, np.append(0.0, self.levels), np.append(0.0, fraction))
-            mean += weight / self.weight * part
+            mean += weight / group.weight * part
         return shaped(mean, values)
 
     def _tables(self) -> dict[str, Any]:
@@ -118,7 +164,7 @@ class Typology:
         return [
             ("walls", f"{len(self.walls)}, {fitted} of them with a curve"),
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g}"),
-            *self._fit._facts(),
+            *self.fit()._facts(),
         ]
 
     def __repr__(self) -> str:
@@ -151,9 +197,9 @@ def typology(
     records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
         As for `multiple_stripe`.
     executor : concurrent.futures.Executor, optional
-        Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one thread
-        unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of processes must not
-        fork after a run of this process: OpenMP's threads do not survive it.
+        Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
+        thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of
+        processes must not fork after a run of this process: OpenMP's threads do not survive it.
 
     Returns
     -------
@@ -183,7 +229,7 @@ def typology(
         collapses, complete = _run_there(request, plan.histories, progress, executor)
     if not complete.any():
         raise Interrupted("interrupted: no wall is complete")
-    result, sentences = _combine(people, request, plan.histories, collapses, complete)
+    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, complete)
     if not complete.all():
         raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
@@ -227,10 +273,15 @@ def _run_there(
     return collapses, complete
 
 
-def _combine(
-    people: Population, request: Request, histories: IntArray, collapses: IntArray, complete: np.ndarray[Any, Any]
+def combine(
+    people: Population,
+    im: str,
+    levels: FloatArray,
+    histories: IntArray,
+    collapses: IntArray,
+    complete: np.ndarray[Any, Any],
 ) -> tuple[Typology, list[str]]:
-    """The curve of the walls that are complete."""
+    """The curves of the walls that are complete, from their counts (walls, levels); and what to warn of."""
     chosen = np.flatnonzero(complete)
     walls = tuple(people.walls[i] for i in chosen)
     weights = np.ascontiguousarray(people.weights[chosen])
@@ -238,30 +289,30 @@ def _combine(
     if not weights.any():
         weights = np.ones(len(chosen))
     flat = _binding.join_walls([wall._flat for wall in walls])
-    weight, fractions, mean_curve, curves, overall, sentences = _binding.fit_walls(
-        flat, request.levels, collapses, histories, weights
-    )
-    share = weights / weight * len(walls)
-    sizes = np.repeat(histories.astype(np.float64)[:, None], len(request.levels), axis=1)
+    curves, groups, sentences = _binding.fit_walls(flat, levels, collapses, histories, weights)
+    sizes = np.repeat(histories.astype(np.float64)[:, None], len(levels), axis=1)
     counts = collapses.astype(np.float64)
     own = tuple(
-        curve_of(curve, request.levels, z, n, im=request.im, wall=wall)
+        curve_of(curve, levels, z, n, im=im, wall=wall)
         for curve, z, n, wall in zip(curves, counts, sizes, walls, strict=True)
     )
-    # The counts that the overall curve was fitted to, for its profile likelihood
-    together = np.minimum(share @ counts, share @ sizes), share @ sizes
-    fit = curve_of(overall, request.levels, *together, im=request.im)
+    together = []
+    for group in groups:
+        members = np.array([group.mechanism in ("all", wall.mechanism) for wall in walls])
+        # The counts that the curve was fitted to, for its profile likelihood
+        share = np.where(members, weights, 0.0) / group.weight * members.sum()
+        z, n = share @ counts, share @ sizes
+        curve = curve_of(group.curve, levels, np.minimum(z, n), n, im=im)
+        together.append(Group(*group[:-1], curve))
+    histories.flags.writeable = False
     result = Typology(
         walls,
         weights,
-        request.im,
-        request.levels,
+        im,
+        levels,
         np.ascontiguousarray(collapses.T),
         histories,
         own,
-        weight,
-        fractions,
-        mean_curve,
-        fit,
+        tuple(together),
     )
     return result, sentences

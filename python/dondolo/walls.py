@@ -149,8 +149,8 @@ class OneSidedWall(Wall):
 class FreeStandingWall(Wall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
 
-    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both 1 - 3/2 sin^2 alpha)
-    and 'constant'.
+    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
+    1 - 3/2 sin^2 alpha) and 'constant'.
     """
 
     mechanism: ClassVar[str] = "free_standing"
@@ -180,9 +180,7 @@ class TwoBlockWall(Wall):
     eccentricity: float | None = None
 
 
-MECHANISMS: dict[str, type[Wall]] = {
-    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)
-}
+MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
 
 
 def wall_from(data: _binding.WallData) -> Wall:

@@ -115,6 +115,9 @@ def test_typology_shows_every_wall_and_the_mean(records):
     thin = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
     assert len(thin) == 3 + 1 + people.fit().has_fit
     np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people.mean_fraction)
+    assert dd.plot_typology(people, mechanism="one_sided").get_title(loc="left") == "one-sided"
+    with pytest.raises(dd.InputError, match="must be one of"):
+        dd.plot_typology(people, mechanism="two_block")
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -1,0 +1,79 @@
+"""What the tests share: the repository, its records, walls, and the executable."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The repository."""
+    return ROOT
+
+
+@pytest.fixture(scope="session")
+def records() -> list[dd.Record]:
+    """The embedded synthetic accelerograms."""
+    return dd.read_catalogue(ROOT / "data/records/synthetic44.csv")
+
+
+@pytest.fixture(scope="session")
+def few(records: list[dd.Record]) -> list[dd.Record]:
+    """Some of them."""
+    return records[::6]
+
+
+@pytest.fixture(scope="session")
+def wall() -> dd.OneSidedWall:
+    """A wall that collapses readily."""
+    return dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+
+
+@pytest.fixture(scope="session")
+def stripes(wall: dd.OneSidedWall, records: list[dd.Record]) -> dd.Stripes:
+    """Stripes with a good fit."""
+    return dd.multiple_stripe(wall, records, levels=[0.2, 0.4, 0.6, 0.8, 1.0, 1.2], progress=False)
+
+
+@pytest.fixture(scope="session")
+def executable() -> str:
+    """The executable of the same build as the extension."""
+    places = [Path(sys.executable).with_name("dondolo"), *Path(ROOT).glob("build-python/dondolo")]
+    if "DONDOLO_EXECUTABLE" in os.environ:
+        places = [Path(os.environ["DONDOLO_EXECUTABLE"])]
+    for place in places:
+        if place.is_file() and os.access(place, os.X_OK):
+            return str(place)
+    pytest.skip("no executable: pip install . puts it beside python, DONDOLO_EXECUTABLE names another")
+
+
+@pytest.fixture
+def run(executable: str, tmp_path: Path):
+    """Run the executable in an empty folder."""
+
+    def call(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+        command = [executable, *map(str, arguments)]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def sine() -> dd.Record:
+    """Four cycles of a sine of 1 m/s2 and 1 s."""
+    return dd.Record(np.sin(2.0 * np.pi * 0.01 * np.arange(401)), 0.01, name="sine")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Tests read files by their place in the repository."""
+    config.addinivalue_line("markers", "slow: takes more than a few seconds")

@@ -1,0 +1,261 @@
+"""Fits and their intervals, against SciPy and statsmodels."""
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import optimize, stats
+
+import dondolo as dd
+
+PUBLIC = (
+    [0.178, 0.274, 0.444, 0.56, 0.652, 0.79, 0.982, 1.246, 1.564, 2.014, 2.417, 3.021, 3.625, 4.028, 4.431, 5.035],
+    [0, 0, 0, 0, 0, 4, 13, 23, 38, 41, 44, 45, 45, 45, 45, 45],
+    45,
+)
+
+
+def scipy_fit(levels, collapses, histories):
+    """The same maximum by a simplex and Newton's method in SciPy."""
+
+    def cost(parameters):
+        p = stats.norm.cdf((np.log(levels) - parameters[0]) / np.exp(parameters[1]))
+        return -stats.binom.logpmf(collapses, histories, np.clip(p, 1e-300, 1.0 - 1e-16)).sum()
+
+    options = {"xatol": 1e-11, "fatol": 1e-13, "maxiter": 10000, "maxfev": 10000}
+    start = [np.log(np.median(levels)), np.log(0.4)]
+    found = optimize.minimize(cost, start, method="Nelder-Mead", options=options)
+    return np.exp(found.x), found.fun
+
+
+def statsmodels_fit(levels, collapses, histories):
+    """Probit regression; standard errors of ln theta and beta by the delta method."""
+    api = pytest.importorskip("statsmodels.api")
+    counts = np.column_stack([collapses, np.asarray(histories) - collapses])
+    design = api.add_constant(np.log(levels))
+    model = api.GLM(counts, design, family=api.families.Binomial(link=api.families.links.Probit()))
+    result = model.fit(tol=1e-14, maxiter=300)
+    b0, b1 = result.params
+    jacobian = np.array([[-1.0 / b1, b0 / b1**2], [0.0, -1.0 / b1**2]])
+    errors = np.sqrt(np.diag(jacobian @ result.cov_params() @ jacobian.T))
+    return np.exp(-b0 / b1), 1.0 / b1, *errors
+
+
+def test_public_data():
+    curve = dd.fit_fragility(*PUBLIC)
+    assert curve.theta == pytest.approx(1.2194475, abs=1e-7)
+    assert curve.beta == pytest.approx(0.3100660, abs=1e-7)
+    assert curve.log_likelihood == pytest.approx(-12.8704444, abs=1e-7)
+    assert curve.se_ln_theta == pytest.approx(0.02926, abs=5e-6)
+    assert curve.se_beta == pytest.approx(0.02532, abs=5e-6)
+    assert curve.status == "ok"
+
+
+def test_two_stripes_in_closed_form():
+    curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
+    assert curve.theta == pytest.approx(np.sqrt(0.08), rel=1e-12)
+    assert curve.beta == pytest.approx(np.log(2.0) / (2.0 * stats.norm.ppf(0.75)), rel=1e-12)
+
+
+def test_extrapolation_warns():
+    with pytest.warns(dd.DondoloWarning, match=r"theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates"):
+        curve = dd.fit_fragility([1.0, 1.5, 2.0], [0, 2, 2], [59, 50, 44])
+    assert curve.status == "extrapolated"
+    assert (curve.theta, curve.beta) == (pytest.approx(5.85981, abs=1e-5), pytest.approx(0.684495, abs=1e-6))
+
+
+@pytest.mark.parametrize(
+    ("collapses", "status", "bracket"),
+    [
+        ([0, 0, 0], "no_collapse", (3.0, np.inf)),
+        ([44, 44, 44], "all_collapse", (0.0, 1.0)),
+        ([0, 0, 44], "separated", (2.0, 3.0)),
+        ([0, 5, 44], "separated", (2.0, 3.0)),
+        ([0, 0, 5], "separated", (3.0, np.inf)),
+        ([30, 20, 10], "decreasing", (3.0, 1.0)),
+    ],
+)
+def test_no_fit(collapses, status, bracket):
+    curve = dd.fit_fragility([1.0, 2.0, 3.0], collapses, 44)
+    assert (curve.status, curve.bracket, curve.has_fit) == (status, bracket, False)
+    assert np.isnan([curve.theta, curve.beta, curve.log_likelihood, curve.se_beta]).all()
+    for use in (lambda: curve(1.0), lambda: curve.interval(1.0), curve.parameter_interval, curve.bootstrap):
+        with pytest.raises(dd.DondoloError, match=f"no curve was fitted .status '{status}'."):
+            use()
+    assert status in repr(curve)
+
+
+@pytest.mark.parametrize(
+    ("levels", "collapses", "histories", "words"),
+    [
+        ([], [], [], "levels"),
+        ([0.1, 0.2], [1], 4, "2 levels, 1 collapses, 2 histories"),
+        ([0.1, 0.2], [1, 5], 4, "collapses = 5: must lie between 0 and the histories, 4"),
+        ([-0.1, 0.2], [1, 2], 4, "levels = -0.1: must be positive"),
+        ([0.1, 0.2], [1, np.nan], 4, "collapses = NaN"),
+    ],
+)
+def test_wrong_counts(levels, collapses, histories, words):
+    with pytest.raises(dd.InputError, match=words):
+        dd.fit_fragility(levels, collapses, histories)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    theta=st.floats(0.05, 5.0),
+    beta=st.floats(0.2, 0.8),
+    number=st.integers(4, 12),
+    histories=st.integers(20, 200),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_random_stripes(theta, beta, number, histories, seed):
+    levels = theta * np.exp(beta * np.linspace(-1.8, 1.8, number))
+    p = stats.norm.cdf(np.log(levels / theta) / beta)
+    collapses = np.random.default_rng(seed).binomial(histories, p)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        curve = dd.fit_fragility(levels, collapses, histories)
+    if not curve.has_fit:
+        return
+    expected = statsmodels_fit(levels, collapses, np.full(number, histories))
+    assert (curve.theta, curve.beta, curve.se_ln_theta, curve.se_beta) == pytest.approx(expected, rel=1e-6)
+    found, height = scipy_fit(levels, collapses, histories)
+    assert (curve.theta, curve.beta) == pytest.approx(found, rel=1e-6)
+    assert curve.log_likelihood == pytest.approx(-height, abs=1e-8)
+
+
+def test_public_data_against_statsmodels():
+    curve = dd.fit_fragility(*PUBLIC)
+    expected = statsmodels_fit(np.array(PUBLIC[0]), np.array(PUBLIC[1]), np.full(16, 45))
+    assert (curve.theta, curve.beta, curve.se_ln_theta, curve.se_beta) == pytest.approx(expected, rel=1e-6)
+
+
+def test_probability():
+    curve = dd.fit_fragility(*PUBLIC)
+    x = np.array([[0.0, 0.5], [curve.theta, 9.0]])
+    with np.errstate(divide="ignore"):
+        expected = stats.norm.cdf(np.log(x / curve.theta) / curve.beta)
+    assert curve(x) == pytest.approx(expected, rel=1e-13)
+    assert curve(x).shape == (2, 2)
+    assert isinstance(curve(1.0), float)
+    for wrong in (-1.0, np.nan, "high"):
+        with pytest.raises(dd.InputError):
+            curve(wrong)
+
+
+def profile(curve, x, probability):
+    """The likelihood at its best where the probability at x is given, by SciPy."""
+    z = stats.norm.ppf(probability)
+    levels, n = np.array(curve.levels), curve.histories
+
+    def cost(log_beta):
+        p = stats.norm.cdf(z + np.log(levels / x) / np.exp(log_beta))
+        return -stats.binom.logpmf(curve.collapses, n, np.clip(p, 1e-300, 1.0 - 1e-16)).sum()
+
+    return -optimize.minimize_scalar(cost, bracket=(-2.0, -1.0), options={"xtol": 1e-12}).fun
+
+
+@pytest.mark.parametrize("x", [0.6, 1.2, 2.5])
+def test_profile_interval_of_the_probability(x):
+    curve = dd.fit_fragility(*PUBLIC)
+    for end in curve.interval(x, level=0.9, method="profile"):
+        drop = 2.0 * (curve.log_likelihood - profile(curve, x, end))
+        assert drop == pytest.approx(stats.chi2.ppf(0.9, 1), rel=1e-6)
+
+
+def test_profile_interval_of_the_parameters():
+    curve = dd.fit_fragility(*PUBLIC)
+    ends = curve.parameter_interval(level=0.95, method="profile")
+    for end in ends["theta"]:
+        drop = 2.0 * (curve.log_likelihood - profile(curve, end, 0.5))
+        assert drop == pytest.approx(stats.chi2.ppf(0.95, 1), rel=1e-6)
+    levels = np.array(curve.levels)
+    for end in ends["beta"]:
+
+        def cost(log_theta, beta=end):
+            p = stats.norm.cdf((np.log(levels) - log_theta) / beta)
+            return -stats.binom.logpmf(curve.collapses, 45, np.clip(p, 1e-300, 1.0 - 1e-16)).sum()
+
+        found = optimize.minimize_scalar(cost, bracket=(0.1, 0.3), options={"xtol": 1e-12})
+        drop = 2.0 * (curve.log_likelihood + found.fun)
+        assert drop == pytest.approx(stats.chi2.ppf(0.95, 1), rel=1e-6)
+
+
+def test_delta_intervals():
+    curve = dd.fit_fragility(*PUBLIC)
+    low, high = curve.interval(curve.theta, level=0.95)
+    half = stats.norm.ppf(0.975) * curve.se_ln_theta / curve.beta
+    assert (low, high) == pytest.approx((stats.norm.cdf(-half), stats.norm.cdf(half)), rel=1e-12)
+    ends = curve.parameter_interval()["theta"]
+    assert np.log(ends[1] / ends[0]) == pytest.approx(2.0 * stats.norm.ppf(0.975) * curve.se_ln_theta, rel=1e-12)
+    x = np.array([0.5, 1.0, 2.0])
+    for method in ("delta", "profile"):
+        low, high = curve.interval(x, method=method)
+        assert np.all(low < curve(x))
+        assert np.all(curve(x) < high)
+    many = dd.fit_fragility(PUBLIC[0], np.array(PUBLIC[1]) * 10000, 450000)
+    for name, ends in many.parameter_interval(method="profile").items():
+        assert ends == pytest.approx(many.parameter_interval()[name], rel=1e-4)
+
+
+def test_weak_data_leave_the_profile_open():
+    curve = dd.fit_fragility([1.0, 2.0, 3.0], [4, 5, 6], 10)
+    ends = curve.parameter_interval(method="profile")
+    assert ends["beta"][1] == np.inf
+    assert ends["theta"][0] == 0.0
+    assert ends["theta"][1] == np.inf
+
+
+@pytest.mark.parametrize("level", [0.0, 1.0, -0.1, np.nan])
+def test_wrong_confidence(level):
+    with pytest.raises(dd.InputError, match="level"):
+        dd.fit_fragility(*PUBLIC).interval(1.0, level=level)
+
+
+def test_bootstrap(stripes):
+    curve = stripes.fit()
+    boot = curve.bootstrap(n=4000, seed=1)
+    again = curve.bootstrap(n=4000, seed=1)
+    assert np.array_equal(boot.theta, again.theta, equal_nan=True)
+    assert not np.array_equal(boot.theta, curve.bootstrap(n=4000, seed=2).theta, equal_nan=True)
+    assert boot.without_fit < 0.01
+    low, high = boot.parameter_interval(0.95)["theta"]
+    assert low < curve.theta < high
+    ends = boot.interval(np.array([0.5, curve.theta]))
+    assert ends[0].shape == (2,)
+    assert ends[0][1] < 0.5 < ends[1][1]
+    # One sample by hand
+    random = np.random.default_rng(1)
+    times = random.multinomial(44, np.full(44, 1.0 / 44.0), size=4000)[7]
+    by_hand = dd.fit_fragility(stripes.levels, stripes.collapsed @ times, 44)
+    assert boot.theta[7] == pytest.approx(by_hand.theta, rel=1e-12)
+
+
+def test_bootstrap_needs_stripes():
+    with pytest.raises(dd.DondoloError, match="needs the stripes"):
+        dd.fit_fragility(*PUBLIC).bootstrap()
+
+
+def test_comparison(stripes, wall, records):
+    curve = stripes.fit()
+    same = dd.compare(curve, curve)
+    assert same.statistic == pytest.approx(0.0, abs=1e-9)
+    assert same.p_value == pytest.approx(1.0, abs=1e-9)
+    taller = dd.OneSidedWall(height=2.5, thickness=0.25)
+    other = dd.multiple_stripe(taller, records, levels=stripes.levels, progress=False).fit()
+    test = dd.compare(curve, other)
+    pooled = dd.fit_fragility(stripes.levels, curve.collapses + other.collapses, 88)
+
+    def height(one):
+        return stats.binom.logpmf(one.collapses, 44, pooled(stripes.levels)).sum()
+
+    gain = curve.log_likelihood + other.log_likelihood - height(curve) - height(other)
+    assert test.statistic == pytest.approx(2.0 * gain, rel=1e-9)
+    assert test.p_value == pytest.approx(stats.chi2.sf(2.0 * gain, 2), rel=1e-9)
+    boot = dd.compare(curve, other, method="bootstrap", n=500)
+    assert boot.ratio == test.ratio == curve.theta / other.theta
+    assert boot.interval[0] < boot.ratio < boot.interval[1]
+    with pytest.raises(dd.InputError, match="method"):
+        dd.compare(curve, other, method="guess")

@@ -1,0 +1,118 @@
+"""One motion: the numbers, the history, the sides."""
+
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import dondolo as dd
+
+TWO_SIDED = dd.FreeStandingWall(height=2.0, thickness=0.3)
+
+
+def test_under_the_threshold_nothing_moves(wall, sine):
+    response = dd.simulate(wall, sine, scale=0.999 * wall.trigger_acceleration)
+    assert (response.edp, response.collapsed, response.impacts) == (0.0, False, 0)
+    assert not response.rotation.any()
+
+
+def test_history(sine):
+    response = dd.simulate(TWO_SIDED, sine, scale=2.0)
+    assert 0.0 < response.edp < 1.0
+    assert response.time.shape == response.rotation.shape == response.velocity.shape == response.side.shape
+    assert np.all(np.diff(response.time) >= 0.0)
+    assert response.edp == pytest.approx(np.abs(response.rotation).max() / TWO_SIDED.capacity_angle, rel=1e-3)
+    inside = response.time <= sine.duration
+    expected = 2.0 * np.interp(response.time[inside], sine.time, sine.acceleration)
+    assert response.ground_acceleration[inside] == pytest.approx(expected, abs=1e-9)
+
+
+def test_sides(sine):
+    response = dd.simulate(TWO_SIDED, sine, scale=2.0)
+    moving = response.rotation != 0.0
+    assert np.array_equal(response.side[moving], np.sign(response.rotation[moving]))
+    assert set(response.side) == {-1, 1}
+    # Before an impact the wall comes back (q' < 0), after it it leaves (q' > 0), on the other side
+    pairs = np.flatnonzero((np.diff(response.time) == 0.0) & ~moving[:-1] & ~moving[1:])
+    assert response.impacts > 2
+    assert len(pairs) >= response.impacts
+    assert np.all((response.side * response.velocity)[pairs] < 0.0)
+    assert np.all((response.side * response.velocity)[pairs + 1] > 0.0)
+    assert np.all(response.side[pairs] == -response.side[pairs + 1])
+
+
+def test_one_sided_walls_have_one_side(wall, sine):
+    assert np.all(dd.simulate(wall, sine, scale=3.0).side == 1)
+
+
+def test_without_history(wall, sine):
+    short, long = (dd.simulate(wall, sine, scale=3.0, history=history) for history in (False, True))
+    assert short.time is None
+    assert (short.edp, short.impacts, short.time_of_peak) == (long.edp, long.impacts, long.time_of_peak)
+    with pytest.raises(dd.DondoloError, match="no time history"):
+        short.to_csv("nowhere.csv")
+
+
+def test_collapse(wall, sine):
+    response = dd.simulate(wall, sine, scale=9.0, edp_limit=0.8)
+    assert response.collapsed
+    assert response.edp == 0.8
+    assert response.time_of_peak == response.time[-1]
+
+
+def test_negative_scale_is_the_reversed_record(wall, sine):
+    reversed_record = dd.Record(-sine.acceleration, sine.dt)
+    assert dd.simulate(wall, sine, -3.0).edp == dd.simulate(wall, reversed_record, 3.0).edp
+
+
+def test_pickle(wall, sine):
+    response = dd.simulate(wall, sine, scale=3.0)
+    again = pickle.loads(pickle.dumps(response))
+    assert np.array_equal(again.rotation, response.rotation)
+    assert again.wall == wall
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"engine": "euler"}, "engine = 'euler': must be one of 'auto', 'rk45'"),
+        ({"rtol": 0.0}, "rtol = 0: must lie between"),
+        ({"edp_limit": -1.0}, "edp_limit = -1: must be positive"),
+        ({"scale": float("nan")}, "scale = NaN: makes record 'sine' exceed"),
+        ({"scale": 1e6}, "scale = 1000000: makes record 'sine' exceed 10000 m/s2"),
+        ({"record": 3}, "record: int is no record"),
+        ({"wall": "parapet"}, "wall: str is no wall"),
+    ],
+)
+def test_errors(wall, sine, changes, sentence):
+    arguments = {"wall": wall, "record": sine} | changes
+    with pytest.raises(dd.InputError) as caught:
+        dd.simulate(**arguments)
+    assert str(caught.value).startswith(sentence)
+
+
+def test_table(wall, sine, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    response = dd.simulate(wall, sine, scale=3.0)
+    response.to_csv(tmp_path / "history.csv")
+    table = pandas.read_csv(tmp_path / "history.csv", comment="#", float_precision="round_trip")
+    pandas.testing.assert_frame_equal(table, response.to_frame(), check_exact=True)
+
+
+@settings(max_examples=30, deadline=None)
+@given(scale=st.floats(0.1, 20.0), factor=st.floats(0.2, 5.0), kind=st.sampled_from(["one", "free", "two"]))
+def test_scaling_the_record_or_its_factor(scale, factor, kind):
+    wall = {
+        "one": dd.OneSidedWall(2.0, 0.3),
+        "free": TWO_SIDED,
+        "two": dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=2000.0),
+    }[kind]
+    motion = np.sin(0.06 * np.arange(300)) * np.exp(-0.01 * np.arange(300))
+    first = dd.simulate(wall, dd.Record(motion, 0.01), scale, history=False)
+    second = dd.simulate(wall, dd.Record(motion * 2.0**3, 0.01), scale / 2.0**3, history=False)
+    assert (first.edp, first.collapsed, first.impacts) == (second.edp, second.collapsed, second.impacts)
+    assert 0.0 <= first.edp <= 1.0
+    assert first.collapsed == (first.edp == 1.0)
+    assert dd.simulate(wall, dd.Record(motion, 0.01), scale * factor, history=False).time_of_peak >= 0.0

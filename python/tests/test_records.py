@@ -1,0 +1,88 @@
+"""Records: what they keep, and how files are read."""
+
+import os
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+
+def test_kept_and_read_only():
+    samples = np.array([0.0, -2.0, 1.0])
+    record = dd.Record(samples, 0.5, name="short")
+    samples[1] = 9.0
+    assert record.pga == 2.0
+    assert record.duration == 1.0
+    assert np.array_equal(record.time, [0.0, 0.5, 1.0])
+    assert len(record) == 3
+    with pytest.raises(ValueError, match="read-only"):
+        record.acceleration[0] = 1.0
+    with pytest.raises(AttributeError):
+        record.dt = 0.1
+    again = pickle.loads(pickle.dumps(record))
+    assert np.array_equal(again.acceleration, record.acceleration)
+    assert not again.acceleration.flags.writeable
+    assert "short" in repr(record)
+    assert "2 m/s2" in record._repr_html_()
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.int64, list])
+def test_other_kinds_of_arrays(kind):
+    values = [0, 1, -3, 2]
+    record = dd.Record(values if kind is list else np.array(values, dtype=kind)[:], 0.01)
+    assert record.acceleration.dtype == np.float64
+    assert np.array_equal(record.acceleration, values)
+
+
+def test_slices_are_made_contiguous():
+    record = dd.Record(np.arange(20.0)[::3], 0.01)
+    assert record.acceleration.flags.c_contiguous
+    assert record.pga == 18.0
+
+
+@pytest.mark.parametrize(
+    ("samples", "dt", "words"),
+    [
+        ([0.0, 1.0], 0.0, "time step dt = 0: must be positive"),
+        ([0.0], 0.01, "1 samples: a record needs at least two"),
+        ([0.0, np.nan], 0.01, "sample 2 = NaN m/s2"),
+        ([[0.0, 1.0]], 0.01, "acceleration: must be one row"),
+        (["a", "b"], 0.01, "acceleration: must be numbers"),
+    ],
+)
+def test_errors(samples, dt, words):
+    with pytest.raises(dd.InputError, match=words):
+        dd.Record(samples, dt)
+
+
+def test_a_file(tmp_path):
+    file = tmp_path / "motion è.txt"
+    file.write_text("0.0\n0.5\n-1.0\n")
+    record = dd.read_record(file, dt=0.01, units="g")
+    assert record.name == "motion è"
+    assert np.array_equal(record.acceleration, np.array([0.0, 0.5, -1.0]) * 9.80665)
+    with pytest.raises(dd.InputError, match="dt must be given"):
+        dd.read_record(file, units="g")
+    with pytest.raises(dd.InputError, match="units must be given"):
+        dd.read_record(file, dt=0.01)
+    with pytest.raises(dd.InputError, match="furlong"):
+        dd.read_record(file, dt=0.01, units="furlong")
+
+
+def test_a_catalogue(records, root):
+    assert len(records) == 44
+    assert len({record.name for record in records}) == 44
+    with pytest.raises(dd.InputError, match=r"nothing\.csv"):
+        dd.read_catalogue(root / "nothing.csv")
+
+
+def test_recorded_accelerograms(root):
+    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    if not (folder / "italy44.csv").is_file():
+        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
+    records = dd.read_catalogue(folder / "italy44.csv")
+    assert len(records) == 44
+    assert all(0.05 < record.pga < 20.0 for record in records)
