@@ -30,6 +30,6 @@ print(f"the tied wall stands {curves[1].theta / curves[0].theta:.2f} times the m
 print(dd.compare(*curves))
 
 # %%
-ax = dd.plot_fragility(curves[0], color=style.RED, label="loose: overturns as a whole")
-dd.plot_fragility(curves[1], ax=ax, color=style.BLUE, label="tied: folds in two blocks")
+ax = dd.plot_fragility(curves[0], label="loose: overturns as a whole", color=style.RED, linestyle="--", marker="s")
+dd.plot_fragility(curves[1], ax=ax, label="tied: folds in two blocks")
 ax.figure.savefig(out / "two_mechanisms.png")

@@ -1,4 +1,4 @@
-"""``python -m dondolo``: what can be done from the shell with Python. Analyses are the executable's: ``dondolo --help``."""
+"""What can be done from the shell with Python: ``python -m dondolo``. Analyses are the executable's."""
 
 from __future__ import annotations
 
@@ -34,15 +34,17 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m dondolo", description="dondolo: fragility of masonry walls that rock and overturn in earthquakes"
+        prog="python -m dondolo",
+        description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
+        "Analyses are run by the executable, dondolo --help, or in Python.",
     )
     parser.add_argument("--version", action="version", version=f"dondolo {dd.__version__}")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     plot = commands.add_parser(
         "plot",
         help="draw the figures of a run of the executable",
-        description="Draw the figures of a run of the executable from its CSV files: the histories and the curve of a wall, "
-        "the curves of a population, or a motion and the wall at its peak.",
+        description="Draw the figures of a run of the executable from its CSV files: the histories and the curve "
+        "of a wall, the curves of a population, or a motion and the wall at its peak.",
     )
     plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     plot.add_argument(

@@ -139,7 +139,7 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
         ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
     ax.plot(*moved.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     _frame(ax, wall)
-    ax.set_title(f"{wall.name}: {rotation:.3g} rad{title}", loc="left")
+    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left")
     style.legend(ax, loc="center right")
     return ax
 
@@ -163,9 +163,7 @@ def _draw_surroundings(ax: Axes, wall: Wall) -> None:
         ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=7.5)
     elif not wall.two_sided:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
-        ax.annotate(
-            "transverse wall", (-0.5 * reach, 0.5 * h), rotation=90, ha="center", va="center", fontsize=7.5
-        )
+        ax.annotate("transverse wall", (-0.5 * reach, 0.5 * h), rotation=90, ha="center", va="center", fontsize=7.5)
 
 
 def _reach(wall: Wall) -> float:

@@ -58,7 +58,7 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
     above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label="trigger acceleration")
     above.set_ylabel("ground\nacceleration [g]")
     above.set_title(f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left")
-    style.legend(above, loc="upper left")
+    style.legend(above, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
 
     ratio = response.rotation / wall.capacity_angle
     below.plot(time, ratio, color=style.BLUE, label="rotation")
@@ -153,8 +153,10 @@ def plot_fragility(
     stripes: Stripes | None = None,
     ax: Axes | None = None,
     level: float = 0.95,
-    color: str = style.BLUE,
     label: str | None = None,
+    color: str = style.BLUE,
+    linestyle: str = "-",
+    marker: str = "o",
 ) -> Axes:
     """Draw a fragility curve with its confidence band, and the fractions of collapse it was fitted to.
 
@@ -170,8 +172,10 @@ def plot_fragility(
         Where to draw; a new figure if left out.
     level : float
         Confidence of band and bars.
-    color, label : str, optional
-        Of the curve.
+    label : str, optional
+        Name of the curve where several are drawn; median and dispersion if left out.
+    color, linestyle, marker : str
+        Of the curve and its fractions, to tell several apart.
 
     Returns
     -------
@@ -196,21 +200,22 @@ def plot_fragility(
         fraction,
         (fraction - low, high - fraction),
         linestyle="none",
-        marker="o",
+        marker=marker,
         markersize=4.5,
-        color=style.BLACK,
+        color=style.BLACK if label is None else color,
         elinewidth=0.8,
         capsize=2,
-        label=f"fractions, {100.0 * level:.4g} % intervals",
+        label=f"fractions, {100.0 * level:.4g} % intervals" if label is None else None,
         zorder=3,
     )
     right = 1.05 * x.max()
     if fragility.has_fit:
         grid = np.linspace(right / _POINTS, right, _POINTS)
         band = np.asarray(fragility.interval(grid, level=level))
-        ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=f"{100 * level:.4g} % band")
+        text = f"{100.0 * level:.4g} % band" if label is None else None
+        ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
         text = label or f"θ = {fragility.theta:.3g}, β = {fragility.beta:.3g}"
-        ax.plot(grid, fragility(grid), color=color, label=text)
+        ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
     else:
         ax.axvspan(
             fragility.bracket[0],
@@ -227,7 +232,7 @@ def plot_fragility(
     ax.set_ylabel("probability of collapse")
     if stripes is not None:
         ax.set_title(stripes.wall.name, loc="left")
-    style.legend(ax, loc="upper left")
+    style.legend(ax, loc="upper left" if label is None else "lower right")
     return ax
 
 

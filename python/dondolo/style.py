@@ -1,4 +1,4 @@
-"""One style for all figures: colours that colour-blind eyes tell apart, and that differ in grey by lightness and shape."""
+"""One style for all figures: colours that colour-blind eyes tell apart; shape and lightness tell them apart in grey."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ IM_LABELS = {"pga": "peak ground acceleration [g]"}
 
 def im_label(im: str) -> str:
     """Axis label of an intensity measure."""
-    return IM_LABELS.get(im, "intensity measure" if not im else im)
+    return IM_LABELS.get(im, im if im else "intensity measure")
 
 
 def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: Any) -> Any:

@@ -10,10 +10,10 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from dondolo.drawing import peak_rotation, shape
 from matplotlib.image import imread
 
 import dondolo as dd
-from dondolo.drawing import peak_rotation, shape
 
 LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0]
 
@@ -89,7 +89,8 @@ def test_fragility_shows_fractions_curve_and_band(stripes):
     segment = container.lines[2][0].get_segments()[empty]
     np.testing.assert_allclose(segment[:, 1], [0.0, 1.0 - 0.025 ** (1.0 / stripes.histories[empty])])
     band = ax.collections[0].get_paths()[0].vertices
-    assert band[:, 1].max() <= 1.0 and band[:, 1].min() >= 0.0
+    assert band[:, 1].max() <= 1.0
+    assert band[:, 1].min() >= 0.0
 
 
 def test_fragility_without_a_fit_shows_the_bracket():
@@ -203,7 +204,8 @@ def test_command_draws_the_executables_files(case, figures, executable, root, tm
     assert done.returncode == 0, done.stderr
     for figure in figures:
         picture = imread(tmp_path / "out" / f"{case}_{figure}.png")
-        assert picture.shape[0] > 300 and np.ptp(picture) > 0.5
+        assert picture.shape[0] > 300
+        assert np.ptp(picture) > 0.5
 
 
 def test_results_read_back_are_those_of_a_run(executable, root, tmp_path):
@@ -222,9 +224,11 @@ def test_command_says_what_is_wrong(tmp_path):
     assert done.stderr == "dondolo: nothing_walls.csv: cannot be read: No such file or directory\n"
     (tmp_path / "bad_walls.csv").write_text("a,b\n1,2\n")
     done = command("plot", "bad", folder=tmp_path)
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
 
 
 def test_help_lists_the_commands(tmp_path):
     done = command("--help", folder=tmp_path)
-    assert done.returncode == 0 and "plot" in done.stdout
+    assert done.returncode == 0
+    assert "plot" in done.stdout
