@@ -130,7 +130,7 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
     if not wall.two_sided and rotation < 0.0:
         raise InputError(f"rotation = {rotation}: a one-sided wall rotates outwards only, it must not be negative")
     if ax is None:
-        ax = style.new_axes(size=(3.2, 4.6))
+        ax = style.new_axes(size=(3.6, 4.6))
     _draw_surroundings(ax, wall)
     for block in shape(wall, 0.0).blocks:
         ax.fill(*block.T, facecolor="none", edgecolor=style.GREY, linestyle="--", linewidth=0.9)
@@ -139,7 +139,7 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
         ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
     ax.plot(*moved.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     _frame(ax, wall)
-    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left")
+    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left", fontsize=9.5)
     style.legend(ax, loc="center right")
     return ax
 
