@@ -1,0 +1,80 @@
+"""Parity with the executable: every number of its files, and its sentences."""
+
+import pytest
+
+import dondolo as dd
+
+CASES = {
+    "parapet": ["walls", "histories", "stripes", "fragility"],
+    "two_block": ["walls", "histories", "stripes", "fragility"],
+    "facade_strip": ["walls", "histories", "stripes", "fragility"],
+    "pinnacle": ["walls", "histories", "stripes", "fragility"],
+    "history": ["history"],
+    "population": ["walls", "stripes", "fragility", "typology"],
+}
+
+
+def body(path):
+    """The lines of a table without its comments."""
+    return [line for line in path.read_text().splitlines() if not line.startswith("#")]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_number(name, root, run, tmp_path):
+    case = root / f"data/cases/{name}.nml"
+    finished = run(case)
+    assert finished.returncode == 0, finished.stderr
+    results = dd.run_case(case, progress=False)
+    main = results.response or results.stripes or results.typology
+    for table in CASES[name]:
+        mine = tmp_path / "mine.csv"
+        if table == "history":
+            main.to_csv(mine)
+        elif table == "fragility" and results.fragility is not None:
+            results.fragility.to_csv(mine)
+        else:
+            main.to_csv(mine, table)
+        theirs = body(tmp_path / f"{results.case.output}_{table}.csv")
+        assert len(theirs) > 1
+        assert body(mine) == theirs
+
+
+def test_the_same_warnings(root, run):
+    case = root / "data/cases/parapet.nml"
+    theirs = [line.removeprefix("dondolo: warning: ") for line in run(case).stderr.splitlines()]
+    with pytest.warns(dd.DondoloWarning) as caught:
+        dd.run_case(case, progress=False)
+    assert [str(warning.message) for warning in caught] == theirs
+
+
+def test_a_case(root):
+    case = dd.read_case(root / "data/cases/history.nml")
+    assert (case.task, case.record, case.im, case.polarity) == ("history", 43, "pga", "as_recorded")
+    assert case.scale * case.records[43].pga == pytest.approx(0.65 * 9.81)
+    assert case.population[0].name == "parapet"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "&wall mechanism = 'one_sided', height = 3.0, thickness = -0.25 /",
+        "&wall mechanism = 'one_sided', height = 3.0 /",
+        "&wall mechanism = 'arch', height = 3.0, thickness = 0.25 /",
+        "&wall mechanism = 'one_sided', height = 3,0, thickness = 0.25 /",
+        "&wall mechanism = 'one_sided', hight = 3.0, thickness = 0.25 /",
+    ],
+)
+def test_the_same_sentences(root, run, tmp_path, line):
+    case = tmp_path / "wrong.nml"
+    catalogue = root / "data/records/synthetic44.csv"
+    case.write_text(f"{line}\n&records catalogue = '{catalogue}' /\n&stripes levels = 0.1, 0.2 /\n")
+    finished = run(case)
+    assert finished.returncode == 2
+    with pytest.raises(dd.InputError) as caught:
+        dd.run_case(case)
+    assert f"dondolo: {caught.value}\n" == finished.stderr
+
+
+def test_no_case(tmp_path):
+    with pytest.raises(dd.InputError, match=r"nothing\.nml"):
+        dd.run_case(tmp_path / "nothing.nml")

@@ -1,0 +1,122 @@
+"""What holds the project together: lists and versions in step, the boundary's kinds, costs of import and call."""
+
+import re
+import subprocess
+import sys
+import time
+import tomllib
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+from dondolo import _core
+
+
+def test_versions(root):
+    fpm = tomllib.loads((root / "fpm.toml").read_text())["version"]
+    python = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
+    meson = re.search(r"version: '([^']+)'", (root / "meson.build").read_text()).group(1)
+    assert dd.__version__ == fpm == python == meson
+
+
+def test_fortran_sources(root):
+    text = (root / "src/meson.build").read_text()
+    library, app = (
+        set(re.findall(r"'([^']+)'", re.search(rf"^{name} = files\((.*?)\)", text, re.S | re.M).group(1)))
+        for name in ("sources", "app_sources")
+    )
+    assert library == {str(file.relative_to(root / "src")) for file in root.glob("src/**/*.f90")}
+    other_programs = {
+        f"../app/{program['main']}"
+        for program in tomllib.loads((root / "fpm.toml").read_text()).get("executable", [])
+        if program["name"] != "dondolo"
+    }
+    assert app == {f"../app/{file.name}" for file in root.glob("app/*.f90")} - other_programs
+
+
+def test_python_sources(root):
+    text = (root / "python/meson.build").read_text()
+    listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
+    package = root / "python/dondolo"
+    there = {f"dondolo/{file.relative_to(package)}" for file in package.glob("**/*.py")} | {"dondolo/py.typed"}
+    assert listed == there
+
+
+def test_no_single_precision_at_the_boundary():
+    procedures = [name for name in dir(_core) if callable(getattr(_core, name)) and not name.startswith("_")]
+    procedures = [name for name in procedures if "fortran" in str(type(getattr(_core, name)))]
+    assert len(procedures) > 10
+    for name in procedures:
+        text = getattr(_core, name).__doc__
+        assert "array('f')" not in text, name
+        assert not re.search(r": .*\bfloat32\b", text), name
+
+
+def test_every_procedure_is_threadsafe(root):
+    text = (root / "python/dondolo/dondolo_f2py.f90").read_text()
+    assert len(re.findall(r"^subroutine ", text, re.M)) == text.count("!f2py threadsafe")
+
+
+def test_import_is_quick():
+    program = (
+        "import sys, time; start = time.perf_counter(); import dondolo; seconds = time.perf_counter() - start; "
+        "heavy = [name for name in ('scipy', 'pandas', 'matplotlib', 'tqdm') if name in sys.modules]; "
+        "print(seconds, *heavy)"
+    )
+    runs = [
+        subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
+        for _ in range(3)
+    ]
+    assert all(len(words) == 1 for words in runs), runs
+    assert min(float(words[0]) for words in runs) < 0.3
+
+
+@pytest.mark.parametrize("samples", [2, 6000])
+def test_a_call_costs_little(samples):
+    wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, eccentricity=0.05)
+    record = dd.Record(np.zeros(samples), 0.01)
+    best = np.inf
+    for _ in range(20):
+        start = time.perf_counter()
+        for _ in range(50):
+            dd.simulate(wall, record, history=False)
+        best = min(best, (time.perf_counter() - start) / 50)
+    # The motion itself, a look at every sample, is in it.
+    assert best < 60e-6
+
+
+def test_documented():
+    for name in dd.__all__:
+        thing = getattr(dd, name)
+        if callable(thing):
+            assert thing.__doc__, name
+            assert not thing.__doc__.startswith(f"{name}("), name
+
+
+def test_examples_in_the_docstrings():
+    import doctest
+
+    from dondolo import fragility, walls
+
+    for module in (dd, fragility, walls):
+        assert doctest.testmod(module).failed == 0
+
+
+def test_defaults_are_those_of_fortran(wall, sine):
+    default = dd.simulate(wall, sine, 3.0)
+    said = dd.simulate(wall, sine, 3.0, rtol=1e-8, atol=1e-10, edp_limit=1.0)
+    assert np.array_equal(default.rotation, said.rotation)
+
+
+def test_no_parcel_is_lost(wall, sine):
+    import resource
+
+    for _ in range(20):
+        dd.simulate(wall, sine, 3.0)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for _ in range(3000):
+        dd.simulate(wall, sine, 3.0)
+        dd.OneSidedWall(3.0, 0.25)
+    # A history has about 50 kB; 3000 of them would be 150 MB.
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000

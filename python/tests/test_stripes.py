@@ -1,0 +1,201 @@
+"""Multiple stripes: results, blocks, threads, interruption."""
+
+import contextlib
+import os
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+from dondolo import _core, _request
+
+LEVELS = [0.2, 0.5, 0.9]
+
+
+@pytest.fixture(scope="module")
+def analysis(wall, few):
+    """A small analysis with both polarities."""
+    return dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
+
+
+def test_shapes(analysis, few):
+    shape = (3, 2 * len(few))
+    for what in ("edp", "collapsed", "impacts", "time_of_peak", "scale"):
+        assert getattr(analysis, what).shape == shape
+        assert not getattr(analysis, what).flags.writeable
+    assert analysis.record_names == 2 * tuple(record.name for record in few)
+    assert list(analysis.polarity) == [1] * len(few) + [-1] * len(few)
+    assert np.array_equal(analysis.collapses, analysis.collapsed.sum(axis=1))
+    assert np.array_equal(analysis.histories, [shape[1]] * 3)
+    assert np.array_equal(analysis.fraction, analysis.collapses / shape[1])
+    assert np.array_equal(analysis.edp[analysis.collapsed], np.ones(analysis.collapsed.sum()))
+    assert repr(analysis).startswith("<Stripes: wall parapet")
+    assert "parapet" in analysis._repr_html_()
+
+
+def test_every_history_is_the_motion_it_stands_for(analysis, wall, few):
+    records = 2 * list(few)
+    for j in range(3):
+        for i, record in enumerate(records):
+            assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.pga, rel=1e-15)
+            motion = dd.simulate(wall, record, analysis.polarity[i] * analysis.scale[j, i], history=False)
+            assert motion.edp == analysis.edp[j, i]
+            assert motion.impacts == analysis.impacts[j, i]
+            assert motion.time_of_peak == analysis.time_of_peak[j, i]
+
+
+def test_two_sided_walls_run_both_polarities_once(few):
+    wall = dd.FreeStandingWall(2.0, 0.4)
+    both = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
+    once = dd.multiple_stripe(wall, few, LEVELS, progress=False)
+    assert both.edp.shape == once.edp.shape
+    assert np.array_equal(both.edp, once.edp)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7])
+def test_threads_change_nothing(analysis, wall, few, threads):
+    other = dd.multiple_stripe(wall, few, LEVELS, polarity="both", threads=threads, progress=False)
+    assert np.array_equal(other.edp, analysis.edp)
+    assert np.array_equal(other.time_of_peak, analysis.time_of_peak)
+
+
+@pytest.mark.parametrize("samples", [1, 20_000])
+def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch):
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", samples)
+    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    sizes = []
+    run_block = _core.run_block
+
+    def spy(*arguments):
+        sizes.append(arguments[-1])
+        return run_block(*arguments)
+
+    monkeypatch.setattr(_core, "run_block", spy)
+    other = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
+    assert len(sizes) > 3
+    assert sum(sizes) == other.edp.size
+    assert np.array_equal(other.edp, analysis.edp)
+    assert np.array_equal(other.collapsed, analysis.collapsed)
+
+
+def test_two_python_threads_at_once(analysis, wall, few):
+    found = []
+
+    def work():
+        found.append(dd.multiple_stripe(wall, few, LEVELS, polarity="both", threads=1, progress=False).edp)
+
+    team = [threading.Thread(target=work) for _ in range(4)]
+    for member in team:
+        member.start()
+    for member in team:
+        member.join()
+    assert len(found) == 4
+    assert all(np.array_equal(edp, analysis.edp) for edp in found)
+
+
+def test_the_lock_is_released(wall):
+    long = dd.Record(np.sin(0.03 * np.arange(400_000)), 0.01)
+    ticks = []
+    motion = threading.Thread(target=lambda: dd.simulate(wall, long, 2.5, edp_limit=5.0, history=False))
+    start = time.perf_counter()
+    motion.start()
+    while motion.is_alive():
+        ticks.append(time.perf_counter())
+        time.sleep(0.001)
+    assert ticks[-1] - start > 0.02
+    assert max(np.diff([start, *ticks])) < 0.6 * (ticks[-1] - start)
+
+
+def test_pickle(analysis):
+    again = pickle.loads(pickle.dumps(analysis))
+    assert np.array_equal(again.edp, analysis.edp)
+    assert again.fit().theta == analysis.fit().theta
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"levels": []}, "levels: must be given"),
+        ({"levels": [0.2, 0.2]}, "levels = 0.2, 0.2: must increase strictly"),
+        ({"levels": [0.2, np.nan]}, "levels = NaN: must be positive"),
+        ({"levels": [1e6]}, "levels = 1000000: scales record"),
+        ({"im": "pgx"}, "im = 'pgx': must be one of 'pga'"),
+        ({"polarity": "up"}, "polarity = 'up': must be one of 'as_recorded', 'reversed', 'both'"),
+        ({"engine": "euler"}, "engine = 'euler': must be one of"),
+        ({"threads": -1}, "threads = -1: must lie between 0 (all) and 4096"),
+        ({"threads": 1.5}, "threads = 1.5: must be a whole number"),
+        ({"atol": "small"}, "atol = 'small': must be a number"),
+        ({"records": []}, "records: must be given"),
+        ({"records": [1.0]}, "records: float is no record"),
+        ({"wall": None}, "wall: NoneType is no wall"),
+    ],
+)
+def test_errors(wall, few, changes, sentence):
+    arguments = {"wall": wall, "records": few, "levels": LEVELS, "progress": False} | changes
+    with pytest.raises(dd.InputError) as caught:
+        dd.multiple_stripe(**arguments)
+    assert str(caught.value).startswith(sentence)
+
+
+def test_a_record_without_motion_warns(wall, sine):
+    with pytest.warns(dd.DondoloWarning, match="record 'still' has a PGA of 0") as caught:
+        stripes = dd.multiple_stripe(wall, [dd.Record([0.0, 0.0], 0.01, "still"), sine], [0.1], progress=False)
+    assert caught[0].filename == __file__
+    assert np.array_equal(stripes.scale[:, 0], [0.0])
+    with pytest.warns(dd.DondoloWarning, match="the wall begins to rock at 0.1667 g"):
+        assert stripes.fit().status == "no_collapse"
+
+
+def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1)
+    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    done = []
+    run_block = _core.run_block
+
+    def stop(*arguments):
+        done.append(arguments[-1])
+        if sum(done) > 100:
+            os.kill(os.getpid(), signal.SIGINT)
+        return run_block(*arguments)
+
+    monkeypatch.setattr(_core, "run_block", stop)
+    with pytest.raises(dd.Interrupted) as caught:
+        dd.multiple_stripe(wall, records, LEVELS, progress=False)
+    partial = caught.value.partial
+    assert isinstance(caught.value, KeyboardInterrupt)
+    assert len(partial.levels) == 2
+    monkeypatch.undo()
+    whole = dd.multiple_stripe(wall, records, LEVELS, progress=False)
+    assert np.array_equal(partial.edp, whole.edp[:2])
+
+
+def test_interruption_is_quick(records):
+    wall = dd.FreeStandingWall(6.0, 1.0)
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    start = time.perf_counter()
+    timer.start()
+    with contextlib.suppress(KeyboardInterrupt):
+        dd.multiple_stripe(wall, records * 50, np.linspace(0.2, 2.0, 50), progress=False)
+    timer.cancel()
+    assert 0.4 < time.perf_counter() - start < 2.5
+
+
+def test_progress_is_silent_without_a_terminal(wall, few, capfd):
+    dd.multiple_stripe(wall, few, LEVELS)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_tables(analysis, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    for name in ("histories", "stripes", "walls"):
+        analysis.to_csv(tmp_path / "table.csv", name)
+        table = pandas.read_csv(tmp_path / "table.csv", comment="#")
+        pandas.testing.assert_frame_equal(table, analysis.to_frame(name), check_exact=True, check_dtype=False)
+    with pytest.raises(dd.InputError, match="table = 'walks': must be one of 'histories', 'stripes', 'walls'"):
+        analysis.to_frame("walks")
+    with pytest.raises(dd.DondoloError, match="cannot be written"):
+        analysis.to_csv(tmp_path / "nowhere" / "table.csv")

@@ -1,0 +1,136 @@
+"""Populations of walls."""
+
+import multiprocessing
+import pickle
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+LEVELS = [0.2, 0.4, 0.6, 0.9, 1.3]
+
+
+@pytest.fixture(scope="module")
+def population(root):
+    """Some walls of both mechanisms."""
+    people = dd.read_population(root / "data/walls/population.csv")
+    return dd.Population(people.walls[::5], people.weights[::5])
+
+
+@pytest.fixture(scope="module")
+def typology(population, few):
+    """Their typology, with both polarities so that stripes differ in size."""
+    return dd.typology(population, few, LEVELS, polarity="both", progress=False)
+
+
+def test_every_wall_is_its_own_analysis(typology, population, few):
+    for i, wall in enumerate(population):
+        stripes = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
+        assert np.array_equal(typology.collapses[:, i], stripes.collapses)
+        assert typology.histories[i] == stripes.edp.shape[1]
+        curve = stripes.fit()
+        assert typology.curves[i].status == curve.status
+        if curve.has_fit:
+            assert (typology.curves[i].theta, typology.curves[i].beta) == (curve.theta, curve.beta)
+
+
+def test_means(typology, population):
+    share = population.weights / population.weights.sum()
+    assert typology.weight == population.weights.sum()
+    fractions = typology.collapses / typology.histories
+    assert typology.mean_fraction == pytest.approx(fractions @ share, rel=1e-13)
+    assert typology.mean(LEVELS) == pytest.approx(typology.mean_curve, rel=1e-13)
+    assert isinstance(typology.mean(0.5), float)
+    assert typology.mean(0.0) == 0.0
+    x = np.linspace(0.0, 3.0, 60)
+    assert np.all(np.diff(typology.mean(x)) >= 0.0)
+
+
+def test_mechanisms(typology):
+    names = [group.mechanism for group in typology.groups]
+    assert names == ["one_sided", "two_block", "all"]
+    parts = typology.groups[:-1]
+    assert sum(group.weight for group in parts) == pytest.approx(typology.weight)
+    mean = sum(group.weight * group.mean_curve for group in parts) / typology.weight
+    assert mean == pytest.approx(typology.mean_curve, rel=1e-12)
+    for group in parts:
+        assert typology.mean(LEVELS, group.mechanism) == pytest.approx(group.mean_curve, rel=1e-12)
+        assert typology.fit(group.mechanism) is group.fit
+    with pytest.raises(dd.InputError, match="mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"):
+        typology.fit("arch")
+
+
+def test_the_counts_behind_the_fit(typology):
+    for group in typology.groups:
+        again = dd.fit_fragility(group.fit.levels, group.fit.collapses, group.fit.histories)
+        assert (again.theta, again.beta) == pytest.approx((group.fit.theta, group.fit.beta), rel=1e-12)
+    low, high = typology.fit().interval(0.6, method="profile")
+    assert low < typology.fit()(0.6) < high
+
+
+def test_weights_alike(few):
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(2.0, 0.25, name="b")]
+    result = dd.typology(walls, few, LEVELS, progress=False)
+    assert list(result.weights) == [1.0, 1.0]
+    assert [group.mechanism for group in result.groups] == ["one_sided"]
+
+
+@pytest.mark.parametrize("kind", ["threads", "spawn"])
+def test_executors(typology, population, few, kind):
+    if kind == "threads":
+        executor = ThreadPoolExecutor(3)
+    else:
+        executor = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn"))
+    with executor:
+        other = dd.typology(population, few, LEVELS, polarity="both", executor=executor, progress=False)
+    assert np.array_equal(other.collapses, typology.collapses)
+    assert other.fit().theta == typology.fit().theta
+    assert np.array_equal(other.mean_curve, typology.mean_curve)
+
+
+def test_threads_change_nothing(typology, population, few):
+    other = dd.typology(population, few, LEVELS, polarity="both", threads=1, progress=False)
+    assert np.array_equal(other.collapses, typology.collapses)
+    assert other.fit().theta == typology.fit().theta
+
+
+def test_pickle_and_shown(typology):
+    again = pickle.loads(pickle.dumps(typology))
+    assert again.mean(0.5) == typology.mean(0.5)
+    assert "walls 5" in repr(typology)
+    assert "<table>" in typology._repr_html_()
+
+
+def test_errors(population, few):
+    with pytest.raises(dd.InputError, match="walls: must be given"):
+        dd.typology([], few, LEVELS)
+    with pytest.raises(dd.InputError, match="walls: str is no wall"):
+        dd.typology(["wall"], few, LEVELS)
+    flat = dd.TwoBlockWall(3.0, 0.25, hinge=0.9, name="flat")
+    with pytest.raises(dd.InputError, match="wall 'flat': edp_limit = 3: must be less than"):
+        dd.typology([*population.walls, flat], few, LEVELS, edp_limit=3.0)
+
+
+def test_interruption_keeps_complete_walls(population, few, monkeypatch):
+    from dondolo import _core, _request
+
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 100_000)
+    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    done = []
+    run_block = _core.run_block
+
+    def stop(*arguments):
+        if sum(done) > 100:
+            raise KeyboardInterrupt
+        done.append(arguments[-1])
+        return run_block(*arguments)
+
+    monkeypatch.setattr(_core, "run_block", stop)
+    with pytest.raises(dd.Interrupted) as caught:
+        dd.typology(population, few, LEVELS, progress=False)
+    partial = caught.value.partial
+    assert len(partial.walls) == sum(done) // (len(few) * len(LEVELS))
+    assert 0 < len(partial.walls) < len(population)
+    assert partial.fit().has_fit or partial.fit().status
