@@ -10,10 +10,13 @@
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.comparison import Comparison, compare
+from dondolo.drawing import animate_history, plot_wall
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
+from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
 from dondolo.records import Record, read_catalogue, read_record
+from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.typology import Group, Typology, typology
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, TwoBlockWall, Wall, read_population
@@ -36,18 +39,26 @@ __all__ = [
     "Record",
     "Response",
     "Results",
+    "StoredResults",
     "Stripes",
     "TwoBlockWall",
     "Typology",
     "Wall",
     "__version__",
+    "animate_history",
     "compare",
     "fit_fragility",
     "multiple_stripe",
+    "plot_fragility",
+    "plot_history",
+    "plot_stripes",
+    "plot_typology",
+    "plot_wall",
     "read_case",
     "read_catalogue",
     "read_population",
     "read_record",
+    "read_results",
     "run_case",
     "simulate",
     "typology",

@@ -158,7 +158,7 @@ def simulate(
     if history:
         rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
         rows.flags.writeable = False
-        side = _sides(rows, wall.two_sided)
+        side = sides(rows, wall.two_sided)
         for what, row in zip(
             ("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True
         ):
@@ -166,7 +166,7 @@ def simulate(
     return response
 
 
-def _sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
+def sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
     """The side of every row: the sign of the rotation, and where that is zero of what comes before or after."""
     time, _, rotation, velocity = rows
     if not two_sided:

@@ -229,7 +229,7 @@ def typology(
         collapses, complete = _run_there(request, plan.histories, progress, executor)
     if not complete.any():
         raise Interrupted("interrupted: no wall is complete")
-    result, sentences = _combine(people, request, plan.histories, collapses, complete)
+    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, complete)
     if not complete.all():
         raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
@@ -273,10 +273,15 @@ def _run_there(
     return collapses, complete
 
 
-def _combine(
-    people: Population, request: Request, histories: IntArray, collapses: IntArray, complete: np.ndarray[Any, Any]
+def combine(
+    people: Population,
+    im: str,
+    levels: FloatArray,
+    histories: IntArray,
+    collapses: IntArray,
+    complete: np.ndarray[Any, Any],
 ) -> tuple[Typology, list[str]]:
-    """The curve of the walls that are complete."""
+    """The curves of the walls that are complete, from their counts (walls, levels); and what to warn of."""
     chosen = np.flatnonzero(complete)
     walls = tuple(people.walls[i] for i in chosen)
     weights = np.ascontiguousarray(people.weights[chosen])
@@ -284,11 +289,11 @@ def _combine(
     if not weights.any():
         weights = np.ones(len(chosen))
     flat = _binding.join_walls([wall._flat for wall in walls])
-    curves, groups, sentences = _binding.fit_walls(flat, request.levels, collapses, histories, weights)
-    sizes = np.repeat(histories.astype(np.float64)[:, None], len(request.levels), axis=1)
+    curves, groups, sentences = _binding.fit_walls(flat, levels, collapses, histories, weights)
+    sizes = np.repeat(histories.astype(np.float64)[:, None], len(levels), axis=1)
     counts = collapses.astype(np.float64)
     own = tuple(
-        curve_of(curve, request.levels, z, n, im=request.im, wall=wall)
+        curve_of(curve, levels, z, n, im=im, wall=wall)
         for curve, z, n, wall in zip(curves, counts, sizes, walls, strict=True)
     )
     together = []
@@ -297,14 +302,14 @@ def _combine(
         # The counts that the curve was fitted to, for its profile likelihood
         share = np.where(members, weights, 0.0) / group.weight * members.sum()
         z, n = share @ counts, share @ sizes
-        curve = curve_of(group.curve, request.levels, np.minimum(z, n), n, im=request.im)
+        curve = curve_of(group.curve, levels, np.minimum(z, n), n, im=im)
         together.append(Group(*group[:-1], curve))
     histories.flags.writeable = False
     result = Typology(
         walls,
         weights,
-        request.im,
-        request.levels,
+        im,
+        levels,
         np.ascontiguousarray(collapses.T),
         histories,
         own,

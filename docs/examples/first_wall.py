@@ -1,0 +1,29 @@
+"""A first wall: its properties, one motion, a picture.
+
+Run it as a script, or cell by cell (# %%) in an editor that knows notebooks. Figures go to out/examples.
+"""
+
+# %%
+from pathlib import Path
+
+import dondolo as dd
+
+data = Path(__file__).resolve().parents[2] / "data"
+out = Path("out/examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% A brick parapet that leans on the roof behind it: it can only fall outwards.
+wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+print(wall)
+print(f"it begins to rock at {wall.trigger_acceleration / wall.gravity:.3f} g")
+
+# %% A synthetic accelerogram of the embedded suite, scaled to twice its strength
+records = dd.read_catalogue(data / "records" / "synthetic44.csv")
+record = next(record for record in records if "friuli_1976_sep_15" in record.name)
+motion = dd.simulate(wall, record, scale=2.0)
+print(motion)
+
+# %% The motion, and the wall at its peak
+axes = dd.plot_history(motion)
+axes[0].figure.savefig(out / "first_wall_history.png")
+dd.plot_wall(motion).figure.savefig(out / "first_wall_peak.png")

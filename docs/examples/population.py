@@ -1,0 +1,28 @@
+"""Typological curve of a population of walls (figure 5 of Nale et al.)."""
+
+# %%
+from pathlib import Path
+
+import numpy as np
+
+import dondolo as dd
+
+data = Path(__file__).resolve().parents[2] / "data"
+out = Path("out/examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% 24 kinds of walls of an imagined historic centre; a weight says how many of each there are
+population = dd.read_population(data / "walls" / "population.csv")
+print(population)
+
+# %% Each of them under the synthetic suite
+records = dd.read_catalogue(data / "records" / "synthetic44.csv")
+centre = dd.typology(population, records, levels=np.linspace(0.2, 2.0, 10))
+print(centre)
+print(f"P(collapse | 0.5 g) of a wall of this centre: {centre.mean(0.5):.3f}")
+
+# %% As tables: CSV always, a DataFrame where pandas is installed
+centre.to_csv(out / "population_fragility.csv", table="fragility")
+
+# %%
+dd.plot_typology(centre).figure.savefig(out / "population.png")

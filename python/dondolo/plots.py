@@ -1,0 +1,297 @@
+"""Figures of motions, stripes and curves: Matplotlib axes in, axes out.
+
+Every function draws into the axes it is given, or into a new figure, and returns them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo import style
+from dondolo.errors import DondoloError, InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from dondolo.fragility import Fragility
+    from dondolo.motion import Response
+    from dondolo.stripes import Stripes
+    from dondolo.typology import Typology
+
+# Points of a curve; enough for a smooth line
+_POINTS = 301
+
+
+def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
+    """Draw a motion: ground acceleration above, rotation / capacity below, impacts marked.
+
+    Parameters
+    ----------
+    response : Response
+        A motion computed with its time history.
+    axes : two Axes, optional
+        Where to draw; a new figure if left out.
+
+    Returns
+    -------
+    ndarray of two Axes
+        Acceleration [g] against time [s], and rotation / capacity against time [s].
+
+    Raises
+    ------
+    DondoloError
+        The response has no time history.
+    """
+    if response.time is None or response.rotation is None or response.ground_acceleration is None:
+        raise DondoloError("this response has no time history: simulate with history=True")
+    if axes is None:
+        axes = style.new_axes(2, (7.2, 4.6), sharex=True, height_ratios=(2, 3))
+    above, below = axes
+    time, wall = response.time, response.wall
+    above.plot(time, response.ground_acceleration / wall.gravity, color=style.GREY, linewidth=0.8)
+    trigger = wall.trigger_acceleration / wall.gravity
+    for sign in (-1.0, 1.0) if wall.two_sided else (-1.0,):
+        above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
+    above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label="trigger acceleration")
+    above.set_ylabel("ground\nacceleration [g]")
+    above.set_title(f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left")
+    style.legend(above, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
+
+    ratio = response.rotation / wall.capacity_angle
+    below.plot(time, ratio, color=style.BLUE, label="rotation")
+    impacts = np.flatnonzero((time[1:] == time[:-1]) & (ratio[1:] == 0.0) & (ratio[:-1] == 0.0)) + 1
+    below.plot(
+        time[impacts],
+        np.zeros(len(impacts)),
+        linestyle="none",
+        marker="|",
+        markersize=9,
+        markeredgewidth=0.8,
+        color=style.BLACK,
+        label=f"impacts ({len(impacts)})",
+    )
+    peak = int(np.argmax(np.abs(ratio)))
+    height = np.copysign(response.edp, ratio[peak])
+    below.plot(
+        [response.time_of_peak],
+        [height],
+        linestyle="none",
+        marker="o",
+        color=style.RED,
+        markersize=5,
+        label=f"collapse, EDP = {response.edp:.3g}" if response.collapsed else f"peak, EDP = {response.edp:.3g}",
+    )
+    below.set_xlabel("time [s]")
+    below.set_ylabel("rotation / capacity")
+    style.legend(below, loc="upper left")
+    return np.asarray([above, below])
+
+
+def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
+    """Draw every history of a multiple stripe analysis: EDP against intensity, collapses set apart above.
+
+    Figure 4a of Nale et al.
+
+    Parameters
+    ----------
+    stripes : Stripes
+        Result of `multiple_stripe`.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+
+    Returns
+    -------
+    Axes
+        EDP against the level of intensity.
+    """
+    if ax is None:
+        ax = style.new_axes()
+    levels, edp, collapsed = stripes.levels, np.asarray(stripes.edp), np.asarray(stripes.collapsed)
+    x = np.broadcast_to(levels[:, None], edp.shape)
+    limit = float(edp[collapsed].max()) if collapsed.any() else 1.0
+    ax.plot(
+        x[~collapsed],
+        edp[~collapsed],
+        linestyle="none",
+        marker="o",
+        markersize=4,
+        markerfacecolor="none",
+        markeredgecolor=style.BLUE,
+        markeredgewidth=0.8,
+        label="survives",
+    )
+    row = 1.1 * limit
+    reached = collapsed.any(axis=1)
+    ax.plot(
+        levels[reached],
+        np.full(reached.sum(), row),
+        linestyle="none",
+        marker="^",
+        markersize=7,
+        color=style.RED,
+        label="collapses (of " + str(edp.shape[1]) + ")",
+    )
+    for level, count in zip(levels[reached], collapsed.sum(axis=1)[reached], strict=True):
+        ax.annotate(
+            str(count), (level, row), (0, 6), textcoords="offset points", ha="center", fontsize=7.5, color=style.RED
+        )
+    ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle="--", label="collapse limit")
+    ax.set_ylim(0.0, 1.25 * limit)
+    ax.set_xlim(left=0.0)
+    ax.set_xlabel(style.im_label(stripes.im))
+    ax.set_ylabel("EDP = largest rotation / capacity")
+    ax.set_title(stripes.wall.name, loc="left")
+    style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
+    return ax
+
+
+def plot_fragility(
+    fragility: Fragility,
+    stripes: Stripes | None = None,
+    ax: Axes | None = None,
+    level: float = 0.95,
+    label: str | None = None,
+    color: str = style.BLUE,
+    linestyle: str = "-",
+    marker: str = "o",
+) -> Axes:
+    """Draw a fragility curve with its confidence band, and the fractions of collapse it was fitted to.
+
+    Figure 4b of Nale et al. The bars of the fractions are Clopper and Pearson's exact binomial intervals.
+
+    Parameters
+    ----------
+    fragility : Fragility
+        A fitted curve; without a fit only the fractions and the bracket of the median are drawn.
+    stripes : Stripes, optional
+        Adds the name of the wall; the fractions are those that the curve was fitted to.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+    level : float
+        Confidence of band and bars.
+    label : str, optional
+        Name of the curve where several are drawn; median and dispersion if left out.
+    color, linestyle, marker : str
+        Of the curve and its fractions, to tell several apart.
+
+    Returns
+    -------
+    Axes
+        Probability of collapse against intensity.
+    """
+    from scipy.stats import beta as beta_distribution
+
+    if not 0.0 < level < 1.0:
+        raise InputError(f"level = {level}: must lie between 0 and 1")
+    if ax is None:
+        ax = style.new_axes()
+    x, z, n = (np.asarray(part, dtype=float) for part in (fragility.levels, fragility.collapses, fragility.histories))
+    tail = 0.5 * (1.0 - level)
+    counted = n > 0.0
+    x, z, n = x[counted], z[counted], n[counted]
+    fraction = z / n
+    low = np.where(z > 0.0, beta_distribution.ppf(tail, z, n - z + 1.0), 0.0)
+    high = np.where(z < n, beta_distribution.ppf(1.0 - tail, z + 1.0, n - z), 1.0)
+    ax.errorbar(
+        x,
+        fraction,
+        (fraction - low, high - fraction),
+        linestyle="none",
+        marker=marker,
+        markersize=4.5,
+        color=style.BLACK if label is None else color,
+        elinewidth=0.8,
+        capsize=2,
+        label=f"fractions, {100.0 * level:.4g} % intervals" if label is None else None,
+        zorder=3,
+    )
+    right = 1.05 * x.max()
+    if fragility.has_fit:
+        grid = np.linspace(right / _POINTS, right, _POINTS)
+        band = np.asarray(fragility.interval(grid, level=level))
+        text = f"{100.0 * level:.4g} % band" if label is None else None
+        ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
+        text = label or f"θ = {fragility.theta:.3g}, β = {fragility.beta:.3g}"
+        ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
+    else:
+        ax.axvspan(
+            fragility.bracket[0],
+            min(fragility.bracket[1], right),
+            color=style.LIGHT,
+            alpha=0.6,
+            linewidth=0.0,
+            label=f"median somewhere here ({fragility.status})",
+            zorder=0,
+        )
+    ax.set_xlim(0.0, right)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(fragility.im))
+    ax.set_ylabel("probability of collapse")
+    if stripes is not None:
+        ax.set_title(stripes.wall.name, loc="left")
+    style.legend(ax, loc="upper left" if label is None else "lower right")
+    return ax
+
+
+def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | None = None) -> Axes:
+    """Draw the curves of a population, thin, and their weighted mean.
+
+    Figure 5 of Nale et al.: the red line is the typological curve.
+
+    Parameters
+    ----------
+    typology : Typology
+        Result of `typology`.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+    mechanism : str, optional
+        Only the walls of this mechanism.
+
+    Returns
+    -------
+    Axes
+        Probability of collapse against intensity.
+
+    Raises
+    ------
+    InputError
+        No wall has this mechanism.
+    """
+    group = typology.group(mechanism)
+    if ax is None:
+        ax = style.new_axes()
+    right = 1.05 * float(np.max(typology.levels))
+    grid = np.linspace(right / _POINTS, right, _POINTS)
+    chosen = [
+        curve
+        for wall, curve in zip(typology.walls, typology.curves, strict=True)
+        if group.mechanism in ("all", wall.mechanism)
+    ]
+    fitted = [curve for curve in chosen if curve.has_fit]
+    for curve in fitted:
+        ax.plot(grid, curve(grid), color=style.GREY, linewidth=0.6)
+    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(chosen)} walls")
+    ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label="weighted mean")
+    if group.fit.has_fit:
+        text = f"lognormal, θ = {group.fit.theta:.3g}, β = {group.fit.beta:.3g}"
+        ax.plot(grid, group.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=text)
+    ax.plot(
+        typology.levels,
+        group.mean_fraction,
+        linestyle="none",
+        marker="o",
+        markersize=4,
+        markerfacecolor="white",
+        markeredgecolor=style.RED,
+        label="weighted fractions",
+    )
+    ax.set_xlim(0.0, right)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(typology.im))
+    ax.set_ylabel("probability of collapse")
+    ax.set_title("all mechanisms" if group.mechanism == "all" else group.mechanism.replace("_", "-"), loc="left")
+    style.legend(ax, loc="upper left")
+    return ax

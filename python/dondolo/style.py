@@ -1,0 +1,57 @@
+"""One style for all figures: colours that colour-blind eyes tell apart; shape and lightness tell them apart in grey."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Okabe and Ito (2008), Color universal design
+BLUE = "#0072B2"
+RED = "#D55E00"
+BLACK = "#000000"
+GREY = "#8C8C8C"
+LIGHT = "#D9D9D9"
+BRICK = "#E8C9A8"
+
+RC = {
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E6E6E6",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "font.size": 9.5,
+    "axes.titlesize": 10.5,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.dpi": 110,
+    "savefig.dpi": 160,
+    "savefig.bbox": "tight",
+    "lines.linewidth": 1.4,
+}
+
+# Name and unit of the intensity measures, for axes
+IM_LABELS = {"pga": "peak ground acceleration [g]"}
+
+
+def im_label(im: str) -> str:
+    """Axis label of an intensity measure."""
+    return IM_LABELS.get(im, im if im else "intensity measure")
+
+
+def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: Any) -> Any:
+    """Axes of a new figure in the style of dondolo."""
+    import matplotlib.pyplot as plt
+
+    with plt.rc_context(RC):
+        _, axes = plt.subplots(rows, 1, figsize=size, layout="constrained", **options)
+    return axes
+
+
+def legend(ax: Axes, **options: Any) -> None:
+    """A legend without a frame, if there is something to explain."""
+    handles, _ = ax.get_legend_handles_labels()
+    if handles:
+        ax.legend(frameon=False, fontsize=8.5, **options)

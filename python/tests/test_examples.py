@@ -1,0 +1,30 @@
+"""The examples of the documentation run, and leave their figures."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+
+@pytest.mark.parametrize(
+    ("example", "figures"),
+    [
+        ("first_wall", ["first_wall_history.png", "first_wall_peak.png"]),
+        ("stripes_and_curve", ["stripes.png", "curve.png"]),
+        ("two_mechanisms", ["two_mechanisms.png"]),
+        ("population", ["population.png", "population_fragility.csv"]),
+    ],
+)
+def test_example(example, figures, root, tmp_path):
+    done = subprocess.run(
+        [sys.executable, root / "docs/examples" / f"{example}.py"],
+        cwd=tmp_path,
+        env={**os.environ, "MPLBACKEND": "agg"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    for figure in figures:
+        assert (tmp_path / "out/examples" / figure).stat().st_size > 1000

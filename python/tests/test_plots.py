@@ -1,0 +1,234 @@
+"""Figures, by what they hold: labels, data, geometry; and the shell command that draws them."""
+
+import subprocess
+import sys
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from dondolo.drawing import peak_rotation, shape
+from matplotlib.image import imread
+
+import dondolo as dd
+
+LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0]
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture(scope="module")
+def wall():
+    return dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+
+
+@pytest.fixture(scope="module")
+def motion(wall, records):
+    return dd.simulate(wall, records[6], scale=2.2)
+
+
+@pytest.fixture(scope="module")
+def stripes(wall, records):
+    return dd.multiple_stripe(wall, records, levels=LEVELS, progress=False)
+
+
+def line(ax, label):
+    """The line of a label."""
+    return next(drawn for drawn in ax.get_lines() if label in str(drawn.get_label()))
+
+
+def test_history_shows_the_motion(motion):
+    above, below = dd.plot_history(motion)
+    np.testing.assert_array_equal(above.get_lines()[0].get_ydata(), motion.ground_acceleration / 9.81)
+    np.testing.assert_array_equal(line(below, "rotation").get_ydata(), motion.rotation / motion.wall.capacity_angle)
+    assert len(line(below, "impacts").get_xdata()) >= motion.impacts > 0
+    assert line(below, "EDP").get_ydata()[0] == motion.edp
+    assert line(below, "EDP").get_xdata()[0] == motion.time_of_peak
+    assert below.get_xlabel() == "time [s]"
+    assert "[g]" in above.get_ylabel()
+
+
+def test_history_draws_into_given_axes(motion):
+    _, axes = plt.subplots(2)
+    assert list(dd.plot_history(motion, axes)) == list(axes)
+
+
+def test_history_needs_a_history(wall, records):
+    with pytest.raises(dd.DondoloError, match="history=True"):
+        dd.plot_history(dd.simulate(wall, records[0], history=False))
+
+
+def test_stripes_set_collapses_apart(stripes):
+    ax = dd.plot_stripes(stripes)
+    assert len(line(ax, "survives").get_ydata()) == (~stripes.collapsed).sum()
+    assert (line(ax, "survives").get_ydata() < 1.0).all()
+    reached = stripes.collapses > 0
+    np.testing.assert_array_equal(line(ax, "collapses").get_xdata(), stripes.levels[reached])
+    assert (line(ax, "collapses").get_ydata() > 1.0).all()
+    assert [text.get_text() for text in ax.texts] == [str(count) for count in stripes.collapses[reached]]
+    assert ax.get_xlabel() == "peak ground acceleration [g]"
+    assert ax.get_title(loc="left") == "parapet"
+
+
+def test_fragility_shows_fractions_curve_and_band(stripes):
+    curve = stripes.fit()
+    ax = dd.plot_fragility(curve, stripes)
+    drawn = line(ax, "θ")
+    np.testing.assert_allclose(drawn.get_ydata(), curve(drawn.get_xdata()))
+    container = ax.containers[0]
+    np.testing.assert_allclose(container.lines[0].get_ydata(), stripes.fraction)
+    # Clopper and Pearson's interval of no collapse among n ends at 1 - (tail)^(1/n).
+    empty = int(np.flatnonzero(stripes.collapses == 0)[0])
+    segment = container.lines[2][0].get_segments()[empty]
+    np.testing.assert_allclose(segment[:, 1], [0.0, 1.0 - 0.025 ** (1.0 / stripes.histories[empty])])
+    band = ax.collections[0].get_paths()[0].vertices
+    assert band[:, 1].max() <= 1.0
+    assert band[:, 1].min() >= 0.0
+
+
+def test_fragility_without_a_fit_shows_the_bracket():
+    curve = dd.fit_fragility([0.2, 0.4, 0.6], [0, 5, 44], [44, 44, 44])
+    ax = dd.plot_fragility(curve)
+    texts = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert any("separated" in text for text in texts)
+    assert not any("θ" in text for text in texts)
+
+
+def test_fragility_refuses_a_confidence_of_one(stripes):
+    with pytest.raises(dd.InputError, match="level"):
+        dd.plot_fragility(stripes.fit(), level=1.0)
+
+
+def test_typology_shows_every_wall_and_the_mean(records):
+    walls = [dd.OneSidedWall(height=height, thickness=0.25) for height in (1.2, 1.8, 2.4)]
+    people = dd.typology(dd.Population(walls), records, levels=LEVELS, progress=False)
+    ax = dd.plot_typology(people)
+    mean = line(ax, "weighted mean")
+    np.testing.assert_allclose(mean.get_ydata(), people.mean(mean.get_xdata()))
+    grid = mean.get_xdata()
+    thin = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
+    assert len(thin) == 3 + 1 + people.fit().has_fit
+    np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people.mean_fraction)
+    assert dd.plot_typology(people, mechanism="one_sided").get_title(loc="left") == "one-sided"
+    with pytest.raises(dd.InputError, match="must be one of"):
+        dd.plot_typology(people, mechanism="two_block")
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_two_blocks_stay_on_one_vertical_and_on_their_hinges(sign):
+    wall = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+    moved = shape(wall, sign * 0.05)
+    base, middle, top = moved.hinges
+    assert base[0] == pytest.approx(top[0]) == pytest.approx(0.25 if sign > 0 else 0.0)
+    lower, upper = moved.blocks
+    for block, height in ((lower, 1.8), (upper, 1.2)):
+        sides = np.linalg.norm(np.roll(block, -1, axis=0) - block, axis=1)
+        np.testing.assert_allclose(sides, [0.25, height, 0.25, height])
+    for hinge, block in ((base, lower), (middle, lower), (middle, upper), (top, upper)):
+        assert np.linalg.norm(block - hinge, axis=1).min() == pytest.approx(0.0, abs=1e-12)
+    # The strip folds out to the side of its rotation, and its top comes up before it goes down.
+    assert np.sign(np.mean(np.vstack(moved.blocks)[:, 0]) - 0.125) == sign
+    assert top[1] > 3.0
+
+
+def test_potential_energy_is_what_the_drawing_lifts():
+    """The centroids of the drawn blocks rise as the restoring moment of the library says."""
+    wall = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+
+    def lift(q):
+        lower, upper = shape(wall, q).blocks
+        return 9.81 * 1800.0 * 0.25 * (1.8 * lower[:, 1].mean() + 1.2 * upper[:, 1].mean())
+
+    q, step = 0.5 * wall.capacity_angle, 1e-5
+    moment = (lift(q + step) - lift(q - step)) / (2.0 * step)
+    # G at half the capacity, docs/theory.md, section 2
+    assert moment == pytest.approx(1655.01450775168, rel=1e-8)
+    assert lift(wall.capacity_angle) > lift(1.01 * wall.capacity_angle)
+    assert lift(wall.capacity_angle) > lift(0.99 * wall.capacity_angle)
+
+
+def test_one_block_turns_about_its_toe():
+    wall = dd.FreeStandingWall(height=2.0, thickness=0.5)
+    for q in (0.2, -0.2):
+        moved = shape(wall, q)
+        toe = [0.5, 0.0] if q > 0 else [0.0, 0.0]
+        np.testing.assert_allclose(moved.hinges, [toe])
+        assert moved.blocks[0][:, 1].min() == pytest.approx(0.0, abs=1e-12)
+        assert np.sign(moved.blocks[0][2, 0] - 0.5) == np.sign(q)
+
+
+def test_wall_is_drawn_at_its_peak(motion):
+    ax = dd.plot_wall(motion)
+    np.testing.assert_allclose(line(ax, "hinge").get_xydata(), shape(motion.wall, peak_rotation(motion)).hinges)
+    assert ax.get_aspect() == 1.0
+    assert f"EDP = {motion.edp:.3g}" in ax.get_title(loc="left")
+
+
+def test_one_sided_walls_do_not_turn_inwards(wall):
+    with pytest.raises(dd.InputError, match="must not be negative"):
+        dd.plot_wall(wall, rotation=-0.01)
+
+
+def test_animation_follows_the_motion(motion, tmp_path):
+    animation = dd.animate_history(motion, frames_per_second=2, speed=4.0)
+    animation.save(tmp_path / "motion.gif", writer="pillow")
+    assert (tmp_path / "motion.gif").stat().st_size > 10_000
+    with pytest.raises(dd.InputError, match="must be positive"):
+        dd.animate_history(motion, speed=0.0)
+
+
+def command(*arguments, folder):
+    return subprocess.run(
+        [sys.executable, "-m", "dondolo", *map(str, arguments)], cwd=folder, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.mark.parametrize(
+    ("case", "figures"),
+    [
+        ("parapet", ("stripes", "fragility")),
+        ("history", ("history", "wall")),
+        ("population", ("typology",)),
+    ],
+)
+def test_command_draws_the_executables_files(case, figures, executable, root, tmp_path):
+    subprocess.run([executable, "--quiet", root / "data/cases" / f"{case}.nml"], cwd=tmp_path, check=True)
+    done = command("plot", f"out/{case}", folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    for figure in figures:
+        picture = imread(tmp_path / "out" / f"{case}_{figure}.png")
+        assert picture.shape[0] > 300
+        assert np.ptp(picture) > 0.5
+
+
+def test_results_read_back_are_those_of_a_run(executable, root, tmp_path):
+    case = root / "data/cases/parapet.nml"
+    subprocess.run([executable, "--quiet", case], cwd=tmp_path, check=True)
+    stored, run = dd.read_results(tmp_path / "out/parapet"), dd.run_case(case, progress=False)
+    np.testing.assert_array_equal(stored.stripes.edp, run.stripes.edp)
+    np.testing.assert_array_equal(stored.stripes.levels, run.stripes.levels)
+    assert stored.fragility.theta == run.fragility.theta
+    assert stored.population[0] == run.case.population[0]
+
+
+def test_command_says_what_is_wrong(tmp_path):
+    done = command("plot", "nothing", folder=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == "dondolo: nothing_walls.csv: cannot be read: No such file or directory\n"
+    (tmp_path / "bad_walls.csv").write_text("a,b\n1,2\n")
+    done = command("plot", "bad", folder=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_help_lists_the_commands(tmp_path):
+    done = command("--help", folder=tmp_path)
+    assert done.returncode == 0
+    assert "plot" in done.stdout
