@@ -47,7 +47,7 @@ def test_slices_are_made_contiguous():
     ("samples", "dt", "words"),
     [
         ([0.0, 1.0], 0.0, "time step dt = 0: must be positive"),
-        ([0.0], 0.01, "1 samples: a record needs at least two"),
+        ([0.0], 0.01, "number of samples = 1: must be at least 2"),
         ([0.0, np.nan], 0.01, "sample 2 = NaN m/s2"),
         ([[0.0, 1.0]], 0.01, "acceleration: must be one row"),
         (["a", "b"], 0.01, "acceleration: must be numbers"),
