@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -77,3 +78,9 @@ def sine() -> dd.Record:
 def pytest_configure(config: pytest.Config) -> None:
     """Tests read files by their place in the repository."""
     config.addinivalue_line("markers", "slow: takes more than a few seconds")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def interruptible() -> None:
+    """Ctrl-C works even where the shell that started the tests ignores it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
