@@ -140,7 +140,18 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
     ax.plot(*moved.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     _frame(ax, wall)
     ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left", fontsize=9.5)
-    style.legend(ax, loc="center right")
+    # A legend's own marker would pass for one more hinge.
+    base = moved.hinges[0]
+    right = base[0] > 0.5 * wall.thickness
+    ax.annotate(
+        "hinge",
+        base,
+        (9 if right else -9, 6),
+        textcoords="offset points",
+        ha="left" if right else "right",
+        fontsize=8.5,
+        color=style.RED,
+    )
     return ax
 
 
