@@ -15,7 +15,7 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
 from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
-from dondolo.records import Record, read_catalogue, read_record
+from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.typology import Group, Typology, typology
@@ -58,6 +58,7 @@ __all__ = [
     "read_catalogue",
     "read_population",
     "read_record",
+    "read_records",
     "read_results",
     "run_case",
     "simulate",

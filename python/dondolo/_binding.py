@@ -161,8 +161,11 @@ def as_number(name: str, value: Any) -> float:
 def as_array(name: str, values: ArrayLike) -> FloatArray:
     """Turn what a user gives for a row of numbers into one."""
     try:
-        array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+        given = np.asarray(values)
+        if given.dtype.kind not in "biufO" or np.ma.isMaskedArray(values):
+            raise TypeError
+        array = np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name}: must be numbers") from None
     if array.ndim != 1:
         raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
@@ -176,9 +179,12 @@ def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a word into the bytes Fortran takes."""
     if not isinstance(value, str):
         raise InputError(f"{name} = {value!r}: must be a text")
-    if "\n" in value or "\r" in value:
+    if any(character in value for character in "\n\r\0"):
         raise InputError(f"{name}: must stand on one line")
-    return value.encode()
+    try:
+        return value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} = {value!r}: must be a text") from None
 
 
 def as_path(path: str | os.PathLike[str]) -> bytes:

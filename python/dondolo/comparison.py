@@ -104,12 +104,15 @@ def _by_bootstrap(
         raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
     random = np.random.default_rng(seed)
     times = fragility.draw(first.stripes, n, random)
-    paired = set(first.stripes.record_names) == set(second.stripes.record_names)
-    order = np.arange(times.shape[1])
-    if paired:
-        names = list(dict.fromkeys(first.stripes.record_names))
-        order = np.array([names.index(name) for name in dict.fromkeys(second.stripes.record_names)])
-    others = times[:, order] if paired else fragility.draw(second.stripes, n, random)
+    # The same records, by position or, where names are unique, by name
+    count = times.shape[1]
+    names = [stripes.record_names[: stripes.record_index.max() + 1] for stripes in (first.stripes, second.stripes)]
+    if names[0] == names[1]:
+        others = times
+    elif sorted(names[0]) == sorted(names[1]) and len(set(names[0])) == count:
+        others = times[:, [names[0].index(name) for name in names[1]]]
+    else:
+        others = fragility.draw(second.stripes, n, random)
     difference = np.log(fragility.resample(first.stripes, times).theta)
     difference = difference - np.log(fragility.resample(second.stripes, others).theta)
     difference = difference[~np.isnan(difference)]

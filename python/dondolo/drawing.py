@@ -139,7 +139,7 @@ def plot_wall(wall: Wall | Response, rotation: float | None = None, ax: Axes | N
         ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
     ax.plot(*moved.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     _frame(ax, wall)
-    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left", fontsize=9.5)
+    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{title}", loc="left", fontsize=9.5, parse_math=False)
     # A legend's own marker would pass for one more hinge.
     base = moved.hinges[0]
     right = base[0] > 0.5 * wall.thickness
@@ -243,7 +243,7 @@ def animate_history(response: Response, frames_per_second: int = 25, speed: floa
     (point,) = right.plot([], [], linestyle="none", marker="o", color=style.RED)
     right.set_xlabel("time [s]")
     right.set_ylabel("rotation / capacity")
-    right.set_title(f"{wall.name}, record {response.record.name}", loc="left")
+    right.set_title(f"{wall.name}, record {response.record.name}", loc="left", parse_math=False)
     instants = np.arange(time[0], time[-1] + 0.5 * speed / frames_per_second, speed / frames_per_second)
 
     def draw(frame: int) -> list[Any]:

@@ -184,8 +184,8 @@ class Fragility:
         self._need_fit()
         if self.stripes is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-        if n < 1:
-            raise InputError(f"n = {n}: must be at least 1")
+        if not isinstance(n, (int, np.integer)) or n < 1:
+            raise InputError(f"n = {n!r}: must be a whole number, at least 1")
         return resample(self.stripes, draw(self.stripes, n, seed))
 
     def to_frame(self) -> Any:
@@ -276,7 +276,7 @@ class Bootstrap:
         return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
 
 
-def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> Fragility:
+def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, im: str = "") -> Fragility:
     """Fit a lognormal fragility curve by maximum likelihood (Baker 2015).
 
     Parameters
@@ -287,6 +287,8 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike)
         Collapses at each level; need not be whole numbers (weighted counts).
     histories : array_like, shape (levels,) or scalar
         Histories at each level.
+    im : str, optional
+        Intensity measure of the levels, such as 'pga': the name on axes, and what may be compared.
 
     Returns
     -------
@@ -309,7 +311,7 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike)
     >>> round(curve.theta, 9), round(curve.beta, 9)
     (0.282842712, 0.513830774)
     """
-    curve = fit(*_counts(levels, collapses, histories))
+    curve = fit(*_counts(levels, collapses, histories), im=im)
     if curve.status == "extrapolated":
         low, high = curve.levels.min(), curve.levels.max()
         _binding.warn([f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
@@ -330,10 +332,13 @@ def curve_of(
     if data.status not in ("ok", "extrapolated"):
         theta = beta = var_theta = both = var_beta = height = np.nan
     largest = np.finfo(np.float64).max
+    covariance = np.array([[var_theta, both], [both, var_beta]])
+    for array in (covariance, levels, collapses, histories):
+        array.flags.writeable = False
     return Fragility(
         theta,
         beta,
-        np.array([[var_theta, both], [both, var_beta]]),
+        covariance,
         data.status,
         height,
         (low, np.inf if high >= largest else high),
@@ -346,14 +351,13 @@ def curve_of(
 
 def draw(stripes: Stripes, n: int, seed: int | np.random.Generator | None) -> np.ndarray[Any, Any]:
     """How often each record comes in each of n samples drawn with replacement: (samples, records)."""
-    records = len(dict.fromkeys(stripes.record_names))
+    records = int(stripes.record_index.max()) + 1
     return np.random.default_rng(seed).multinomial(records, np.full(records, 1.0 / records), size=n)
 
 
 def resample(stripes: Stripes, times: np.ndarray[Any, Any]) -> Bootstrap:
     """Fit the stripes again with each record taken so many times."""
-    names = list(dict.fromkeys(stripes.record_names))
-    place = np.array([names.index(name) for name in stripes.record_names])
+    place = stripes.record_index
     collapses = times[:, place] @ stripes.collapsed.T.astype(np.float64)
     histories = np.repeat(times[:, place].sum(axis=1, keepdims=True), len(stripes.levels), axis=1)
     curves, statuses = _binding.fit_curves(stripes.levels, collapses, histories.astype(np.float64))
@@ -368,11 +372,12 @@ def shaped(values: FloatArray, like: FloatArray) -> Any:
 
 
 def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    x, z = _binding.as_array("levels", levels), _binding.as_array("collapses", collapses)
+    # Copies: the curve keeps them, and what the caller does with theirs must not change it.
+    x, z = _binding.as_array("levels", levels).copy(), _binding.as_array("collapses", collapses).copy()
     if np.ndim(histories) == 0:
         n = np.full(len(x), _binding.as_number("histories", histories))
     else:
-        n = _binding.as_array("histories", histories)
+        n = _binding.as_array("histories", histories).copy()
     if not len(x) == len(z) == len(n):
         raise InputError(f"{len(x)} levels, {len(z)} collapses, {len(n)} histories: must be as many")
     return x, z, n
@@ -381,7 +386,7 @@ def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tu
 def _levels_of(x: ArrayLike) -> FloatArray:
     try:
         values = np.asarray(x, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError("x: must be numbers") from None
     if not np.all(values >= 0.0):
         raise InputError("x: must be levels of intensity, not negative")
@@ -395,6 +400,7 @@ def _quantile(level: float) -> float:
 
 
 def _tails(level: float) -> tuple[float, float]:
+    level = _binding.as_number("level", level)
     if not 0.0 < level < 1.0:
         raise InputError(f"level = {level}: must lie between 0 and 1")
     return 0.5 - 0.5 * level, 0.5 + 0.5 * level

@@ -57,7 +57,9 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
     above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label="trigger acceleration")
     above.set_ylabel("ground\nacceleration [g]")
-    above.set_title(f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left")
+    above.set_title(
+        f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left", parse_math=False
+    )
     style.legend(above, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
 
     ratio = response.rotation / wall.capacity_angle
@@ -111,7 +113,7 @@ def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
         ax = style.new_axes()
     levels, edp, collapsed = stripes.levels, np.asarray(stripes.edp), np.asarray(stripes.collapsed)
     x = np.broadcast_to(levels[:, None], edp.shape)
-    limit = float(edp[collapsed].max()) if collapsed.any() else 1.0
+    limit = stripes.edp_limit
     ax.plot(
         x[~collapsed],
         edp[~collapsed],
@@ -121,7 +123,7 @@ def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
         markerfacecolor="none",
         markeredgecolor=style.BLUE,
         markeredgewidth=0.8,
-        label="survives",
+        label="survives" if not collapsed.all() else None,
     )
     row = 1.1 * limit
     reached = collapsed.any(axis=1)
@@ -132,7 +134,7 @@ def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
         marker="^",
         markersize=7,
         color=style.RED,
-        label="collapses (of " + str(edp.shape[1]) + ")",
+        label=f"collapses (of {edp.shape[1]})" if reached.any() else None,
     )
     for level, count in zip(levels[reached], collapsed.sum(axis=1)[reached], strict=True):
         ax.annotate(
@@ -140,10 +142,10 @@ def plot_stripes(stripes: Stripes, ax: Axes | None = None) -> Axes:
         )
     ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle="--", label="collapse limit")
     ax.set_ylim(0.0, 1.25 * limit)
-    ax.set_xlim(left=0.0)
+    ax.set_xlim(0.0, 1.05 * levels.max())
     ax.set_xlabel(style.im_label(stripes.im))
     ax.set_ylabel("EDP = largest rotation / capacity")
-    ax.set_title(stripes.wall.name, loc="left")
+    ax.set_title(stripes.wall.name, loc="left", parse_math=False)
     style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
     return ax
 
@@ -231,7 +233,7 @@ def plot_fragility(
     ax.set_xlabel(style.im_label(fragility.im))
     ax.set_ylabel("probability of collapse")
     if stripes is not None:
-        ax.set_title(stripes.wall.name, loc="left")
+        ax.set_title(stripes.wall.name, loc="left", parse_math=False)
     style.legend(ax, loc="upper left" if label is None else "lower right")
     return ax
 
@@ -292,6 +294,10 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(typology.im))
     ax.set_ylabel("probability of collapse")
-    ax.set_title("all mechanisms" if group.mechanism == "all" else group.mechanism.replace("_", "-"), loc="left")
+    ax.set_title(
+        "all mechanisms" if group.mechanism == "all" else group.mechanism.replace("_", "-"),
+        loc="left",
+        parse_math=False,
+    )
     style.legend(ax, loc="upper left")
     return ax

@@ -86,7 +86,9 @@ class Record:
         self.acceleration.flags.writeable = False
 
 
-def read_record(path: str | os.PathLike[str], dt: float | None = None, units: str | None = None) -> Record:
+def read_record(
+    path: str | os.PathLike[str], dt: float | None = None, units: str | None = None, channel: int = 1
+) -> Record:
     """Read an accelerogram file; the format is recognised by its content.
 
     Parameters
@@ -97,6 +99,8 @@ def read_record(path: str | os.PathLike[str], dt: float | None = None, units: st
         Time step [s], needed where the file does not state it.
     units : str, optional
         Units of the values such as 'm/s2', 'gal' or 'g', needed where the file does not state them.
+    channel : int
+        Which of the file's channels, from 1.
 
     Returns
     -------
@@ -105,10 +109,33 @@ def read_record(path: str | os.PathLike[str], dt: float | None = None, units: st
     Raises
     ------
     InputError
+        The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
+    """
+    channels = read_records(path, dt, units)
+    if channel not in range(1, len(channels) + 1):
+        raise InputError(f"{os.fspath(path)}: channel = {channel!r}: must lie between 1 and {len(channels)}")
+    return channels[channel - 1]
+
+
+def read_records(path: str | os.PathLike[str], dt: float | None = None, units: str | None = None) -> list[Record]:
+    """Read all channels of an accelerogram file.
+
+    Parameters
+    ----------
+    path, dt, units
+        As those of `read_record`.
+
+    Returns
+    -------
+    list of Record
+        One for each channel; the formats known so far have one.
+
+    Raises
+    ------
+    InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    data = _binding.read_records(path, False, dt, units)[0]
-    return Record(data.acceleration, data.dt, data.name)
+    return [Record(data.acceleration, data.dt, data.name) for data in _binding.read_records(path, False, dt, units)]
 
 
 def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
@@ -133,7 +160,11 @@ def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
 
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     """One record or several as a tuple of them."""
-    several = (records,) if isinstance(records, Record) else tuple(records)
+    if isinstance(records, Record):
+        records = (records,)
+    if not isinstance(records, Iterable):
+        raise InputError(f"records: {type(records).__name__} is no record")
+    several = tuple(records)
     if not several:
         raise InputError("records: must be given")
     for record in several:

@@ -80,9 +80,11 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     gravity = _setting(comments, "gravity", 9.81)
     try:
         population = _population(walls, gravity)
-        if Path(prefix + "_history.csv").is_file():
+        # The files of another task may lie there from a run before: the walls' file tells the task of the last.
+        task = next((found.group(1) for line in comments if (found := re.match(r"&job task = '(\w+)'", line))), "")
+        if task == "history":
             return StoredResults(population, response=_response(prefix + "_history.csv", population.walls[0], comments))
-        if Path(prefix + "_histories.csv").is_file():
+        if task == "stripes":
             stripes = _stripes(prefix + "_histories.csv", population.walls[0])
             return StoredResults(population, stripes=stripes, fragility=stripes.fit())
         return StoredResults(population, typology=_typology(prefix + "_stripes.csv", population))
@@ -109,10 +111,11 @@ def _read(path: str) -> tuple[Rows, list[str]]:
 
 
 def _setting(comments: list[str], name: str, default: float) -> float:
-    """A number of the case that stands in the comments."""
+    """A number of the case that stands in the comments; what stands in quotes, such as a title, is no setting."""
     for comment in comments:
-        found = re.search(rf"\b{name}\s*[=:]\s*([-+0-9.eEdD]+)", comment)
-        if found:
+        bare = re.sub(r"'(?:[^']|'')*'", "''", comment)
+        found = re.search(rf"(?:^|^&\w+ +|, ){name}\s*[=:]\s*([-+0-9.eEdD]+)", bare)
+        if found and not comment.startswith(("record:", "warning:")):
             return float(found.group(1).lower().replace("d", "e"))
     return default
 
@@ -131,7 +134,9 @@ def _population(rows: Rows, gravity: float) -> Population:
 
 
 def _numbers(rows: Rows, column: str) -> Any:
-    return np.asarray([float(cell) for cell in rows[column]])
+    values = np.asarray([float(cell) for cell in rows[column]])
+    values.flags.writeable = False
+    return values
 
 
 def _response(path: str, wall: Wall, case: list[str]) -> Response:
@@ -170,7 +175,9 @@ def _stripes(path: str, wall: Wall) -> Stripes:
     levels = np.unique(_numbers(rows, "im_level"))
     shape = (len(levels), len(rows["wall"]) // len(levels))
     first = slice(0, shape[1])
-    engine = next((found.group(1) for line in comments if (found := re.search(r"engine = '(\w+)'", line))), "auto")
+    engine = next(
+        (found.group(1) for line in comments if (found := re.match(r"&solver engine = '(\w+)'", line))), "auto"
+    )
     return Stripes(
         wall=wall,
         im=rows["im"][0],

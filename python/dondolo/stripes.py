@@ -64,6 +64,13 @@ class Stripes:
     edp_limit: float
 
     @property
+    def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
+        # All records come in one polarity, and again in the other if there are two.
+        count = len(self.record_names) // len(np.unique(self.polarity))
+        return np.arange(len(self.record_names)) % count
+
+    @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Collapses in each stripe, shape (levels,)."""
         return self.collapsed.sum(axis=1)

@@ -266,8 +266,9 @@ def _run_there(
             collapses[tasks[task]], complete[tasks[task]] = task.result()
             bar.update(len(tasks[task]))
     except KeyboardInterrupt:
-        for task in tasks:
-            task.cancel()
+        for task, block in tasks.items():
+            if not task.cancel() and task.done() and task.exception() is None:
+                collapses[block], complete[block] = task.result()
     finally:
         bar.close()
     return collapses, complete

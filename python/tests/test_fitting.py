@@ -259,3 +259,25 @@ def test_comparison(stripes, wall, records):
     assert boot.interval[0] < boot.ratio < boot.interval[1]
     with pytest.raises(dd.InputError, match="method"):
         dd.compare(curve, other, method="guess")
+
+
+def test_bootstrap_goes_by_records_and_not_by_names(wall, few):
+    """Records without names of their own are still different records."""
+    levels = [0.4, 0.6, 0.8, 1.0, 1.2]
+    nameless = [dd.Record(record.acceleration, record.dt) for record in few]
+    curves = [
+        dd.multiple_stripe(wall, records, levels, polarity="both", progress=False).fit() for records in (few, nameless)
+    ]
+    named, unnamed = (curve.bootstrap(200, seed=3) for curve in curves)
+    np.testing.assert_array_equal(named.theta, unnamed.theta)
+    assert np.nanstd(unnamed.theta) > 0.0
+
+
+def test_a_curve_keeps_its_counts():
+    levels, collapses = np.array([0.1, 0.2, 0.3]), np.array([1.0, 4.0, 8.0])
+    curve = dd.fit_fragility(levels, collapses, 10, im="pga")
+    collapses[:] = 0.0
+    assert curve.collapses.tolist() == [1.0, 4.0, 8.0]
+    assert curve.im == "pga"
+    for array in (curve.levels, curve.collapses, curve.histories, curve.covariance):
+        assert not array.flags.writeable

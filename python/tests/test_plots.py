@@ -232,3 +232,31 @@ def test_help_lists_the_commands(tmp_path):
     done = command("--help", folder=tmp_path)
     assert done.returncode == 0
     assert "plot" in done.stdout
+
+
+def test_plots_of_names_that_look_like_formulas(records, tmp_path):
+    wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="cost $x_{$")
+    figure = dd.plot_history(dd.simulate(wall, records[6]))[0].figure
+    figure.savefig(tmp_path / "history.png")
+
+
+def test_the_collapse_limit_is_where_it_was_set(wall, records):
+    stripes = dd.multiple_stripe(wall, records[:3], [0.1], edp_limit=0.3, progress=False)
+    assert line(dd.plot_stripes(stripes), "collapse limit").get_ydata()[0] == 0.3
+
+
+def test_results_do_not_believe_the_title(executable, root, tmp_path):
+    case = (root / "data/cases/history.nml").read_text().replace("../records", str(root / "data/records"))
+    title = "edp_limit = 0.2, gravity = 5 and scale = 3, edp = 7"
+    case = "\n".join(f"title = '{title}'" if "title =" in row else row for row in case.splitlines())
+    (tmp_path / "case.nml").write_text(case + "\n")
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
+    stored, run = dd.read_results(tmp_path / "out/history").response, dd.run_case(tmp_path / "case.nml").response
+    assert (stored.scale, stored.edp, stored.edp_limit) == (run.scale, run.edp, run.edp_limit)
+    assert stored.wall == run.wall
+    # Files of another task with the same beginning are not mixed up.
+    stripes = (root / "data/cases/parapet.nml").read_text().replace("../records", str(root / "data/records"))
+    (tmp_path / "case.nml").write_text(stripes.replace("out/parapet", "out/history"))
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
+    assert dd.read_results(tmp_path / "out/history").response is None
+    assert dd.read_results(tmp_path / "out/history").stripes is not None

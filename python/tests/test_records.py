@@ -86,3 +86,11 @@ def test_recorded_accelerograms(root):
     records = dd.read_catalogue(folder / "italy44.csv")
     assert len(records) == 44
     assert all(0.05 < record.pga < 20.0 for record in records)
+
+
+def test_channels(tmp_path):
+    (tmp_path / "x.txt").write_text("0.1\n0.2\n0.3\n")
+    (record,) = dd.read_records(tmp_path / "x.txt", dt=0.01, units="g")
+    assert dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).pga == record.pga
+    with pytest.raises(dd.InputError, match="channel = 2: must lie between 1 and 1"):
+        dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)

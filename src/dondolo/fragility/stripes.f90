@@ -143,6 +143,7 @@ contains
       total = last - first + 1
       team = threads
       if (team == 0) team = available_threads()
+      team = max(1, min(team, total))
       done = 0
       ! High levels take longest: they go first, so that no thread is left alone with them at the end.
       !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
