@@ -4,7 +4,7 @@ module dondolo_case
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_history_group, only : echo_history, find_record, history_input_type, history_variables, &
       & read_history_group
-   use dondolo_intensity, only : intensity, level_unit
+   use dondolo_intensity, only : scale_to_level
    use dondolo_job_group, only : echo_job, job_type, job_variables, read_job
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -277,11 +277,7 @@ contains
       !> The factor; 0 for a record without motion
       real(wp) :: scale
 
-      real(wp) :: value
-
-      scale = 0.0_wp
-      value = intensity(self%records(record), self%stripes%im)
-      if (value > 0.0_wp) scale = level*level_unit(self%stripes%im, self%solver%gravity)/value
+      scale = scale_to_level(self%records(record), self%stripes%im, level, self%solver%gravity)
    end function scale_to
 
    !> Factor on the record of the time history, with the sign of its polarity

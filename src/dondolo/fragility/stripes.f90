@@ -5,7 +5,7 @@
 module dondolo_stripes
    use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use dondolo_error, only : error_type, raise_input
-   use dondolo_intensity, only : intensity, level_unit, check_im
+   use dondolo_intensity, only : check_im, scale_to_level
    use dondolo_kinds, only : wp
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type
@@ -203,16 +203,15 @@ contains
       !> A record scaled beyond all measure
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: value
-      integer :: i, highest
+      integer :: i, j, highest
 
       highest = size(stripes%levels)
-      allocate(stripes%scale(size(stripes%record), highest), source=0.0_wp)
+      allocate(stripes%scale(size(stripes%record), highest))
       do i = 1, size(stripes%record)
          associate (record => records(stripes%record(i)))
-            value = intensity(record, stripes%im)
-            if (.not. value > 0.0_wp) cycle
-            stripes%scale(i, :) = stripes%levels*level_unit(stripes%im, gravity)/value
+            do j = 1, highest
+               stripes%scale(i, j) = scale_to_level(record, stripes%im, stripes%levels(j), gravity)
+            end do
             if (stripes%scale(i, highest)*record%pga() <= largest_acceleration) cycle
             call raise_input(error, 'levels = '//to_text(stripes%levels(highest))//': scales record '// &
                & record%name//' beyond '//to_text(largest_acceleration)//' m/s2')

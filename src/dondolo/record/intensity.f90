@@ -7,7 +7,7 @@ module dondolo_intensity
    implicit none
    private
 
-   public :: im_names, check_im, intensity, level_unit
+   public :: im_names, check_im, intensity, level_unit, scale_to_level
 
    !> Names of the intensity measures
    character(len=3), parameter :: im_names(1) = ['pga']
@@ -56,5 +56,25 @@ contains
          unit = gravity
       end select
    end function level_unit
+
+   !> Factor that scales a record to a level of an intensity measure
+   pure function scale_to_level(record, im, level, gravity) result(scale)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Name of the measure, one of im_names
+      character(len=*), intent(in) :: im
+      !> Level, in g for accelerations
+      real(wp), intent(in) :: level
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> The factor; 0 for a record without motion
+      real(wp) :: scale
+
+      real(wp) :: value
+
+      scale = 0.0_wp
+      value = intensity(record, im)
+      if (value > 0.0_wp) scale = level*level_unit(im, gravity)/value
+   end function scale_to_level
 
 end module dondolo_intensity
