@@ -5,7 +5,7 @@ program test_recorded
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : dp, wp
+   use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
    use dondolo_solver, only : solver_type
    use dondolo_stripes, only : multiple_stripe, stripes_type
@@ -99,7 +99,7 @@ contains
             call check_close(response%time_of_peak, reference%time, 0.0_wp, 'time of the peak', 1.0e-6_wp)
          end associate
       end do
-      call fit_fragility(curve, levels, real(collapses, dp), spread(44.0_dp, 1, 20), error)
+      call fit_fragility(curve, levels, real(collapses, wp), spread(44.0_wp, 1, 20), error)
       call check_text(curve%status, 'ok', 'status of the fit')
 
       solver%rtol = 1.0e-10_wp

@@ -1,10 +1,10 @@
-!> Explicit interfaces of the LAPACK routines in use; always double precision.
+!> Symmetric positive definite systems by LAPACK, which works in double precision whatever `wp` is.
 module dondolo_lapack
-   use dondolo_kinds, only : dp
+   use dondolo_kinds, only : dp, wp
    implicit none
    private
 
-   public :: dpotrf, dpotri, dpotrs
+   public :: solve_symmetric, invert_symmetric
 
    interface
 
@@ -22,21 +22,6 @@ module dondolo_lapack
          !> 0: done; > 0: not positive definite
          integer, intent(out) :: info
       end subroutine dpotrf
-
-      !> Inverse from the Cholesky factor
-      pure subroutine dpotri(uplo, n, a, lda, info)
-         import :: dp
-         !> 'U': the upper triangle is given
-         character(len=1), intent(in) :: uplo
-         !> Order
-         integer, intent(in) :: n
-         !> Leading dimension
-         integer, intent(in) :: lda
-         !> In: the factor; out: the upper triangle of the inverse
-         real(dp), intent(inout) :: a(lda, *)
-         !> 0: done
-         integer, intent(out) :: info
-      end subroutine dpotri
 
       !> Solution of linear equations from the Cholesky factor
       pure subroutine dpotrs(uplo, n, nrhs, a, lda, b, ldb, info)
@@ -58,5 +43,54 @@ module dondolo_lapack
       end subroutine dpotrs
 
    end interface
+
+contains
+
+   !> Solve A x = b
+   pure subroutine solve_symmetric(matrix, vector, solution, ok)
+      !> A, symmetric
+      real(wp), intent(in) :: matrix(:, :)
+      !> b
+      real(wp), intent(in) :: vector(:)
+      !> x
+      real(wp), intent(out) :: solution(:)
+      !> False: the matrix is not positive definite
+      logical, intent(out) :: ok
+
+      real(dp) :: factor(size(vector), size(vector)), x(size(vector), 1)
+      integer :: n, info
+
+      n = size(vector)
+      factor = real(matrix, dp)
+      x(:, 1) = real(vector, dp)
+      call dpotrf('U', n, factor, n, info)
+      ok = info == 0
+      if (ok) call dpotrs('U', n, 1, factor, n, x, n, info)
+      solution = real(x(:, 1), wp)
+   end subroutine solve_symmetric
+
+   !> Inverse of a matrix
+   pure subroutine invert_symmetric(matrix, inverse, ok)
+      !> The matrix, symmetric
+      real(wp), intent(in) :: matrix(:, :)
+      !> Its inverse
+      real(wp), intent(out) :: inverse(:, :)
+      !> False: the matrix is not positive definite
+      logical, intent(out) :: ok
+
+      real(dp) :: factor(size(matrix, 1), size(matrix, 1)), columns(size(matrix, 1), size(matrix, 1))
+      integer :: i, n, info
+
+      n = size(matrix, 1)
+      factor = real(matrix, dp)
+      columns = 0.0_dp
+      do i = 1, n
+         columns(i, i) = 1.0_dp
+      end do
+      call dpotrf('U', n, factor, n, info)
+      ok = info == 0
+      if (ok) call dpotrs('U', n, n, factor, n, columns, n, info)
+      inverse = real(columns, wp)
+   end subroutine invert_symmetric
 
 end module dondolo_lapack

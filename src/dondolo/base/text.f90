@@ -80,19 +80,21 @@ contains
       text = trim(buffer)
    end function integer_to_text
 
-   !> A number as it stands in result tables: 17 significant digits, which read back exactly
+   !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
       !> Number
       real(wp), intent(in) :: value
-      !> Its text, e.g. 1.2500000000000000E+00 (three exponent digits only where needed)
+      !> Its text, e.g. 1.2500000000000000E+00 (more exponent digits only where needed)
       character(len=:), allocatable :: text
 
+      character(len=11), parameter :: short = merge('(es24.16e2)', '(es43.35e2)', precision(value) < 18)
+      character(len=11), parameter :: long = merge('(es25.16e3)', '(es46.35e4)', precision(value) < 18)
       character(len=48) :: buffer
 
       if (value == 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)) then
-         write (buffer, '(es24.16e2)') value
+         write (buffer, short) value
       else
-         write (buffer, '(es25.16e3)') value
+         write (buffer, long) value
       end if
       text = trim(adjustl(buffer))
    end function to_table

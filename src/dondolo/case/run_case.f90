@@ -3,7 +3,7 @@ module dondolo_run_case
    use dondolo_case, only : case_type
    use dondolo_error, only : add_place, error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : dp, wp
+   use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
@@ -121,8 +121,8 @@ contains
       do i = 1, size(mechanisms)
          mechanisms(i) = case%population%walls(i)%input%mechanism
       end do
-      call combine_population(results%typologies, mechanisms, real(case%stripes%levels, dp), results%collapses, &
-         & results%histories, results%fragility, real(case%population%weight, dp), error)
+      call combine_population(results%typologies, mechanisms, case%stripes%levels, results%collapses, &
+         & results%histories, results%fragility, case%population%weight, error)
       if (allocated(error)) return
       call warn_of_records(case%records, results%warnings)
       call scales%warn(results%warnings)
@@ -167,8 +167,8 @@ contains
       if (.not. allocated(error)) then
          results%collapses(:, wall) = stripes%collapses()
          histories = real(results%histories(wall), wp)
-         call fit_fragility(results%fragility(wall), real(case%stripes%levels, dp), &
-            & real(results%collapses(:, wall), dp), real(histories, dp), error)
+         call fit_fragility(results%fragility(wall), case%stripes%levels, &
+            & real(results%collapses(:, wall), wp), histories, error)
       end if
       call add_place(error, 'wall '''//case%population%walls(wall)%input%name//'''')
    end subroutine run_wall

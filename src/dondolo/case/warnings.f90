@@ -1,7 +1,7 @@
 !> What a user should know of results that are correct but may mislead.
 module dondolo_warnings
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : dp, wp
+   use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
@@ -168,13 +168,13 @@ contains
    !> Where a bracket lies: between two levels, or above or below one
    pure function between(bracket) result(text)
       !> Levels; 0 or huge where the side is open
-      real(dp), intent(in) :: bracket(2)
+      real(wp), intent(in) :: bracket(2)
       !> Its text
       character(len=:), allocatable :: text
 
       if (bracket(2) >= huge(bracket)) then
          text = 'above '//to_text(bracket(1))
-      else if (.not. bracket(1) > 0.0_dp) then
+      else if (.not. bracket(1) > 0.0_wp) then
          text = 'below '//to_text(bracket(2))
       else
          text = 'between '//to_text(bracket(1))//' and '//to_text(bracket(2))

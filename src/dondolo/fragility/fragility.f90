@@ -7,8 +7,8 @@
 !> (docs/theory.md, section 6).
 module dondolo_fragility
    use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_kinds, only : dp
-   use dondolo_lapack, only : dpotrf, dpotri, dpotrs
+   use dondolo_kinds, only : wp
+   use dondolo_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_text, only : to_text
    implicit none
    private
@@ -25,15 +25,15 @@ module dondolo_fragility
       !> One of status_names; 'extrapolated' is a theta outside the levels
       character(len=12) :: status = 'no_collapse'
       !> Median, in the unit of the levels
-      real(dp) :: theta = 0.0_dp
+      real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
-      real(dp) :: beta = 0.0_dp
+      real(wp) :: beta = 0.0_wp
       !> Covariance of ln theta and beta, from the Fisher information
-      real(dp) :: covariance(2, 2) = 0.0_dp
+      real(wp) :: covariance(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included
-      real(dp) :: log_likelihood = 0.0_dp
+      real(wp) :: log_likelihood = 0.0_wp
       !> Levels between which half of the histories begin to collapse; 0 or huge where the side is open
-      real(dp) :: bracket(2) = [0.0_dp, huge(0.0_dp)]
+      real(wp) :: bracket(2) = [0.0_wp, huge(0.0_wp)]
    contains
       !> Is there a curve?
       procedure :: has_fit
@@ -45,8 +45,8 @@ module dondolo_fragility
       procedure :: probability
    end type fragility_type
 
-   real(dp), parameter :: root_half = sqrt(0.5_dp), ln_2 = log(2.0_dp)
-   real(dp), parameter :: root_2_over_pi = sqrt(2.0_dp/acos(-1.0_dp))
+   real(wp), parameter :: root_half = sqrt(0.5_wp), ln_2 = log(2.0_wp)
+   real(wp), parameter :: root_2_over_pi = sqrt(2.0_wp/acos(-1.0_wp))
 
 contains
 
@@ -55,17 +55,17 @@ contains
       !> The curve
       type(fragility_type), intent(out) :: fragility
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses at each level; need not be whole numbers (weighted counts)
-      real(dp), intent(in) :: collapses(:)
+      real(wp), intent(in) :: collapses(:)
       !> Histories at each level
-      real(dp), intent(in) :: histories(:)
+      real(wp), intent(in) :: histories(:)
       !> Counts that cannot be
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: x(size(levels)), b(2), information(2, 2), jacobian(2, 2)
-      real(dp) :: centre, spread
-      integer :: stat
+      real(wp) :: x(size(levels)), b(2), information(2, 2), covariance(2, 2), jacobian(2, 2)
+      real(wp) :: centre, spread
+      logical :: ok
 
       call check_counts(levels, collapses, histories, error)
       if (allocated(error)) return
@@ -78,8 +78,9 @@ contains
       centre = sum(histories*x)/sum(histories)
       spread = sqrt(sum(histories*(x - centre)**2)/sum(histories))
       x = (x - centre)/spread
-      call maximise(x, collapses, histories, b, information, stat)
-      if (stat /= 0) then
+      call maximise(x, collapses, histories, b, information, ok)
+      if (ok) call invert_symmetric(information, covariance, ok)
+      if (.not. ok) then
          call raise_failure(error, 'the fit of the fragility curve did not converge')
          return
       end if
@@ -88,41 +89,38 @@ contains
       fragility%theta = exp(centre - fragility%beta*b(1))
       if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = 'extrapolated'
       fragility%log_likelihood = log_likelihood(b, x, collapses, histories) &
-         & + sum(log_gamma(histories + 1.0_dp) - log_gamma(collapses + 1.0_dp) &
-         & - log_gamma(histories - collapses + 1.0_dp))
+         & + sum(log_gamma(histories + 1.0_wp) - log_gamma(collapses + 1.0_wp) &
+         & - log_gamma(histories - collapses + 1.0_wp))
 
-      ! Covariance of b by inversion of the information, then of (ln theta, beta) by the delta method
-      call dpotrf('U', 2, information, 2, stat)
-      if (stat == 0) call dpotri('U', 2, information, 2, stat)
-      information(2, 1) = information(1, 2)
+      ! The covariance of b is the inverse of its information; that of (ln theta, beta) follows by the delta method.
       jacobian(1, :) = [-spread/b(2), spread*b(1)/b(2)**2]
-      jacobian(2, :) = [0.0_dp, -spread/b(2)**2]
-      fragility%covariance = matmul(jacobian, matmul(information, transpose(jacobian)))
+      jacobian(2, :) = [0.0_wp, -spread/b(2)**2]
+      fragility%covariance = matmul(jacobian, matmul(covariance, transpose(jacobian)))
    end subroutine fit_fragility
 
    !> Newton's method with halved steps on the concave log likelihood
-   subroutine maximise(x, z, n, b, information, stat)
+   subroutine maximise(x, z, n, b, information, ok)
       !> Predictor
-      real(dp), intent(in) :: x(:)
+      real(wp), intent(in) :: x(:)
       !> Collapses
-      real(dp), intent(in) :: z(:)
+      real(wp), intent(in) :: z(:)
       !> Histories
-      real(dp), intent(in) :: n(:)
+      real(wp), intent(in) :: n(:)
       !> Intercept and slope at the maximum
-      real(dp), intent(out) :: b(2)
+      real(wp), intent(out) :: b(2)
       !> Fisher information of b there
-      real(dp), intent(out) :: information(2, 2)
-      !> 0: converged
-      integer, intent(out) :: stat
+      real(wp), intent(out) :: information(2, 2)
+      !> Has it converged?
+      logical, intent(out) :: ok
 
       integer, parameter :: most_steps = 200, most_halvings = 60
       ! Newton's method doubles its digits: a step of this size leaves no error.
-      real(dp), parameter :: rounding = 1.0e-12_dp
-      real(dp) :: gradient(2), hessian(2, 2), change(2), height, trial_height
-      real(dp), dimension(size(x)) :: eta, up, down, weight
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      real(wp) :: gradient(2), hessian(2, 2), change(2), height, trial_height
+      real(wp), dimension(size(x)) :: eta, up, down, weight
       integer :: i, k
 
-      b = 0.0_dp
+      b = 0.0_wp
       height = log_likelihood(b, x, z, n)
       do i = 1, most_steps
          eta = b(1) + b(2)*x
@@ -132,21 +130,19 @@ contains
          gradient = [sum(weight), sum(weight*x)]
          weight = z*up*(up + eta) + (n - z)*down*(down - eta)
          hessian = outer(weight, x)
-         call dpotrf('U', 2, hessian, 2, stat)
-         if (stat /= 0) return
-         change = gradient
-         call dpotrs('U', 2, 1, hessian, 2, change, 2, stat)
+         call solve_symmetric(hessian, gradient, change, ok)
+         if (.not. ok) return
          do k = 1, most_halvings
             trial_height = log_likelihood(b + change, x, z, n)
             ! At the top the likelihood is flat to rounding, and Newton's step is right.
             if (trial_height >= height - rounding*abs(height)) exit
-            change = 0.5_dp*change
+            change = 0.5_wp*change
          end do
          b = b + change
          height = trial_height
          if (maxval(abs(change)) <= rounding*maxval(abs(b))) exit
       end do
-      if (i > most_steps) stat = 1
+      ok = i <= most_steps
       eta = b(1) + b(2)*x
       ! phi^2/(P (1 - P)) is the product of the two Mills ratios.
       information = outer(n*mills(eta)*mills(-eta), x)
@@ -155,11 +151,11 @@ contains
    !> Sum over the levels of weight (1, x)(1, x)^T
    pure function outer(weight, x) result(matrix)
       !> Weights
-      real(dp), intent(in) :: weight(:)
+      real(wp), intent(in) :: weight(:)
       !> Predictor
-      real(dp), intent(in) :: x(:)
+      real(wp), intent(in) :: x(:)
       !> The sum
-      real(dp) :: matrix(2, 2)
+      real(wp) :: matrix(2, 2)
 
       matrix(1, 1) = sum(weight)
       matrix(1, 2) = sum(weight*x)
@@ -170,15 +166,15 @@ contains
    !> Log likelihood without the binomial coefficients
    pure function log_likelihood(b, x, z, n) result(height)
       !> Intercept and slope
-      real(dp), intent(in) :: b(2)
+      real(wp), intent(in) :: b(2)
       !> Predictor
-      real(dp), intent(in) :: x(:)
+      real(wp), intent(in) :: x(:)
       !> Collapses
-      real(dp), intent(in) :: z(:)
+      real(wp), intent(in) :: z(:)
       !> Histories
-      real(dp), intent(in) :: n(:)
+      real(wp), intent(in) :: n(:)
       !> sum z ln P + (n - z) ln(1 - P)
-      real(dp) :: height
+      real(wp) :: height
 
       height = sum(z*log_normal_cdf(b(1) + b(2)*x) + (n - z)*log_normal_cdf(-b(1) - b(2)*x))
    end function log_likelihood
@@ -186,22 +182,22 @@ contains
    !> Standard normal distribution function
    elemental function normal_cdf(t) result(p)
       !> Argument
-      real(dp), intent(in) :: t
+      real(wp), intent(in) :: t
       !> Phi(t)
-      real(dp) :: p
+      real(wp) :: p
 
-      p = 0.5_dp*erfc(-t*root_half)
+      p = 0.5_wp*erfc(-t*root_half)
    end function normal_cdf
 
    !> ln Phi(t), accurate in both tails
    elemental function log_normal_cdf(t) result(lnp)
       !> Argument
-      real(dp), intent(in) :: t
+      real(wp), intent(in) :: t
       !> ln Phi(t)
-      real(dp) :: lnp
+      real(wp) :: lnp
 
-      if (t < 0.0_dp) then
-         lnp = log(erfc_scaled(-t*root_half)) - 0.5_dp*t**2 - ln_2
+      if (t < 0.0_wp) then
+         lnp = log(erfc_scaled(-t*root_half)) - 0.5_wp*t**2 - ln_2
       else
          lnp = log(normal_cdf(t))
       end if
@@ -210,46 +206,46 @@ contains
    !> Inverse Mills ratio phi(t)/(1 - Phi(t)), accurate in both tails
    elemental function mills(t) result(ratio)
       !> Argument
-      real(dp), intent(in) :: t
+      real(wp), intent(in) :: t
       !> The ratio
-      real(dp) :: ratio
+      real(wp) :: ratio
 
-      if (t > -5.0_dp) then
+      if (t > -5.0_wp) then
          ratio = root_2_over_pi/erfc_scaled(t*root_half)
       else
          ! erfc_scaled overflows far to the left, where 1 - Phi is 1 to rounding.
-         ratio = 0.5_dp*root_2_over_pi*exp(-0.5_dp*t**2)/normal_cdf(-t)
+         ratio = 0.5_wp*root_2_over_pi*exp(-0.5_wp*t**2)/normal_cdf(-t)
       end if
    end function mills
 
    !> 'ok' if the likelihood has a finite maximum with b1 > 0, else why not
    pure function status_without_fit(levels, z, n) result(status)
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses
-      real(dp), intent(in) :: z(:)
+      real(wp), intent(in) :: z(:)
       !> Histories
-      real(dp), intent(in) :: n(:)
+      real(wp), intent(in) :: n(:)
       !> The status
       character(len=12) :: status
 
-      real(dp) :: score, x(size(levels))
+      real(wp) :: score, x(size(levels))
       logical :: counted(size(levels))
 
-      counted = n > 0.0_dp
+      counted = n > 0.0_wp
       x = log(levels)
       ! Derivative of the likelihood with respect to the slope where the slope is zero: it has the sign of b1.
       score = sum((x - sum(n*x)/sum(n))*(z - n*sum(z)/sum(n)))
       status = 'ok'
-      if (.not. any(z > 0.0_dp)) then
+      if (.not. any(z > 0.0_wp)) then
          status = 'no_collapse'
       else if (.not. any(z < n)) then
          status = 'all_collapse'
       else if (minval(levels, counted) == maxval(levels, counted)) then
          status = 'single_level'
-      else if (score <= 16.0_dp*epsilon(score)*sum(n)) then
+      else if (score <= 16.0_wp*epsilon(score)*sum(n)) then
          status = 'decreasing'
-      else if (minval(levels, z > 0.0_dp) >= maxval(levels, z < n)) then
+      else if (minval(levels, z > 0.0_wp) >= maxval(levels, z < n)) then
          status = 'separated'
       end if
    end function status_without_fit
@@ -259,28 +255,28 @@ contains
       !> The curve
       type(fragility_type), intent(inout) :: fragility
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses
-      real(dp), intent(in) :: z(:)
+      real(wp), intent(in) :: z(:)
       !> Histories
-      real(dp), intent(in) :: n(:)
+      real(wp), intent(in) :: n(:)
 
       logical :: above(size(levels))
 
-      above = 2.0_dp*z >= n .and. n > 0.0_dp
+      above = 2.0_wp*z >= n .and. n > 0.0_wp
       if (any(above)) fragility%bracket(2) = minval(levels, above)
-      above = above .or. n <= 0.0_dp
+      above = above .or. n <= 0.0_wp
       if (.not. all(above)) fragility%bracket(1) = maxval(levels, .not. above)
    end subroutine set_bracket
 
    !> Check levels and counts
    subroutine check_counts(levels, z, n, error)
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses
-      real(dp), intent(in) :: z(:)
+      real(wp), intent(in) :: z(:)
       !> Histories
-      real(dp), intent(in) :: n(:)
+      real(wp), intent(in) :: n(:)
       !> The first thing that is wrong
       type(error_type), allocatable, intent(out) :: error
 
@@ -296,21 +292,21 @@ contains
          return
       end if
       do i = 1, size(levels)
-         if (.not. (levels(i) > 0.0_dp .and. levels(i) <= huge(levels))) then
+         if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
             call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
             return
          end if
-         if (.not. (n(i) >= 0.0_dp .and. n(i) <= huge(n))) then
+         if (.not. (n(i) >= 0.0_wp .and. n(i) <= huge(n))) then
             call raise_input(error, 'histories = '//to_text(n(i))//': must not be negative')
             return
          end if
-         if (.not. (z(i) >= 0.0_dp .and. z(i) <= n(i))) then
+         if (.not. (z(i) >= 0.0_wp .and. z(i) <= n(i))) then
             call raise_input(error, 'collapses = '//to_text(z(i))//': must lie between 0 and the histories, '// &
                & to_text(n(i)))
             return
          end if
       end do
-      if (.not. sum(n) > 0.0_dp) call raise_input(error, 'histories: there are none')
+      if (.not. sum(n) > 0.0_wp) call raise_input(error, 'histories: there are none')
    end subroutine check_counts
 
    !> Is there a curve?
@@ -328,7 +324,7 @@ contains
       !> The curve
       class(fragility_type), intent(in) :: self
       !> Its standard error
-      real(dp) :: se
+      real(wp) :: se
 
       se = sqrt(self%covariance(1, 1))
    end function se_ln_theta
@@ -338,7 +334,7 @@ contains
       !> The curve
       class(fragility_type), intent(in) :: self
       !> Its standard error
-      real(dp) :: se
+      real(wp) :: se
 
       se = sqrt(self%covariance(2, 2))
    end function se_beta
@@ -348,9 +344,9 @@ contains
       !> The curve; must have a fit
       class(fragility_type), intent(in) :: self
       !> Level of intensity
-      real(dp), intent(in) :: level
+      real(wp), intent(in) :: level
       !> P(C | IM = level)
-      real(dp) :: p
+      real(wp) :: p
 
       p = normal_cdf(log(level/self%theta)/self%beta)
    end function probability

@@ -5,7 +5,7 @@
 module dondolo_typology
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : dp
+   use dondolo_kinds, only : wp
    implicit none
    private
 
@@ -16,13 +16,13 @@ module dondolo_typology
       !> Mechanism of the walls, 'all' for walls of several
       character(len=:), allocatable :: mechanism
       !> Levels of intensity
-      real(dp), allocatable :: levels(:)
+      real(wp), allocatable :: levels(:)
       !> Sum of the weights of the walls
-      real(dp) :: weight = 0.0_dp
+      real(wp) :: weight = 0.0_wp
       !> Weighted mean of the walls' fractions of collapse at each level
-      real(dp), allocatable :: mean_fraction(:)
+      real(wp), allocatable :: mean_fraction(:)
       !> Weighted mean of the walls' curves at each level
-      real(dp), allocatable :: mean_curve(:)
+      real(wp), allocatable :: mean_curve(:)
       !> Lognormal fitted to the weighted counts; its standard errors take the walls' histories for independent
       type(fragility_type) :: fit
    end type typology_type
@@ -36,7 +36,7 @@ contains
       !> Mechanism of each wall
       character(len=*), intent(in) :: mechanisms(:)
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses (levels, walls)
       integer, intent(in) :: collapses(:, :)
       !> Histories of a stripe of each wall
@@ -44,21 +44,21 @@ contains
       !> Curve of each wall
       type(fragility_type), intent(in) :: curves(:)
       !> Weight of each wall, not negative and not all zero
-      real(dp), intent(in) :: weights(:)
+      real(wp), intent(in) :: weights(:)
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
       integer, allocatable :: walls(:), first(:)
       integer :: i
 
-      first = pack([(i, i=1, size(mechanisms))], [(weights(i) > 0.0_dp &
-         & .and. .not. any(mechanisms(:i - 1) == mechanisms(i) .and. weights(:i - 1) > 0.0_dp), i=1, size(mechanisms))])
+      first = pack([(i, i=1, size(mechanisms))], [(weights(i) > 0.0_wp &
+         & .and. .not. any(mechanisms(:i - 1) == mechanisms(i) .and. weights(:i - 1) > 0.0_wp), i=1, size(mechanisms))])
       allocate(typologies(size(first) + merge(1, 0, size(first) > 1)))
       do i = 1, size(typologies)
          if (i <= size(first)) then
             walls = positions(mechanisms == mechanisms(first(i)))
          else
-            walls = positions(weights >= 0.0_dp)
+            walls = positions(weights >= 0.0_wp)
          end if
          call combine_walls(typologies(i), levels, collapses(:, walls), histories(walls), curves(walls), &
             & weights(walls), error)
@@ -85,7 +85,7 @@ contains
       !> The curve of the population
       type(typology_type), intent(out) :: typology
       !> Levels of intensity
-      real(dp), intent(in) :: levels(:)
+      real(wp), intent(in) :: levels(:)
       !> Collapses (levels, walls)
       integer, intent(in) :: collapses(:, :)
       !> Histories of a stripe of each wall
@@ -93,27 +93,27 @@ contains
       !> Curve of each wall
       type(fragility_type), intent(in) :: curves(:)
       !> Weight of each wall, not negative and not all zero
-      real(dp), intent(in) :: weights(:)
+      real(wp), intent(in) :: weights(:)
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(dp) :: share(size(weights)), z(size(levels)), n(size(levels)), fraction(size(levels))
+      real(wp) :: share(size(weights)), z(size(levels)), n(size(levels)), fraction(size(levels))
       integer :: i
 
-      allocate(typology%mean_fraction(size(levels)), typology%mean_curve(size(levels)), source=0.0_dp)
+      allocate(typology%mean_fraction(size(levels)), typology%mean_curve(size(levels)), source=0.0_wp)
       typology%levels = levels
       typology%weight = sum(weights)
       share = weights/typology%weight
-      z = 0.0_dp
-      n = 0.0_dp
+      z = 0.0_wp
+      n = 0.0_wp
       do i = 1, size(weights)
-         fraction = real(collapses(:, i), dp)/real(histories(i), dp)
+         fraction = real(collapses(:, i), wp)/real(histories(i), wp)
          typology%mean_fraction = typology%mean_fraction + share(i)*fraction
          if (curves(i)%has_fit()) fraction = curves(i)%probability(levels)
          typology%mean_curve = typology%mean_curve + share(i)*fraction
          ! Weights of mean 1, so that the counts of the population are those of its walls together.
-         z = z + share(i)*real(size(weights)*collapses(:, i), dp)
-         n = n + share(i)*real(size(weights)*histories(i), dp)
+         z = z + share(i)*real(size(weights)*collapses(:, i), wp)
+         n = n + share(i)*real(size(weights)*histories(i), wp)
       end do
       ! Rounding must not leave more collapses than histories.
       call fit_fragility(typology%fit, levels, min(z, n), n, error)

@@ -1,0 +1,56 @@
+"""The histories that accuracy is judged on: three walls, two sets of accelerograms, and how to run them."""
+
+import csv
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLES = ROOT / "test" / "reference"
+
+WALLS = {
+    "one_sided": "mechanism = 'one_sided' height = 3.0 thickness = 0.25",
+    "two_block": "mechanism = 'two_block' height = 3.0 thickness = 0.25 hinge = 0.6 restitution_factor = 0.87",
+    "free_standing": "mechanism = 'free_standing' height = 2.0 thickness = 0.5",
+}
+
+
+@dataclass(frozen=True)
+class Motions:
+    """A set of accelerograms and the levels of peak ground acceleration, in g, that they are scaled to."""
+
+    catalogue: Path
+    stripes: str
+
+
+def motions(records):
+    """The sets that are here: synthetic ones are part of dondolo, recorded ones lie in a folder of the user's."""
+    sets = {"synthetic": Motions(ROOT / "data" / "records" / "synthetic44.csv", "first = 0.1 last = 1.0 count = 10")}
+    if (Path(records) / "italy44.csv").is_file():
+        recorded = Motions((Path(records) / "italy44.csv").resolve(), "first = 0.05 last = 1.0 count = 20")
+        sets = {"recorded": recorded} | sets
+    return sets
+
+
+def run(executable, wall, motions, rtol, threads=1, solver=""):
+    """Run all histories of a wall; the rows of the tables of histories, stripes and fit, and what was printed."""
+    with tempfile.TemporaryDirectory() as folder:
+        case = Path(folder) / "case.nml"
+        case.write_text(
+            f"&job task = 'stripes' output = '{folder}/result' threads = {threads} /\n"
+            f"&wall {WALLS[wall]} /\n"
+            f"&records catalogue = '{motions.catalogue}' /\n"
+            f"&stripes {motions.stripes} /\n"
+            f"&solver rtol = {rtol} atol = {rtol / 100.0} {solver} /\n",
+            encoding="utf-8",
+        )
+        printed = subprocess.run([executable, case], check=True, capture_output=True, text=True).stdout
+        names = ("histories", "stripes", "fragility")
+        return {name: read_table(f"{folder}/result_{name}.csv") for name in names} | {"printed": printed}
+
+
+def read_table(path):
+    """Rows of one of dondolo's tables."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
