@@ -134,18 +134,19 @@ contains
    end function pack_lines
 
    !> Settings of the computation
-   pure function as_solver(engine, tolerances) result(solver)
+   pure function as_solver(engine, settings) result(solver)
       !> Engine
       character(len=*), intent(in) :: engine
-      !> rtol, atol, edp_limit
-      real(c_double), intent(in) :: tolerances(3)
+      !> rtol, atol, edp_limit, and 1 where errors are to be estimated, else 0
+      real(c_double), intent(in) :: settings(4)
       !> The settings
       type(solver_type) :: solver
 
       solver%engine = engine
-      solver%rtol = tolerances(1)
-      solver%atol = tolerances(2)
-      solver%edp_limit = tolerances(3)
+      solver%rtol = settings(1)
+      solver%atol = settings(2)
+      solver%edp_limit = settings(3)
+      solver%estimate_error = settings(4) > 0.0_c_double
    end function as_solver
 
    !> Check a number of threads
@@ -329,7 +330,7 @@ contains
    end subroutine pack_records
 
    !> A response as flat numbers
-   elemental subroutine pack_response(response, edp, collapsed, impacts, time_of_peak)
+   elemental subroutine pack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       !> The response
       type(response_type), intent(in) :: response
       !> Largest rotation / capacity
@@ -340,11 +341,14 @@ contains
       integer(c_int), intent(out) :: impacts
       !> Time of the peak [s]
       real(c_double), intent(out) :: time_of_peak
+      !> Estimated error of the EDP, 0 where it was not asked for
+      real(c_double), intent(out) :: edp_error
 
       edp = response%edp
       collapsed = merge(1, 0, response%collapsed)
       impacts = response%impacts
       time_of_peak = response%time_of_peak
+      edp_error = response%edp_error
    end subroutine pack_response
 
    !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket
