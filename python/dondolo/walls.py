@@ -134,7 +134,7 @@ class Wall:
         >>> wall = TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
         >>> terms = wall.terms([0.0, 0.05])
         >>> terms.excitation_lever.round(3).tolist()
-        [1215.0, 1221.85]
+        [1215.0, 1221.916]
         """
         return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
 

@@ -84,7 +84,7 @@ class Constraints:
         return matrix
 
     def convective(self, z: np.ndarray, v: np.ndarray) -> np.ndarray:
-        """gamma = -A' z'."""
+        """The right side gamma = -A' z'."""
         return -self.jacobian(z + 1j * STEP * v).imag @ v / STEP
 
 
@@ -151,13 +151,13 @@ class Bodies:
         return force
 
     def accelerations(self, z: np.ndarray, v: np.ndarray, side: int, ground: float) -> np.ndarray:
-        """z'' of the constrained bodies in the frame of the ground."""
+        """Accelerations z'' of the constrained bodies in the frame of the ground."""
         held = self.sides[side]
         force = self.weights() + self.load_forces(z, side) + ground * self.push()
         return saddle(self.mass, held.jacobian(z), force, held.convective(z, v))
 
     def tangent(self, z: np.ndarray, side: int) -> np.ndarray:
-        """z' where q' = 1: the velocities that the hinges allow."""
+        """Velocities z' where q' = 1: those that the hinges allow."""
         matrix, right = self._with_rotation(z, side)
         right[-1] = -side
         return np.linalg.solve(matrix, right)
@@ -203,7 +203,7 @@ class Bodies:
         )
 
     def rotation_acceleration(self, z: np.ndarray, v: np.ndarray, side: int, ground: float) -> float:
-        """q'' of the constrained bodies."""
+        """Acceleration q'' of the constrained bodies."""
         return -side * self.accelerations(z, v, side, ground)[2]
 
     def trigger(self) -> float:
@@ -226,7 +226,7 @@ class Bodies:
 
 
 def saddle(mass: np.ndarray, jacobian: np.ndarray, top: np.ndarray, bottom: np.ndarray) -> np.ndarray:
-    """z of [M -A^T; A 0] [z; lambda] = [top; bottom]."""
+    """Upper part z of the solution of [M -A^T; A 0] [z; lambda] = [top; bottom]."""
     n, m = len(mass), len(jacobian)
     matrix = np.zeros((n + m, n + m))
     matrix[:n, :n] = np.diag(mass)
@@ -277,11 +277,11 @@ def impulse(bodies: Bodies, v: np.ndarray, side: int) -> tuple[np.ndarray, int]:
 
 
 def base_balance(bodies: Bodies, v: np.ndarray, side: int) -> tuple[np.ndarray, int]:
-    """All hinges jump to the other face, and the angular momentum about the new base hinge is the same before and after.
+    """All hinges jump to the other face; the angular momentum about the new base hinge is the same before and after.
 
-    The moment of momentum of both blocks about that point: sum of I theta' + M (r x v). Of all impulses only that of the
-    top support has a moment about it (those of the hinge in between cancel), and here it is left out. (It has no place
-    among five impulses: with the hinges' kinematics, of which the top support is one, four are too few.)
+    It is the sum over both blocks of I theta' + M (r x v), with r from that hinge to the centroid. Of the impulses at
+    the new hinges only the top support's has a moment about it (those in between cancel): it is left out, and so this is
+    not the impact of the bodies. Their velocities keep to all five hinges, which takes five impulses.
     """
     held = bodies.sides[-side]
     pole = np.array([-side * bodies.sizes[0][0], 0.0])
@@ -376,7 +376,7 @@ class _Motion:
             time = self.rock(time, dt) if self.moving else self.wait(time, dt)
 
     def upright_acceleration(self, side: int, time: float) -> float:
-        """q'' of the upright wall, negative where the wall is held inwards."""
+        """Acceleration q'' of the upright wall, negative where the wall is held inwards."""
         still, ground = np.zeros_like(self.v), self.ground + self.slope * time
         return self.bodies.rotation_acceleration(self.bodies.upright, still, side, ground)
 
