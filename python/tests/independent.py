@@ -280,8 +280,8 @@ def base_balance(bodies: Bodies, v: np.ndarray, side: int) -> tuple[np.ndarray, 
     """All hinges jump to the other face; the angular momentum about the new base hinge is the same before and after.
 
     It is the sum over both blocks of I theta' + M (r x v), with r from that hinge to the centroid. Of the impulses at
-    the new hinges only the top support's has a moment about it (those in between cancel): it is left out, and so this is
-    not the impact of the bodies. Their velocities keep to all five hinges, which takes five impulses.
+    the new hinges only the top support's has a moment about it (those in between cancel): it is left out, and so this
+    is not the impact of the bodies. Their velocities keep to all five hinges, which takes five impulses.
     """
     held = bodies.sides[-side]
     pole = np.array([-side * bodies.sizes[0][0], 0.0])
