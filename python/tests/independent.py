@@ -23,7 +23,7 @@ from scipy.optimize import brentq
 # Complex step: derivatives without a difference, exact to rounding
 STEP = 1e-30
 
-X, Y = (0,), (1,)
+X = (0,)
 BOTH = (0, 1)
 
 
