@@ -233,6 +233,17 @@ def describe_wall(
     return FlatWall(texts, values, given, pull), data
 
 
+def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
+    """J, C, G, L, Q and V of a wall, one row each, in the shape of the rotations."""
+    try:
+        values, shape = np.ravel(rotation), np.shape(rotation)
+    except ValueError:
+        raise InputError("rotation: must be numbers") from None
+    terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
+    check(stat, message)
+    return terms.T.reshape(6, *shape)
+
+
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
     walls = []

@@ -7,6 +7,7 @@ module dondolo_boundary
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_lines, only : lines_type
+   use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_solver, only : solver_type
@@ -16,7 +17,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, line_of, pack_lines, as_solver, check_threads
+   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations
    public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -159,6 +160,27 @@ contains
       if (threads < 0 .or. threads > 4096) &
          & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
    end subroutine check_threads
+
+   !> Check that a mechanism can have rotations
+   subroutine check_rotations(mechanism, rotation, error)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotations [rad]
+      real(c_double), intent(in) :: rotation(:)
+      !> The first that is negative or beyond the geometric end
+      type(error_type), allocatable, intent(out) :: error
+
+      real(c_double) :: last
+      integer :: i
+
+      last = mechanism%geometric_end()
+      do i = 1, size(rotation)
+         if (rotation(i) >= 0.0_c_double .and. rotation(i) < last) cycle
+         call raise_input(error, 'rotation = '//to_text(rotation(i))//': must be at least 0 and less than '// &
+            & to_text(last)//', where the geometry of this wall ends')
+         return
+      end do
+   end subroutine check_rotations
 
    !> Make walls
    subroutine set_walls(walls, texts, numbers, given, gravity, error)

@@ -71,6 +71,38 @@ subroutine describe_wall(texts, numbers, given, gravity, handle, sizes, stat, me
    call report(error, stat, message)
 end subroutine describe_wall
 
+! Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
+subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_rotations, report, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: n, given(8)
+   real(c_double), intent(in) :: numbers(8), gravity, rotation(n)
+   real(c_double), intent(out) :: terms(n, 6)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(error_type), allocatable :: error
+   integer :: i
+
+   terms = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) call check_rotations(walls(1)%mechanism, rotation, error)
+   if (.not. allocated(error)) then
+      associate (mechanism => walls(1)%mechanism)
+         do i = 1, n
+            call mechanism%terms(rotation(i), terms(i, 1), terms(i, 2), terms(i, 3), terms(i, 4), terms(i, 5))
+            terms(i, 6) = mechanism%potential(rotation(i))
+         end do
+      end associate
+   end if
+   call report(error, stat, message)
+end subroutine wall_terms
+
 ! Check what a record is to be made of
 subroutine check_record(acceleration, n, dt, pga, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
