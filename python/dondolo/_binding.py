@@ -354,9 +354,7 @@ def warnings_of_errors(
     edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str, level: float
 ) -> list[str]:
     """What the executable would warn of, of estimated errors; record and level are those of the largest."""
-    return receive(
-        *_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)
-    ).lines
+    return receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)).lines
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

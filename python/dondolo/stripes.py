@@ -212,7 +212,9 @@ def multiple_stripe(
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     several = as_records(records)
-    request = new_request((wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, estimate_error)
+    request = new_request(
+        (wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, estimate_error
+    )
     plan = request.plan()
     _binding.warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)

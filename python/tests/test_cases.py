@@ -86,8 +86,11 @@ def test_estimated_errors(name, root, run, tmp_path):
     """The same numbers from the executable, from Python, and read back from the result files."""
     text = (root / f"data/cases/{name}.nml").read_text().replace("'../records", f"'{root}/data/records")
     case = tmp_path / "case.nml"
-    case.write_text(text.replace("&solver", "&solver estimate_error = .true.") if "&solver" in text
-                    else text + "&solver estimate_error = .true. /\n")
+    case.write_text(
+        text.replace("&solver", "&solver estimate_error = .true.")
+        if "&solver" in text
+        else text + "&solver estimate_error = .true. /\n"
+    )
     finished = run(case)
     assert finished.returncode == 0, finished.stderr
     assert "estimated error" in finished.stdout
