@@ -23,7 +23,7 @@ module dondolo
    use dondolo_mechanism, only : mechanism_type
    use dondolo_population, only : population_type, read_population
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_reader, only : read_record
+   use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_response, only : response_type, trace_type
    use dondolo_run_case, only : results_type, run_case
@@ -39,7 +39,7 @@ module dondolo
 
    public :: wp, dondolo_version_text, error_type
    ! Accelerograms
-   public :: record_type, new_record, read_record, read_catalogue, synthetic_record
+   public :: record_type, new_record, read_record, read_records, read_catalogue, synthetic_record
    public :: im_names, intensity, level_unit
    ! Walls
    public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type

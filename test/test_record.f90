@@ -438,9 +438,9 @@ contains
          & ': line 13: the file ends after 5 values: the header states 6')
       call check_bad_stated(dyna(step, 'NDATA: 4', units, peak, kind)//values, ': line 13: more values than the 4')
       call check_bad_stated(dyna(step, count, units, 'PGA_CM/S^2: 0.26', kind)//values, &
-         & ': line 6: PGA_CM/S^2 = 0.26: must be the largest value, 0.25')
+         & ': line 6: peak value 0.26: the largest value is 0.25')
       call check_bad_stated(dyna(step, count, 'UNITS: cm/s', peak, kind)//values, &
-         & ': line 5: units = ''cm/s'': must be one of')
+         & ': units = ''cm/s'': must be one of')
       call check_bad_stated(dyna(step, count, 'UNITS: ', peak, kind)//values, ': the file does not state its units')
       call check_bad_stated(dyna(step, count, units, peak, kind)//'0.1'//lf//'nan'//lf, &
          & ': line 10: value 2 = ''nan''')
@@ -501,7 +501,7 @@ contains
    subroutine test_unknown()
       call suite('unknown')
       call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, &
-         & ': the format is not known: must be one of PEER AT2, ITACA/ESM DYNA, one column')
+         & ': the format is not known: must be one of ''peer'', ''dyna'', ''')
       call check_bad_file('title'//lf//'3 0.01'//lf//'1'//lf//'2'//lf//'3'//lf, ': the format is not known')
       call check_bad_file('words'//lf//'and more'//lf//'words'//lf, ': the format is not known')
       call check_bad_file('# remark'//lf, ': the format is not known')

@@ -4,7 +4,7 @@ module dondolo_text
    implicit none
    private
 
-   public :: to_text, to_table, lower, join
+   public :: to_text, to_table, lower, join, first_word
 
    !> Shortest readable text of a number, for messages
    interface to_text
@@ -129,5 +129,24 @@ contains
          text = text//''''//trim(words(i))//''''
       end do
    end function join
+
+   !> First word of a text
+   pure function first_word(text, separators) result(word)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Characters that separate words
+      character(len=*), intent(in) :: separators
+      !> The word, empty if there is none
+      character(len=:), allocatable :: word
+
+      integer :: first, length
+
+      word = ''
+      first = verify(text, separators)
+      if (first == 0) return
+      length = scan(text(first:), separators) - 1
+      if (length < 0) length = len(text) - first + 1
+      word = text(first:first + length - 1)
+   end function first_word
 
 end module dondolo_text

@@ -1,4 +1,4 @@
-!> A catalogue of records: a CSV table with the columns file, dt_s and units, and any others.
+!> A catalogue of records: a CSV table with the columns file, dt_s, units, channel and format, and any others.
 module dondolo_catalogue
    use dondolo_csv, only : csv_table_type, read_csv
    use dondolo_error, only : add_place, error_type, raise_input
@@ -76,7 +76,8 @@ contains
          if (allocated(error)) return
       end if
       ! A dt that is not allocated is an argument that is not present
-      call read_record(path, record, error, dt, units)
+      call read_record(path, record, error, dt, units, table%get_text(row, table%column('channel')), &
+         & table%get_text(row, table%column('format')))
       call add_place(error, table%place(row))
    end subroutine read_row
 

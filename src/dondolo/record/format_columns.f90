@@ -18,7 +18,7 @@ module dondolo_format_columns
    !> The format of plain columns
    type, extends(format_type) :: columns_format_type
    contains
-      !> Name of the format, for messages
+      !> Name of the format: one word in lower case
       procedure, nopass :: name
       !> Is a text in this format?
       procedure, nopass :: recognises
@@ -34,12 +34,12 @@ module dondolo_format_columns
 
 contains
 
-   !> Name of the format, for messages
+   !> Name of the format: one word in lower case
    pure function name()
       !> Name
       character(len=:), allocatable :: name
 
-      name = 'one column (accelerations) or two (times, accelerations)'
+      name = 'columns'
    end function name
 
    !> Is a text in this format?
@@ -82,8 +82,11 @@ contains
       integer, allocatable :: time_first(:), time_last(:)
       logical :: ok
 
-      samples%units = ''
       begin = first_value_line(text)
+      if (begin > text%lines()) then
+         call raise_at(error, text, 1, 'no line of values')
+         return
+      end if
       call find_cells(text, begin, first, last, cells)
       allocate (values(text%lines() - begin + 1, cells), time_first(text%lines() - begin + 1))
       allocate (time_last(size(time_first)))
@@ -104,8 +107,10 @@ contains
          time_first(i) = first(1)
          time_last(i) = last(1)
       end do
-      samples%values = values(:, cells)
-      if (cells == 2) call check_equal_steps(text, begin, values(:, 1), time_first, time_last, samples%dt, error)
+      allocate (samples%channels(1))
+      samples%channels(1)%values = values(:, cells)
+      if (cells == 2) call check_equal_steps(text, begin, values(:, 1), time_first, time_last, samples%channels(1)%dt, &
+         & error)
    end subroutine read_columns
 
    !> First line that holds values: after comments and one line of titles

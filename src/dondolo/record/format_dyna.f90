@@ -1,12 +1,11 @@
 !> Files of the archives ITACA and ESM (DYNA 1.0 to 1.2, ITACA 1.1): lines `KEY: value`, then one value a line.
 module dondolo_format_dyna
-   use dondolo_error, only : add_place, error_type
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
    use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
    implicit none
    private
 
@@ -15,7 +14,7 @@ module dondolo_format_dyna
    !> The DYNA format
    type, extends(format_type) :: dyna_format_type
    contains
-      !> Name of the format, for messages
+      !> Name of the format: one word in lower case
       procedure, nopass :: name
       !> Is a text in this format?
       procedure, nopass :: recognises
@@ -23,20 +22,17 @@ module dondolo_format_dyna
       procedure, nopass :: read => read_dyna
    end type dyna_format_type
 
-   !> Centimetres in a metre
-   real(wp), parameter :: cm = 100.0_wp
-
-   !> Relative difference allowed between the peak and the header's
-   real(wp), parameter :: peak_tolerance = 0.01_wp
+   !> Key of the largest value, in the units it names
+   character(len=*), parameter :: peak_key = 'PGA_CM/S^2'
 
 contains
 
-   !> Name of the format, for messages
+   !> Name of the format: one word in lower case
    pure function name()
       !> Name
       character(len=:), allocatable :: name
 
-      name = 'ITACA/ESM DYNA'
+      name = 'dyna'
    end function name
 
    !> Is a text in this format?
@@ -60,25 +56,30 @@ contains
 
       real(wp) :: count
 
+      allocate (samples%channels(1))
       call check_quantity(text, error)
       if (allocated(error)) return
-      call get_number(text, 'SAMPLING_INTERVAL_S', samples%dt, error)
-      if (allocated(error)) return
-      if (.not. samples%dt > 0.0_wp) then
-         call raise_at(error, text, line_of(text, 'SAMPLING_INTERVAL_S'), 'SAMPLING_INTERVAL_S = '// &
-            & to_text(samples%dt)//': must be positive')
-         return
-      end if
-      call get_number(text, 'NDATA', count, error)
-      if (allocated(error)) return
-      if (.not. (count >= 1.0_wp .and. count <= real(huge(1), wp) .and. count == anint(count))) then
-         call raise_at(error, text, line_of(text, 'NDATA'), 'NDATA = '//to_text(count)//': must be a positive integer')
-         return
-      end if
-      samples%units = value_of(text, 'UNITS')
-      call read_block(text, header_lines(text) + 1, nint(count), samples%values, error)
-      if (allocated(error)) return
-      call check_peak(text, samples, error)
+      associate (channel => samples%channels(1))
+         call get_number(text, 'SAMPLING_INTERVAL_S', channel%dt, error)
+         if (allocated(error)) return
+         if (.not. channel%dt > 0.0_wp) then
+            call raise_at(error, text, line_of(text, 'SAMPLING_INTERVAL_S'), 'SAMPLING_INTERVAL_S = '// &
+               & to_text(channel%dt)//': must be positive')
+            return
+         end if
+         call get_number(text, 'NDATA', count, error)
+         if (allocated(error)) return
+         if (.not. (count >= 1.0_wp .and. count <= real(huge(1), wp) .and. count == anint(count))) then
+            call raise_at(error, text, line_of(text, 'NDATA'), 'NDATA = '//to_text(count)// &
+               & ': must be a positive integer')
+            return
+         end if
+         channel%units = value_of(text, 'UNITS')
+         channel%peak = value_of(text, peak_key)
+         channel%peak_units = 'cm/s2'
+         channel%peak_line = line_of(text, peak_key)
+         call read_block(text, header_lines(text) + 1, nint(count), channel%values, error)
+      end associate
    end subroutine read_dyna
 
    !> The values must be accelerations
@@ -97,33 +98,6 @@ contains
          call raise_at(error, text, line, 'DATA_TYPE = '''//value_of(text, 'DATA_TYPE')//''': must be ACCELERATION')
       end select
    end subroutine check_quantity
-
-   !> The peak must be the one the header states, if it states one
-   subroutine check_peak(text, samples, error)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> What it says
-      type(samples_type), intent(in) :: samples
-      !> The two disagree
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=*), parameter :: key = 'PGA_CM/S^2'
-      real(wp) :: factor, stated, peak
-
-      if (len(value_of(text, key)) == 0) return
-      call get_number(text, key, stated, error)
-      if (allocated(error)) return
-      if (len(samples%units) == 0) return
-      call unit_factor(samples%units, factor, error)
-      if (allocated(error)) then
-         call add_place(error, text%place(line_of(text, 'UNITS')))
-         return
-      end if
-      peak = cm*factor*maxval(abs(samples%values))
-      if (abs(peak - abs(stated)) <= peak_tolerance*abs(stated)) return
-      call raise_at(error, text, line_of(text, key), key//' = '//to_text(stated)//': must be the largest value, '// &
-         & to_text(peak))
-   end subroutine check_peak
 
    !> Read a number of the header
    subroutine get_number(text, key, value, error)

@@ -6,7 +6,7 @@ module dondolo_format_peer
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
-   use dondolo_text, only : lower
+   use dondolo_text, only : first_word, lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -16,7 +16,7 @@ module dondolo_format_peer
    !> The PEER format
    type, extends(format_type) :: peer_format_type
    contains
-      !> Name of the format, for messages
+      !> Name of the format: one word in lower case
       procedure, nopass :: name
       !> Is a text in this format?
       procedure, nopass :: recognises
@@ -32,12 +32,12 @@ module dondolo_format_peer
 
 contains
 
-   !> Name of the format, for messages
+   !> Name of the format: one word in lower case
    pure function name()
       !> Name
       character(len=:), allocatable :: name
 
-      name = 'PEER AT2'
+      name = 'peer'
    end function name
 
    !> Is a text in this format?
@@ -64,6 +64,7 @@ contains
       integer :: count, at
       logical :: ok
 
+      allocate (samples%channels(1))
       line = adjustl(lower(text%line(quantity_line)))
       if (index(line, 'acceleration') /= 1) then
          call raise_at(error, text, quantity_line, ''''//trim(text%line(quantity_line))// &
@@ -71,14 +72,14 @@ contains
          return
       end if
       at = index(line, 'in units of') + len('in units of')
-      samples%units = first_word(line(at:), ' ,.;')
-      call read_count(lower(text%line(count_line)), count, samples%dt, ok)
+      samples%channels(1)%units = first_word(line(at:), ' ,.;')
+      call read_count(lower(text%line(count_line)), count, samples%channels(1)%dt, ok)
       if (.not. ok) then
          call raise_at(error, text, count_line, ''''//trim(text%line(count_line))// &
             & ''': must be NPTS= count, DT= step SEC, both positive')
          return
       end if
-      call read_block(text, count_line + 1, count, samples%values, error)
+      call read_block(text, count_line + 1, count, samples%channels(1)%values, error)
    end subroutine read_peer
 
    !> Find count and time step in the fourth line
@@ -113,24 +114,5 @@ contains
       call parse_real(number, dt, ok)
       ok = ok .and. dt > 0.0_wp
    end subroutine read_count
-
-   !> First word of a text
-   pure function first_word(text, separators) result(word)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Characters that separate words
-      character(len=*), intent(in) :: separators
-      !> The word, empty if there is none
-      character(len=:), allocatable :: word
-
-      integer :: first, length
-
-      word = ''
-      first = verify(text, separators)
-      if (first == 0) return
-      length = scan(text(first:), separators) - 1
-      if (length < 0) length = len(text) - first + 1
-      word = text(first:first + length - 1)
-   end function first_word
 
 end module dondolo_format_peer

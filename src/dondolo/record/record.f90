@@ -5,6 +5,7 @@ module dondolo_record
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_metadata, only : metadata_type
    use dondolo_text, only : to_text
    implicit none
    private
@@ -23,6 +24,8 @@ module dondolo_record
       real(wp) :: dt = 0.0_wp
       !> Ground acceleration at times 0, dt, 2 dt, ... [m/s2]
       real(wp), allocatable :: acceleration(:)
+      !> What the header of its file says
+      type(metadata_type) :: metadata
    contains
       !> Peak ground acceleration [m/s2]
       procedure :: pga

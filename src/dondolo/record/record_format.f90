@@ -3,28 +3,48 @@
 module dondolo_record_format
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
    use dondolo_text, only : to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: format_type, samples_type, read_block, raise_at
+   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at
 
-   !> What a file says, before units are converted
-   type :: samples_type
-      !> Values, in the file's units
+   !> One channel of a file, before units are converted
+   type :: channel_type
+      !> Name: the component as the file writes it, not allocated or empty if it does not say
+      character(len=:), allocatable :: name
+      !> Accelerations, in the file's units
       real(wp), allocatable :: values(:)
       !> Time step [s], 0 if the file does not state it
       real(wp) :: dt = 0.0_wp
-      !> Units, empty if the file does not state them
+      !> Units, not allocated or empty if the file does not state them
       character(len=:), allocatable :: units
+      !> The number that the file gives as largest value, of either sign, as it is printed; not allocated or empty
+      !> if it gives none
+      character(len=:), allocatable :: peak
+      !> Units of that number, not allocated or empty if they are those of the values
+      character(len=:), allocatable :: peak_units
+      !> Line of that number
+      integer :: peak_line = 1
+      !> What the file says of this channel alone
+      type(metadata_type) :: metadata
+   end type channel_type
+
+   !> What a file says
+   type :: samples_type
+      !> Its channels, one at least
+      type(channel_type), allocatable :: channels(:)
+      !> What its header says of all channels
+      type(metadata_type) :: metadata
    end type samples_type
 
    !> A format of accelerogram files
    type, abstract :: format_type
    contains
-      !> Name of the format, for messages
+      !> Name of the format: one word in lower case
       procedure(name_of), deferred, nopass :: name
       !> Is a text in this format, judged by its content?
       procedure(recognises_text), deferred, nopass :: recognises
@@ -33,7 +53,7 @@ module dondolo_record_format
    end type format_type
 
    abstract interface
-      !> Name of the format, for messages
+      !> Name of the format: one word in lower case
       pure function name_of() result(name)
          implicit none
          !> Name
@@ -116,6 +136,60 @@ contains
       call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
          & to_text(count))
    end subroutine read_block
+
+   !> Read numbers that stand in columns of equal width, where they may touch
+   !>
+   !> Every line but the last is full; blanks at the end of a line may be missing.
+   subroutine read_fixed(text, first_line, count, width, per_line, values, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Line of the first number; the block ends (count - 1)/per_line lines later
+      integer, intent(in) :: first_line
+      !> How many there must be
+      integer, intent(in) :: count
+      !> Characters of a column
+      integer, intent(in) :: width
+      !> Columns of a line
+      integer, intent(in) :: per_line
+      !> The numbers
+      real(wp), allocatable, intent(out) :: values(:)
+      !> A text that is no number, text after the last column, or a file that ends before
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: line, at, finish, column, found
+      logical :: ok
+
+      ! A header may state any count; the text bounds how many numbers there can be
+      allocate (values(max(0, min(count, len(text%text)))))
+      found = 0
+      do line = first_line, text%lines()
+         if (found >= count) return
+         at = text%first(line)
+         do column = 1, min(per_line, count - found)
+            finish = min(at + width - 1, text%last(line))
+            found = found + 1
+            if (finish < at) then
+               ok = .false.
+            else
+               call parse_real(text%text(at:finish), values(found), ok)
+            end if
+            if (.not. ok) then
+               call raise_at(error, text, line, 'value '//to_text(found)//' of '//to_text(count)//' = '''// &
+                  & text%text(at:finish)//''': must be a number in column '//to_text(column)//' of width '// &
+                  & to_text(width))
+               return
+            end if
+            at = finish + 1
+         end do
+         if (verify(text%text(at:text%last(line)), ' '//achar(9)) == 0) cycle
+         call raise_at(error, text, line, 'text after value '//to_text(found)//' of '//to_text(count)//': '''// &
+            & text%text(at:text%last(line))//'''')
+         return
+      end do
+      if (found == count) return
+      call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
+         & to_text(count))
+   end subroutine read_fixed
 
    !> Report what is wrong in a line of a file
    subroutine raise_at(error, text, line, message)

@@ -1,22 +1,19 @@
 !> Accelerogram files of every known format, recognised by their content.
 module dondolo_record_reader
+   use dondolo_channel, only : as_record, find_channel, name_channels
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_format_columns, only : columns_format_type
    use dondolo_format_dyna, only : dyna_format_type
    use dondolo_format_peer, only : peer_format_type
    use dondolo_kinds, only : wp
-   use dondolo_record, only : new_record, record_type
+   use dondolo_record, only : record_type
    use dondolo_record_format, only : format_type, samples_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : lower
    use dondolo_text_file, only : read_text_file, text_file_type
-   use dondolo_units, only : unit_factor
    implicit none
    private
 
-   public :: read_record
-
-   !> Relative difference allowed between a time step that is given and the file's own
-   real(wp), parameter :: step_tolerance = 0.01_wp
+   public :: read_record, read_records
 
    !> A format that is known
    type :: known_type
@@ -26,149 +23,155 @@ module dondolo_record_reader
 
 contains
 
-   !> The formats that are known, the strictest first
+   !> The formats that are known; no text is recognised by two of them, but plain columns come last
    subroutine list_formats(known)
       !> The formats
       type(known_type), allocatable, intent(out) :: known(:)
 
-      allocate (known(3))
-      allocate (peer_format_type :: known(1)%format)
-      allocate (dyna_format_type :: known(2)%format)
-      allocate (columns_format_type :: known(3)%format)
+      allocate (known(0))
+      call append(known, peer_format_type())
+      call append(known, dyna_format_type())
+      call append(known, columns_format_type())
    end subroutine list_formats
+
+   !> Append a format to a list
+   subroutine append(known, format)
+      !> The list
+      type(known_type), allocatable, intent(inout) :: known(:)
+      !> The format
+      class(format_type), intent(in) :: format
+
+      type(known_type), allocatable :: longer(:)
+      integer :: i
+
+      allocate (longer(size(known) + 1))
+      do i = 1, size(known)
+         call move_alloc(known(i)%format, longer(i)%format)
+      end do
+      allocate (longer(size(longer))%format, source=format)
+      call move_alloc(longer, known)
+   end subroutine append
 
    !> Read an accelerogram
    !>
    !> What the file states is used; a time step or units that are given as well must agree with it.
-   subroutine read_record(file, record, error, dt, units)
+   subroutine read_record(file, record, error, dt, units, channel, format)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> The record; its name is the stem of the file
+      !> The record; its name is the stem of the file, with the channel's if there are several
       type(record_type), intent(out) :: record
-      !> The file is missing, unknown, wrong, or says less than is needed
+      !> The file is missing, unknown, wrong, says less than is needed, or holds several channels and none is chosen
       type(error_type), allocatable, intent(out) :: error
       !> Time step [s], needed where the file does not state it
       real(wp), intent(in), optional :: dt
       !> Units of the values, needed where the file does not state them; empty is not given
       character(len=*), intent(in), optional :: units
+      !> Name of a channel, or its number; empty is not given
+      character(len=*), intent(in), optional :: channel
+      !> Name of the format that the file is in, not to be recognised; empty is not given
+      character(len=*), intent(in), optional :: format
 
       type(text_file_type) :: text
       type(samples_type) :: samples
-      type(known_type), allocatable :: known(:)
-      real(wp) :: step, factor
       integer :: i
 
+      call read_samples(file, text, samples, error, format)
+      if (allocated(error)) return
+      call find_channel(samples, i, error, channel)
+      call add_place(error, file)
+      if (.not. allocated(error)) call as_record(text, samples, i, record, error, dt, units)
+   end subroutine read_record
+
+   !> Read all channels of a file
+   subroutine read_records(file, records, error, dt, units, format)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> One record for each channel
+      type(record_type), allocatable, intent(out) :: records(:)
+      !> As of `read_record`
+      type(error_type), allocatable, intent(out) :: error
+      !> Time step [s], needed where the file does not state it
+      real(wp), intent(in), optional :: dt
+      !> Units of the values, needed where the file does not state them; empty is not given
+      character(len=*), intent(in), optional :: units
+      !> Name of the format that the file is in, not to be recognised; empty is not given
+      character(len=*), intent(in), optional :: format
+
+      type(text_file_type) :: text
+      type(samples_type) :: samples
+      integer :: i
+
+      call read_samples(file, text, samples, error, format)
+      if (allocated(error)) return
+      allocate (records(size(samples%channels)))
+      do i = 1, size(records)
+         call as_record(text, samples, i, records(i), error, dt, units)
+         if (.not. allocated(error)) cycle
+         deallocate (records)
+         return
+      end do
+   end subroutine read_records
+
+   !> Read what a file says
+   subroutine read_samples(file, text, samples, error, format)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Its text
+      type(text_file_type), intent(out) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> The file is missing, unknown or wrong
+      type(error_type), allocatable, intent(out) :: error
+      !> Name of the format that the file is in; empty is not given
+      character(len=*), intent(in), optional :: format
+
+      type(known_type), allocatable :: known(:)
+      integer :: i
+
+      call list_formats(known)
+      i = 0
+      if (present(format)) then
+         if (len_trim(format) > 0) then
+            do i = 1, size(known)
+               if (known(i)%format%name() == lower(trim(adjustl(format)))) exit
+            end do
+            if (i > size(known)) then
+               call raise_input(error, file//': format = '''//trim(format)//''': must be one of '//names_of(known))
+               return
+            end if
+         end if
+      end if
       call read_text_file(file, text, error)
       if (allocated(error)) return
-      call list_formats(known)
-      do i = 1, size(known)
-         if (known(i)%format%recognises(text)) exit
-      end do
+      if (i == 0) then
+         do i = 1, size(known)
+            if (known(i)%format%recognises(text)) exit
+         end do
+      end if
       if (i > size(known)) then
          call raise_input(error, file//': the format is not known: must be one of '//names_of(known))
          return
       end if
       call known(i)%format%read(text, samples, error)
       if (allocated(error)) return
-      call choose_step(samples%dt, step, error, dt)
-      if (.not. allocated(error)) call choose_units(samples%units, factor, error, units)
-      if (.not. allocated(error)) call new_record(record, factor*samples%values, step, stem(file), error)
-      call add_place(error, file)
-   end subroutine read_record
-
-   !> Take the time step from the file or from the caller
-   subroutine choose_step(stated, step, error, given)
-      !> Time step that the file states [s], 0 if none
-      real(wp), intent(in) :: stated
-      !> Time step [s]
-      real(wp), intent(out) :: step
-      !> There is none, or two that differ
-      type(error_type), allocatable, intent(out) :: error
-      !> Time step that the caller gives [s]
-      real(wp), intent(in), optional :: given
-
-      step = stated
-      if (.not. present(given)) then
-         if (.not. stated > 0.0_wp) call raise_input(error, 'the file does not state its time step: dt must be given')
-         return
-      end if
-      if (.not. (given > 0.0_wp .and. given <= huge(given))) then
-         call raise_input(error, 'dt = '//to_text(given)//': must be positive')
-         return
-      end if
-      if (stated > 0.0_wp) then
-         if (abs(given - stated) > step_tolerance*stated) then
-            call raise_input(error, 'dt = '//to_text(given)//': the file states '//to_text(stated))
-         end if
-      else
-         step = given
-      end if
-   end subroutine choose_step
-
-   !> Take the units from the file or from the caller
-   subroutine choose_units(stated, factor, error, given)
-      !> Units that the file states, empty if none
-      character(len=*), intent(in) :: stated
-      !> Size of the unit [m/s2]
-      real(wp), intent(out) :: factor
-      !> There are none, two that differ, or one that is not known
-      type(error_type), allocatable, intent(out) :: error
-      !> Units that the caller gives
-      character(len=*), intent(in), optional :: given
-
-      real(wp) :: factor_given
-      logical :: is_given
-
-      factor = 1.0_wp
-      is_given = .false.
-      if (present(given)) is_given = len_trim(given) > 0
-      if (is_given) then
-         call unit_factor(given, factor_given, error)
-         if (allocated(error)) return
-      else
-         if (len_trim(stated) == 0) then
-            call raise_input(error, 'the file does not state its units: units must be given')
-            return
-         end if
-      end if
-      if (len_trim(stated) == 0) then
-         factor = factor_given
-         return
-      end if
-      call unit_factor(stated, factor, error)
-      if (allocated(error) .or. .not. is_given) return
-      if (factor_given < factor .or. factor_given > factor) then
-         call raise_input(error, 'units = '''//trim(given)//''': the file states '''//trim(stated)//'''')
-      end if
-   end subroutine choose_units
+      call samples%metadata%set('format', known(i)%format%name())
+      call name_channels(samples%channels)
+   end subroutine read_samples
 
    !> Names of formats, for messages
    function names_of(known) result(names)
       !> Formats
       type(known_type), intent(in) :: known(:)
-      !> Their names, separated by commas
+      !> Their names in quotes, separated by commas
       character(len=:), allocatable :: names
 
       integer :: i
 
-      names = known(1)%format%name()
-      do i = 2, size(known)
-         names = names//', '//known(i)%format%name()
+      names = ''
+      do i = 1, size(known)
+         if (i > 1) names = names//', '
+         names = names//''''//known(i)%format%name()//''''
       end do
    end function names_of
-
-   !> Name of a file without folder and last extension
-   pure function stem(file)
-      !> Path
-      character(len=*), intent(in) :: file
-      !> Its stem
-      character(len=:), allocatable :: stem
-
-      integer :: point
-
-      stem = trim(file(scan(file, '/\', back=.true.) + 1:))
-      point = index(stem, '.', back=.true.)
-      if (point > 1) stem = stem(:point - 1)
-   end function stem
 
 end module dondolo_record_reader

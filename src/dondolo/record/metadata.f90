@@ -1,0 +1,122 @@
+!> What the header of an accelerogram file says: keys and values, as texts, in the file's order.
+!>
+!> Keys that mean the same in every format are written alike: event, date, station, network, component, magnitude,
+!> latitude, longitude, processing, format, quantity. All others keep the name that the file gives them.
+module dondolo_metadata
+   use dondolo_text, only : lower
+   implicit none
+   private
+
+   public :: entry_type, metadata_type
+
+   !> A key and its value
+   type :: entry_type
+      !> Key
+      character(len=:), allocatable :: key
+      !> Value, never empty
+      character(len=:), allocatable :: value
+   end type entry_type
+
+   !> Keys and values
+   type :: metadata_type
+      !> The entries, in order; not allocated is empty
+      type(entry_type), allocatable :: entries(:)
+   contains
+      !> Set the value of a key
+      procedure :: set
+      !> Value of a key
+      procedure :: get
+      !> Set all entries of another list
+      procedure :: include
+      !> Number of entries
+      procedure :: count => count_entries
+      !> Number of the entry of a key
+      procedure, private :: find
+   end type metadata_type
+
+contains
+
+   !> Set the value of a key: a new entry at the end, or another value for the entry there is
+   pure subroutine set(self, key, value)
+      !> Metadata
+      class(metadata_type), intent(inout) :: self
+      !> Key; upper and lower case are the same
+      character(len=*), intent(in) :: key
+      !> Value; blanks around it are dropped, and an empty one says nothing
+      character(len=*), intent(in) :: value
+
+      type(entry_type), allocatable :: longer(:)
+      integer :: i, n
+
+      if (verify(value, ' '//achar(9)) == 0) return
+      n = self%count()
+      i = self%find(key)
+      if (i == 0) then
+         allocate (longer(n + 1))
+         do i = 1, n
+            call move_alloc(self%entries(i)%key, longer(i)%key)
+            call move_alloc(self%entries(i)%value, longer(i)%value)
+         end do
+         longer(n + 1)%key = trim(adjustl(key))
+         call move_alloc(longer, self%entries)
+         i = n + 1
+      end if
+      self%entries(i)%value = value(verify(value, ' '//achar(9)):verify(value, ' '//achar(9), back=.true.))
+   end subroutine set
+
+   !> Value of a key
+   pure function get(self, key) result(value)
+      !> Metadata
+      class(metadata_type), intent(in) :: self
+      !> Key; upper and lower case are the same
+      character(len=*), intent(in) :: key
+      !> Its value, empty if there is none
+      character(len=:), allocatable :: value
+
+      integer :: i
+
+      value = ''
+      i = self%find(key)
+      if (i > 0) value = self%entries(i)%value
+   end function get
+
+   !> Set all entries of another list
+   pure subroutine include(self, other)
+      !> Metadata
+      class(metadata_type), intent(inout) :: self
+      !> What to set
+      type(metadata_type), intent(in) :: other
+
+      integer :: i
+
+      do i = 1, other%count()
+         call self%set(other%entries(i)%key, other%entries(i)%value)
+      end do
+   end subroutine include
+
+   !> Number of entries
+   pure function count_entries(self) result(count)
+      !> Metadata
+      class(metadata_type), intent(in) :: self
+      !> How many
+      integer :: count
+
+      count = 0
+      if (allocated(self%entries)) count = size(self%entries)
+   end function count_entries
+
+   !> Number of the entry of a key
+   pure function find(self, key) result(i)
+      !> Metadata
+      class(metadata_type), intent(in) :: self
+      !> Key
+      character(len=*), intent(in) :: key
+      !> Number of the entry, 0 if there is none
+      integer :: i
+
+      do i = self%count(), 1, -1
+         if (lower(self%entries(i)%key) == lower(trim(adjustl(key)))) exit
+      end do
+   end function find
+
+end module dondolo_metadata
