@@ -22,7 +22,6 @@ program test_motion
    call test_free_fall()
    call test_bounces()
    call test_rest()
-   call test_tail()
    call test_symmetries()
    call test_trace()
    call finish()
@@ -162,29 +161,6 @@ contains
       call check(response%edp > 0.0_wp, 'a two-sided wall opens the other side')
       call check(response%impacts == 0, 'nothing has hit anything yet')
    end subroutine test_rest
-
-   !> The closed form after the record against stepping through still ground
-   subroutine test_tail()
-      type(wall_type) :: wall
-      type(response_type) :: stepped, closed
-      real(wp) :: factor, a(6)
-      integer :: i, m
-
-      call suite('after the record')
-      a = [0.0_wp, -1.0_wp, -2.0_wp, -2.5_wp, -1.0_wp, 0.0_wp]
-      do m = 1, 3
-         wall = a_wall(m)
-         do i = 1, 20
-            factor = 0.25_wp*real(i, wp)*wall%mechanism%trigger_acceleration()
-            call simulate_rk45(wall%mechanism, accelerogram(a, 0.05_wp), factor, tight(1.0_wp), closed)
-            call simulate_rk45(wall%mechanism, accelerogram([a, spread(0.0_wp, 1, 400)], 0.05_wp), factor, &
-               & tight(1.0_wp), stepped)
-            call check(closed%collapsed .eqv. stepped%collapsed, 'same flag')
-            call check_close(closed%edp, stepped%edp, 1.0e-10_wp, 'peak')
-            call check_close(closed%time_of_peak, stepped%time_of_peak, 1.0e-7_wp, 'time of the peak')
-         end do
-      end do
-   end subroutine test_tail
 
    !> What must not change a result
    subroutine test_symmetries()
