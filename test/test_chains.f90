@@ -6,15 +6,18 @@ program test_chains
    use dondolo_dormand_prince, only : angular_acceleration
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_one_sided, only : one_sided_restitution
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
+   use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none
 
+   call test_time_to_rest()
    call test_closed_sums()
    call test_rule()
    call test_worst_case()
@@ -39,7 +42,7 @@ contains
       real(wp), intent(in) :: speed
       real(wp), intent(out) :: duration, highest
       logical, intent(out) :: ended
-      real(wp), parameter :: all_but_gone = 1.0e-7_wp
+      real(wp), parameter :: all_but_gone = 1.0e-10_wp
       type(scene_type) :: scene
       type(motion_type) :: motion
       logical :: sample_reached
@@ -84,6 +87,23 @@ contains
       closed_sum = 2.0_wp*speed*(1.0_wp/first + rest%restitution/second)/(1.0_wp - rest%restitution**2)
    end function closed_sum
 
+   !> The linear block with one side, alpha = 0.1 rad, released from alpha/2: the fall and all flights after it last
+   !> acosh(2)/p + sum over n of 2 atanh(e^n sqrt(3/4))/p
+   subroutine test_time_to_rest()
+      real(wp), parameter :: p = 2.0_wp, alpha = 0.1_wp
+      real(wp) :: e, duration, highest
+      logical :: ended
+
+      call suite('time to rest')
+      e = -one_sided_restitution(alpha)
+      call check_close(e, 0.470655_wp, 0.0_wp, 'speed ratio', 5.0e-7_wp)
+      call let_bounce(new_linear_block(p, alpha, e, .false.), stillness(3.0_wp), e*p*alpha*sqrt(0.75_wp), duration, &
+         & highest, ended)
+      call check(ended, 'the bounces end')
+      call check_close(acosh(2.0_wp) + p*duration, 2.912595889_wp, 0.0_wp, 'p T', 1.0e-9_wp)
+      call check_close(highest/alpha, 0.0868391703_wp, 0.0_wp, 'the first of them is the highest', 5.0e-11_wp)
+   end subroutine test_time_to_rest
+
    !> Constant ground acceleration: the sum of the bounces, and the bound of the rule a little above it
    subroutine test_closed_sums()
       real(wp), parameter :: pushes(5) = [0.0_wp, 0.5_wp, -0.5_wp, 0.9_wp, -0.9_wp]
@@ -102,8 +122,8 @@ contains
             ! So low that the moments are all but constant.
             speed = speed_for(rest, 1.0e-5_wp)
             expected = closed_sum(rest, acceleration, speed)
-            call let_bounce(wall%mechanism, accelerogram(spread(acceleration, 1, 21), 0.1_wp*expected), speed, duration, &
-               & highest, ended)
+            call let_bounce(wall%mechanism, accelerogram(spread(acceleration, 1, 21), 0.1_wp*expected), speed, &
+               & duration, highest, ended)
             call check(ended, 'the bounces end')
             call check_close(duration, expected, 1.0e-6_wp, 'duration of the chain')
             bound = least_time([acceleration, acceleration], rest, speed, expected)
