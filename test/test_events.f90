@@ -217,6 +217,7 @@ contains
    subroutine test_limit_on_a_sample()
       integer, parameter :: parts(6) = [1, 2, 3, 7, 16, 50]
       type(response_type) :: response
+      type(trace_type) :: trace
       real(wp) :: limit, time, dt
       integer :: i, k, extra
 
@@ -228,7 +229,9 @@ contains
             do bits = -5, 5
                dt = time/parts(i)*(1.0_wp + bits*epsilon(dt))
                do extra = 0, 2, 2
-                  call respond(.true., spread(2.0_wp, 1, parts(i) + 1 + extra), dt, tight(limit), response)
+                  trace%rows = 0
+                  call respond(.true., spread(2.0_wp, 1, parts(i) + 1 + extra), dt, tight(limit), response, trace)
+                  if (extra == 2) call check(trace%rotation(trace%rows) == limit*alpha, 'the history ends on it')
                   call check(response%collapsed .and. response%edp == limit, 'collapse')
                   call check_close(response%time_of_peak, time, 1.0e-11_wp, 'its time')
                end do
