@@ -177,9 +177,6 @@ contains
          if (sample_reached) then
             if (ending == collapsed) return
             call next_interval(scene, record, motion, trace)
-            ! The acceleration is continuous at a sample, save at the last, after which the ground is still.
-            if (motion%interval == size(record%acceleration)) &
-               & motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, motion%q, motion%v)
          end if
          if (ending /= 0) return
       end do
