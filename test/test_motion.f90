@@ -24,6 +24,7 @@ program test_motion
    call test_rest()
    call test_symmetries()
    call test_trace()
+   call test_doubt()
    call finish()
 
 contains
@@ -226,5 +227,22 @@ contains
          & 'until rest or 10 s after it')
       call check(maxval(abs(trace%rotation))/wall%mechanism%capacity >= 0.999_wp*one%edp, 'the peak after the record')
    end subroutine test_trace
+
+   !> Which results an estimated error leaves in doubt
+   subroutine test_doubt()
+      type(response_type) :: response
+
+      call suite('doubt')
+      response = response_type(edp=0.9_wp, edp_error=0.9e-6_wp)
+      call check(.not. response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a small error')
+      response%edp_error = 1.1e-6_wp
+      call check(response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a large one, far from the limit')
+      response%edp_error = 0.06_wp
+      call check(response%is_unsure(1.0_wp) .and. .not. response%is_unsure(1.1_wp), 'twice the error reaches the limit')
+      response = response_type(edp=1.0_wp, collapsed=.true.)
+      call check(.not. response%is_unsure(1.0_wp), 'both runs collapse')
+      response%edp_error = 0.3_wp
+      call check(response%is_unsure(1.0_wp), 'one of them does not')
+   end subroutine test_doubt
 
 end program test_motion
