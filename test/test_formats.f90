@@ -6,10 +6,12 @@ program test_formats
    use dondolo_dates, only : iso_date, iso_time
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
    use dondolo_metadata, only : metadata_type
-   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_record, only : largest_acceleration, new_record, record_type
    use dondolo_record_format, only : read_fixed
    use dondolo_record_reader, only : read_record, read_records
+   use dondolo_record_table, only : record_problems, record_table
    use dondolo_text, only : to_text
    use dondolo_text_file, only : read_text_file, text_file_type
    implicit none
@@ -43,6 +45,7 @@ program test_formats
    call test_eqsig()
    call test_format_given()
    call test_catalogue()
+   call test_table()
    call test_damaged()
    call test_samples()
    call finish()
@@ -187,6 +190,7 @@ contains
    !> DYNA files
    subroutine test_dyna()
       type(record_type) :: record
+      integer :: i
 
       call suite('DYNA')
       call read_content(dyna_content('EVENT_DATE_YYYYMMDD: 14/11/2010'//lf//'EVENT_TIME_HHMMSS: 230819'//lf// &
@@ -203,6 +207,7 @@ contains
       call check_metadata(record, 'processing', 'manual')
       call check_metadata(record, 'format', 'dyna')
       call check_metadata(record, 'units', 'cm/s^2')
+      call check(any([(record%metadata%entries(i)%key == 'units', i=1, record%metadata%count())]), 'units in lower case')
       call check_metadata(record, 'MAGNITUDE_W', '')
       call check_metadata(record, 'DATA_CITATION', ': a colon')
       call read_content(dyna_content('EVENT_DATE_YYYYMMDD: 2010/11/14'//lf//'EVENT_TIME_HHMMSS: 23:08:25.75'//lf// &
@@ -444,6 +449,39 @@ contains
       call read_catalogue(scratch//'/catalogue.csv', records, error)
       call check_error(error, 'catalogue.csv: line 2: '//scratch//'/three.dat: line ', 'wrong format')
    end subroutine test_catalogue
+
+   !> The table of records
+   subroutine test_table()
+      type(record_type) :: records(3)
+      type(lines_type) :: table
+      type(error_type), allocatable :: error
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: wave(401)
+      integer :: i
+
+      call suite('table')
+      ! Ten waves that grow and decay leave no velocity
+      wave = [(cos(0.05_wp*pi*(i - 1))*sin(pi*(i - 1)/400.0_wp)**2, i=1, size(wave))]
+      call new_record(records(1), wave, 0.01_wp, 'wave', error)
+      call check_text(record_problems(records(1)), '', 'a sound record')
+      call new_record(records(2), min(abs(wave), 0.7_wp) + 0.2_wp, 0.01_wp, 'clipped', error)
+      call check_text(record_problems(records(2)), 'begins at 22 % of its PGA; ends at 100 % of its PGV; '// &
+         & '11 samples in a row at its PGA', 'a record that begins late, drifts and is clipped')
+      call new_record(records(3), [0.0_wp, 0.0_wp], 0.01_wp, 'nothing', error)
+      call check_text(record_problems(records(3)), 'no motion', 'a record of zeros')
+      call records(1)%metadata%set('event', 'Friuli')
+      call records(1)%metadata%set('station', 'TLM'//achar(27))
+      call records(2)%metadata%set('date', '1976-05-06')
+      table = record_table(records, 10.0_wp)
+      call check(table%count == 5, 'five lines')
+      call check_text(table%line(1)%text, '  no.  record   samples        dt    length        PGA       PGV  '// &
+         & 'event, station  problems', 'titles')
+      call check_text(table%line(2)%text, '                                s         s          g      cm/s', 'units')
+      call check_text(table%line(3)%text(:64), '    1  wave         401   0.01000      4.00     0.1000      6.35', &
+         & 'numbers')
+      call check_text(table%line(3)%text(65:), '  Friuli, TLM', 'event and station, no escape character')
+      call check_text(table%line(4)%text(65:89), '  1976-05-06      begins ', 'date where there is no event')
+   end subroutine test_table
 
    !> Damaged files give a record or an error: DONDOLO_FUZZ says how many, 400 if it is not set
    subroutine test_damaged()
