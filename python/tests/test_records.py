@@ -94,3 +94,61 @@ def test_channels(tmp_path):
     assert dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).pga == record.pga
     with pytest.raises(dd.InputError, match="channel = '2': must be one of '1'"):
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)
+
+
+COLUMNS = "#Station: TLM\ntime,N-S,E-W\n0,0.1,0.2\n0.01,-0.3,0.4\n0.02,0.2,-0.1\n"
+
+
+def test_several_channels(tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_text(COLUMNS)
+    first, second = dd.read_records(file, units="g")
+    assert first.name == "two.N-S"
+    assert first.metadata["channel"] == "N-S"
+    assert second.pga == 0.4 * 9.80665
+    for channel in (2, "2", "E-W", "e-w"):
+        record = dd.read_record(file, units="g", channel=channel)
+        assert np.array_equal(record.acceleration, second.acceleration)
+    with pytest.raises(dd.InputError, match=r"holds 2 channels: channel must be one of 'N-S', 'E-W'"):
+        dd.read_record(file, units="g")
+    with pytest.raises(dd.InputError, match="format = 'excel': must be one of 'peer'"):
+        dd.read_records(file, units="g", format="excel")
+    with pytest.raises(dd.InputError, match=r"two\.csv: "):
+        dd.read_record(file, units="g", channel=1, format="peer")
+
+
+def test_metadata(tmp_path):
+    file = tmp_path / "two.csv"
+    file.write_bytes(COLUMNS.replace("TLM", "Trévi\tx").encode("latin-1"))
+    record = dd.read_record(file, units="g", channel=1)
+    assert list(record.metadata) == ["station", "format", "channel", "quantity"]
+    assert record.metadata["station"] == "Tr\ufffdvi\tx"
+    with pytest.raises(TypeError):
+        record.metadata["station"] = "other"
+    again = pickle.loads(pickle.dumps(record))
+    assert again.metadata == record.metadata
+    with pytest.raises(TypeError):
+        again.metadata["station"] = "other"
+    assert "station Tr" in repr(record)
+    assert dict(dd.Record([0.0, 1.0], 0.1).metadata) == {}
+    given = {"event": "Friuli"}
+    record = dd.Record([0.0, 1.0], 0.1, metadata=given)
+    given["event"] = "other"
+    assert record.metadata["event"] == "Friuli"
+    with pytest.raises(dd.InputError, match="metadata: str is no mapping"):
+        dd.Record([0.0, 1.0], 0.1, metadata="Friuli")
+
+
+def test_metadata_of_a_case(tmp_path):
+    (tmp_path / "two.csv").write_text(COLUMNS.replace("N-S", "N-S (g)"))
+    (tmp_path / "one.txt").write_text("0\n1\n2\n")
+    (tmp_path / "records.csv").write_text("file,channel,dt_s,units\none.txt,,0.01,g\ntwo.csv,1,,\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task='stripes' output='x' /\n&wall name='w' mechanism='one_sided' height=1 thickness=0.2 /\n"
+        "&records catalogue='records.csv' /\n&stripes levels=0.1 /\n"
+    )
+    one, two = dd.read_case(tmp_path / "case.nml").records
+    assert dict(one.metadata) == {"format": "columns", "quantity": "acceleration"}
+    assert two.metadata["station"] == "TLM"
+    assert two.metadata["units"] == "g"
+    assert two.pga == 0.3 * 9.80665

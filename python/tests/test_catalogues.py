@@ -1,0 +1,106 @@
+"""Catalogues of folders, and their tables, from the shell."""
+
+import subprocess
+import sys
+
+import pytest
+
+import dondolo as dd
+
+TIMED = "0,0.5\n0.01,-1.0\n0.02,0.5\n"
+PEER = (
+    "PEER\nValley, 1/2/1990, Hall, North, 67\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 3, DT= .02 SEC\n.1 -.2 .1\n"
+)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    place = tmp_path / "files"
+    (place / "sub").mkdir(parents=True)
+    (place / ".hidden").mkdir()
+    (place / "timed.txt").write_text(TIMED)
+    (place / "three.txt").write_text("t,a (g),b (g)\n0,1,2\n0.01,-1,3\n")
+    (place / "plain.txt").write_text("0\n1\n0\n")
+    (place / "sub" / "valley.AT2").write_text(PEER)
+    (place / ".hidden" / "other.AT2").write_text(PEER)
+    (place / "notes.md").write_text("# Notes\n\nNothing to read.\n")
+    return place
+
+
+def run(*arguments):
+    done = subprocess.run([sys.executable, "-m", "dondolo", *map(str, arguments)], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_a_folder(folder):
+    code, out, err = run("catalogue", folder)
+    assert code == 0
+    assert out == f"written: {folder / 'catalogue.csv'} (3 records)\n"
+    assert sorted(line.split(": ")[2].split("/")[-1] for line in err.splitlines()) == [
+        "notes.md",
+        "plain.txt",
+        "timed.txt",
+    ]
+    assert "units must be given" in err
+    assert "the format is not known" in err
+    records = dd.read_catalogue(folder / "catalogue.csv")
+    assert [record.name for record in records] == ["valley", "three.a_(g)", "three.b_(g)"]
+    assert (folder / "catalogue.csv").read_text().splitlines()[1:] == [
+        "file,channel,dt_s,units,event,date,station,component,magnitude",
+        'sub/valley.AT2,,0.02,g,Valley,1990-01-02,"Hall, North",67,',
+        "three.txt,a (g),0.01,g,,,,,",
+        "three.txt,b (g),0.01,g,,,,,",
+    ]
+    code, out, err = run("catalogue", folder)
+    assert code == 2
+    assert "stands there already" in err
+
+
+def test_steps_and_units_for_files_without(folder, tmp_path):
+    target = tmp_path / "all.csv"
+    code, out, err = run("catalogue", folder, "-o", target, "--dt", "0.005", "--units", "m/s2")
+    assert code == 0
+    assert "(5 records)" in out
+    assert len(err.splitlines()) == 1
+    records = {record.name: record for record in dd.read_catalogue(target)}
+    assert records["plain"].dt == 0.005
+    assert records["timed"].dt == 0.01
+    assert records["timed"].pga == 1.0
+    assert records["valley"].pga == 0.2 * 9.80665
+
+
+def test_names_that_stand_there_twice(folder):
+    (folder / "sub" / "three.txt").write_text("t,a (g),b (g)\n0,1,2\n0.01,-1,3\n")
+    code, _, err = run("catalogue", folder)
+    assert code == 0
+    assert "record 'three.a_(g)' stands in the catalogue already" in err
+    assert len(dd.read_catalogue(folder / "catalogue.csv")) == 3
+
+
+def test_nothing_to_read(tmp_path):
+    code, _, err = run("catalogue", tmp_path)
+    assert code == 2
+    assert "no accelerogram that can be read" in err
+    assert not (tmp_path / "catalogue.csv").exists()
+    code, _, err = run("catalogue", tmp_path / "none")
+    assert code == 2
+    assert "no such folder" in err
+
+
+def test_table(folder, executable, tmp_path):
+    run("catalogue", folder)
+    code, out, err = run("records", folder / "catalogue.csv")
+    assert code == 0
+    assert "1990-01-02" not in out
+    assert "Valley, Hall, North" in out
+    assert "begins at 50 % of its PGA" in out
+    (tmp_path / "case.nml").write_text(
+        "&job task='stripes' output='x' /\n&wall name='w' mechanism='one_sided' height=1 thickness=0.2 /\n"
+        "&records catalogue='files/catalogue.csv' /\n&stripes levels=0.1 /\n"
+    )
+    done = subprocess.run([executable, "--check", tmp_path / "case.nml"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert out in done.stdout
+    code, out, err = run("records", folder / "none.csv")
+    assert code == 2
+    assert "none.csv: no such file" in err
