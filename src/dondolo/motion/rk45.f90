@@ -256,8 +256,11 @@ contains
          else if (moment > 0.0_wp) then
             flight = 2.0_wp*motion%v*rest%inertia/moment
             if (flight <= shortest_motion*record%dt) ending = at_rest
-            if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
-               & motion%peak)) ending = at_rest
+            ! Only now and then where bounces have no number: each look may go through the whole record.
+            if (modulo(motion%impacts, rest%bounces_per_look) == 0) then
+               if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
+                  & motion%peak)) ending = at_rest
+            end if
          end if
       end associate
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
