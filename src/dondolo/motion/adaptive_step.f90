@@ -277,7 +277,10 @@ contains
       q = q + change*(v + 0.5_wp*change*f)
       v = v + change*f
       if (event == impact) q = 0.0_wp
-      if (event == turning) v = 0.0_wp
+      if (event == turning) then
+         v = 0.0_wp
+         if (q >= scene%limit) event = limit_reached
+      end if
       f = angular_acceleration(mechanism, motion%excitation, motion%time + h, q, v)
    end subroutine land
 

@@ -25,8 +25,8 @@ module dondolo_rk45
    real(wp), parameter :: tiny_height = 1.0e-12_wp
    integer, parameter :: most_tiny_bounces = 1000
 
-   !> Time after the record for which a trace goes on [s]
-   real(wp), parameter :: trace_after = 10.0_wp
+   !> Time after the record for which a trace goes on [s], and most sample intervals of it, since a time step may be tiny
+   real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
 
 contains
 
@@ -90,13 +90,15 @@ contains
          end if
       end if
       response%edp = motion%peak/mechanism%capacity
+      ! A peak that only rounding tells from the limit is a collapse too.
+      response%collapsed = response%collapsed .or. response%edp >= solver%edp_limit
       if (response%collapsed) response%edp = solver%edp_limit
       response%impacts = motion%impacts
       response%time_of_peak = motion%time_of_peak
 
       if (present(trace)) then
          if (ending == record_over) then
-            last = last + ceiling(trace_after/record%dt)
+            last = last + ceiling(min(trace_after/record%dt, most_after))
             call rock(mechanism, scene, record, last, motion, ending, trace)
          end if
          call trace%trim_rows()
