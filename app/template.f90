@@ -40,7 +40,7 @@ module dondolo_template
       & '&records', &
       & '   catalogue = ''data/records/synthetic44.csv''   ! required: one row a record, from the folder', &
       & '                                                ! of this file; put yours. Columns: file, dt_s,', &
-      & '                                                ! units, and any others', &
+      & '                                                ! units, channel, format, and any others', &
       & '   polarity = ''as_recorded''                     ! ''as_recorded'', ''reversed'' or ''both'' (not history)', &
       & '/']
 

@@ -57,6 +57,7 @@ class Record:
         acceleration: ArrayLike,
         dt: float,
         name: str = "record",
+        *,
         metadata: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         values = _binding.as_array("acceleration", acceleration).copy()
@@ -189,7 +190,7 @@ def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
 
 
 def _as_record(data: _binding.RecordData) -> Record:
-    return Record(data.acceleration, data.dt, data.name, data.metadata)
+    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)
 
 
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:

@@ -4,7 +4,7 @@ module dondolo_channel
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_format, only : channel_type, raise_at, samples_type
+   use dondolo_record_format, only : channel_type, raise_at, samples_type, shown
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    use dondolo_units, only : unit_factor
@@ -199,7 +199,7 @@ contains
       if (len_trim(channel%peak) == 0) return
       call parse_real(channel%peak, stated, ok)
       if (.not. ok) then
-         call raise_at(error, text, channel%peak_line, 'peak value '''//trim(adjustl(channel%peak))// &
+         call raise_at(error, text, channel%peak_line, 'peak value '''//shown(trim(adjustl(channel%peak)))// &
             & ''': must be a number')
          return
       end if

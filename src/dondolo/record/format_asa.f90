@@ -7,7 +7,7 @@ module dondolo_format_asa
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -135,7 +135,7 @@ contains
       call parse_real(of_channel(labels, step//'1-C6'//rest, step//'7-C12'//rest, number), dt, ok)
       if (.not. (ok .and. dt > 0.0_wp)) then
          key = step//trim(merge('1-C6 ', '7-C12', number <= 6))//rest
-         call raise_at(error, text, max(labels%line_of(key), 1), key//' = '''//labels%value_of(key)// &
+         call raise_at(error, text, max(labels%line_of(key), 1), key//' = '''//shown(labels%value_of(key))// &
             & ''': must be a positive number for channel '//to_text(number))
          return
       end if

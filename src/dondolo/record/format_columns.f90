@@ -8,7 +8,7 @@ module dondolo_format_columns
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, samples_type
+   use dondolo_record_format, only : format_type, raise_at, samples_type, shown
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -153,7 +153,7 @@ contains
       do cell = 1, cells
          call parse_real(text%text(first(cell):last(cell)), value, ok)
          if (ok) cycle
-         call raise_at(error, text, line, 'value '''//text%text(first(cell):last(cell))//''': must be a number')
+         call raise_at(error, text, line, 'value '''//shown(text%text(first(cell):last(cell)))//''': must be a number')
          return
       end do
       call raise_at(error, text, line, 'columns must be separated as in line '//to_text(begin))
@@ -202,7 +202,7 @@ contains
    pure function units_in(title) result(units)
       !> Title
       character(len=*), intent(in) :: title
-      !> What stands in its last brackets, if it is g or gal or holds a stroke, as m/s2 does
+      !> What stands in its last brackets, if it is g or gal or a length over something, as m/s2 is
       character(len=:), allocatable :: units
 
       integer :: open, close
@@ -212,7 +212,14 @@ contains
       close = scan(title, ')]', back=.true.)
       if (open == 0 .or. close <= open + 1) return
       units = trim(adjustl(title(open + 1:close - 1)))
-      if (lower(units) /= 'g' .and. lower(units) /= 'gal' .and. index(units, '/') == 0) units = ''
+      select case (lower(units(:scan(units//'/', '/') - 1)))
+      case ('m', 'cm', 'mm', 'in', 'ft')
+         if (index(units, '/') == 0) units = ''
+      case ('g', 'gal')
+         if (index(units, '/') > 0) units = ''
+      case default
+         units = ''
+      end select
    end function units_in
 
    !> A title without blanks and quotes around it

@@ -8,7 +8,7 @@ module dondolo_format_cwa
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -80,7 +80,7 @@ contains
       columns = size(samples%channels) + 1
       if (columns == 1) then
          call raise_at(error, text, max(labels%line_of('#DataSequence'), 1), 'DataSequence = '''// &
-            & labels%value_of('#DataSequence')//''': must be Time and the components')
+            & shown(labels%value_of('#DataSequence'))//''': must be Time and the components')
          return
       end if
       rows = text%lines() - begin + 1

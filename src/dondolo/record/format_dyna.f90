@@ -6,7 +6,7 @@ module dondolo_format_dyna
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -94,7 +94,7 @@ contains
       case ('acceleration', 'corrected acceleration', 'unprocessed acceleration')
       case default
          call raise_at(error, text, max(labels%line_of('DATA_TYPE'), 1), 'DATA_TYPE = '''// &
-            & labels%value_of('DATA_TYPE')//''': must be ACCELERATION')
+            & shown(labels%value_of('DATA_TYPE'))//''': must be ACCELERATION')
       end select
    end subroutine check_quantity
 

@@ -4,7 +4,7 @@ module dondolo_format_eqsig
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
    use dondolo_text, only : first_word
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -71,7 +71,7 @@ contains
       allocate (samples%channels(1))
       call read_count(text%line(2), count, samples%channels(1)%dt, ok)
       if (.not. ok) then
-         call raise_at(error, text, min(2, text%lines()), ''''//trim(text%line(2))// &
+         call raise_at(error, text, min(2, text%lines()), ''''//shown(trim(text%line(2)))// &
             & ''': must be the number of values and their step, both positive')
          return
       end if

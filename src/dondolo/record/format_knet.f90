@@ -10,7 +10,7 @@ module dondolo_format_knet
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
    use dondolo_text, only : to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -126,8 +126,8 @@ contains
       if (ok) call parse_real(value(at + len(middle):), counts, ok)
       if (ok) ok = factor > 0.0_wp .and. counts > 0.0_wp
       if (ok) factor = factor/counts
-      if (.not. ok) call raise_at(error, text, max(labels%line_of('Scale Factor'), 1), 'Scale Factor = '''//value// &
-         & ''': must be two positive numbers, as 3920(gal)/6170801')
+      if (.not. ok) call raise_at(error, text, max(labels%line_of('Scale Factor'), 1), 'Scale Factor = '''// &
+         & shown(value)//''': must be two positive numbers, as 3920(gal)/6170801')
    end subroutine get_factor
 
    !> What the header says under the common keys

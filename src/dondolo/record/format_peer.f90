@@ -1,14 +1,15 @@
 !> PEER strong motion files (.AT2): three lines of text, a line with count and time step, then the values.
 !>
 !> The second line names event, date, station and component, between commas, and a station may hold commas too. In
-!> older files event and date stand together. The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older files, `7999    .0050    NPTS, DT`.
+!> older files event and date stand together. The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older
+!> files, `7999    .0050    NPTS, DT`.
 module dondolo_format_peer
    use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
    use dondolo_text, only : first_word, lower
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -73,7 +74,7 @@ contains
       allocate (samples%channels(1))
       line = adjustl(lower(text%line(quantity_line)))
       if (index(line, 'acceleration') /= 1) then
-         call raise_at(error, text, quantity_line, ''''//trim(text%line(quantity_line))// &
+         call raise_at(error, text, quantity_line, ''''//shown(trim(text%line(quantity_line)))// &
             & ''': must be ACCELERATION TIME SERIES IN UNITS OF ...')
          return
       end if
@@ -81,7 +82,7 @@ contains
       samples%channels(1)%units = first_word(line(at:), ' ,.;')
       call read_count(lower(text%line(count_line)), count, samples%channels(1)%dt, ok)
       if (.not. ok) then
-         call raise_at(error, text, count_line, ''''//trim(text%line(count_line))// &
+         call raise_at(error, text, count_line, ''''//shown(trim(text%line(count_line)))// &
             & ''': must be NPTS= count, DT= step SEC, both positive')
          return
       end if

@@ -4,7 +4,7 @@ module dondolo_format_smtk
    use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -70,7 +70,7 @@ contains
       line = trim(adjustl(text%line(last)))
       ! Some files spell it so: Accelaration
       if (index(lower(line), 'accel') /= 1) then
-         call raise_at(error, text, max(last, 1), ''''//line//''': must be Acceleration '//series//'...')
+         call raise_at(error, text, max(last, 1), ''''//shown(line)//''': must be Acceleration '//series//'...')
          return
       end if
       allocate (samples%channels(1))

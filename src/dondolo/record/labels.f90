@@ -4,7 +4,7 @@ module dondolo_labels
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : raise_at
+   use dondolo_record_format, only : raise_at, shown
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -132,7 +132,7 @@ contains
 
       call parse_integer(self%value_of(key), count, ok)
       if (ok .and. count > 0) return
-      call raise_at(error, text, max(self%line_of(key), 1), key//' = '''//self%value_of(key)// &
+      call raise_at(error, text, max(self%line_of(key), 1), key//' = '''//shown(self%value_of(key))// &
          & ''': must be a positive integer')
    end subroutine get_count
 
@@ -160,7 +160,7 @@ contains
       end if
       call parse_real(number, value, ok)
       if (ok .and. value > 0.0_wp) return
-      call raise_at(error, text, max(self%line_of(key), 1), key//' = '''//self%value_of(key)// &
+      call raise_at(error, text, max(self%line_of(key), 1), key//' = '''//shown(self%value_of(key))// &
          & ''': must be a positive number')
    end subroutine get_positive
 

@@ -10,7 +10,7 @@ module dondolo_record_format
    implicit none
    private
 
-   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at
+   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at, shown
 
    !> One channel of a file, before units are converted
    type :: channel_type
@@ -117,8 +117,8 @@ contains
             end if
             call parse_real(text%text(first:finish), values(found), ok)
             if (.not. ok) then
-               call raise_at(error, text, line, 'value '//to_text(found)//' = '''//text%text(first:finish)// &
-                  & ''': must be a number')
+               call raise_at(error, text, line, 'value '//to_text(found)//' = '''// &
+                  & shown(text%text(first:finish))//''': must be a number')
                return
             end if
             at = finish + 1
@@ -175,13 +175,26 @@ contains
          end do
          if (verify(text%text(at:text%last(line)), ' '//achar(9)) == 0) cycle
          call raise_at(error, text, line, 'text after value '//to_text(found)//' of '//to_text(count)//': '''// &
-            & text%text(at:text%last(line))//'''')
+            & shown(text%text(at:text%last(line)))//'''')
          return
       end do
       if (found == count) return
       call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
          & to_text(count))
    end subroutine read_fixed
+
+   !> A part of a file as messages show it: its beginning, where it is long
+   pure function shown(part)
+      !> Part of a file, of any length
+      character(len=*), intent(in) :: part
+      !> Its first characters
+      character(len=:), allocatable :: shown
+
+      integer, parameter :: longest = 60
+
+      shown = part
+      if (len(part) > longest) shown = part(:longest)//'...'
+   end function shown
 
    !> Report what is wrong in a line of a file
    subroutine raise_at(error, text, line, message)
