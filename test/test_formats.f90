@@ -229,8 +229,8 @@ contains
          & 'line 9: peak value ''1.5x'': must be a number')
       call read_content(replaced(dyna_content('STREAM: HNE'), '-1.500000', '-2'), record)
       call check_values(record, gal, 'a peak without decimals')
-      call check_refused(replaced(dyna_content('STREAM: HNE'), '-1.500000', '1600e-3'), &
-         & 'line 9: peak value 1.6: the largest value is 1.5')
+      call check_refused(replaced(dyna_content('STREAM: HNE'), '-1.500000', '152.0e-2'), &
+         & 'line 9: peak value 1.52: the largest value is 1.5')
       call read_content(replaced(dyna_content('STREAM: HNE'), '-1.500000', '.15E+1'), record)
       call read_content(replaced(dyna_content('STREAM: HNE'), '-1.500000', ''), record)
       call check_values(record, gal, 'no peak')
