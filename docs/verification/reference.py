@@ -25,7 +25,7 @@ def table(executable, wall, motions):
     )
     yield f"# {WALLS[wall]}"
     yield f"# {motions.catalogue.name}, PGA in g: {motions.stripes}"
-    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0:.0e}; edp_change: EDP at 100 times that less this EDP"
+    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0:.0e}; edp_change: EDP at 100 times that less this"
     yield COLUMNS
     for row, other in zip(exact, wider, strict=True):
         change = Decimal(other["edp"]) - Decimal(row["edp"])
