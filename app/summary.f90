@@ -94,6 +94,8 @@ contains
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
+         if (case%solver%solver%estimate_error) &
+            & write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
       end associate
    end subroutine print_history
 
@@ -131,6 +133,8 @@ contains
       end do
       write (output_unit, '(a)') ''
       call print_fit(results%fragility(1), unit_of(case%stripes%im))
+      if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
+         & rounded(maxval(results%stripes%response%edp_error))
    end subroutine print_stripes
 
    !> Print a curve, or why there is none

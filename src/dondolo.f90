@@ -26,8 +26,8 @@ module dondolo
    use dondolo_record_reader, only : read_record
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
    use dondolo_run_case, only : results_type, run_case
+   use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
    use dondolo_stripes, only : multiple_stripe, polarity_names, progress_interface, stripes_type
    use dondolo_synthetic, only : synthetic_record
@@ -45,7 +45,7 @@ module dondolo
    public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type
    ! Motion
    public :: solver_type, check_solver, check_limit, engine_names
-   public :: simulate_rk45, response_type, trace_type
+   public :: simulate, response_type, trace_type
    ! Fragility
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface
    public :: fragility_type, fit_fragility, typology_type, combine_population

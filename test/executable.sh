@@ -207,6 +207,22 @@ check "history: reversed" equal \
 sed "s/record = 'r3', im_level = 0.15/record = 3, scale = 1/" history.nml >history2.nml
 run history2.nml
 check "history by number: exit code" equal "$rc" 0
+run history.nml
+cp out/deep/wall_history.csv plain.csv
+sed 's/edp_limit = 1.0/estimate_error = .true./' history.nml >estimate.nml
+run estimate.nml
+check "estimated error: printed" contains "$work/stdout" "estimated error of the EDP: "
+check "estimated error: in the head" equal "$(grep -c '^# edp_error: ' out/deep/wall_history.csv)" 1
+check "estimated error: the same motion" diff <(grep -v '^#' plain.csv) <(grep -v '^#' out/deep/wall_history.csv)
+good_case >plain.nml
+run plain.nml
+cp out/deep/wall_histories.csv plain.csv
+good_case | sed 's/edp_limit = 1.0/estimate_error = .true./' >estimate.nml
+run estimate.nml
+check "estimated errors: printed" contains "$work/stdout" "estimated errors of the EDP: at most "
+check "estimated errors: a column" equal "$(header out/deep/wall_histories.csv | awk -F, '{ print $NF }')" edp_error
+check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
+   <(grep -v '^#' out/deep/wall_histories.csv | sed 's/,[^,]*$//')
 sed "s/'history'/'stripes'/" history.nml >both.nml
 run both.nml
 check "history group in a stripes case" equal "$rc" 0
@@ -245,11 +261,11 @@ check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
    restitution_value restitution_factor overburden eccentricity file catalogue polarity im levels first last count \
-   engine rtol atol edp_limit gravity record scale im_level; do
+   engine rtol atol edp_limit estimate_error gravity record scale im_level; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
-sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|gravity) = /d' \
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity) = /d' \
    stripes.nml >short.nml
 run --quiet stripes.nml
 cp out/stripes_fragility.csv long.csv
@@ -422,6 +438,8 @@ s/rtol = 1.0e-8/rtol = 1/|bad.nml: &solver: rtol = 1: must lie between
 s/rtol = 1.0e-8/rtol = 1.0d-400/|bad.nml: &solver: rtol = 
 s/atol = 1.0e-10/atol = 0/|bad.nml: &solver: atol = 0: must be positive
 s/edp_limit = 1.0/edp_limit = 0/|bad.nml: &solver: edp_limit = 0: must be positive
+s/edp_limit = 1.0/estimate_error = yes/|bad.nml: &solver: estimate_error = yes: must be .true. or .false.
+s/edp_limit = 1.0/estimate_error = '.true.'/|bad.nml: &solver: estimate_error = '.true.': must be .true. or .false.
 s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
 s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2
 s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81

@@ -143,6 +143,7 @@ contains
       call check_text(trim(case%solver%solver%engine), 'auto', 'engine')
       call check_close(case%solver%gravity, 9.81_wp, 0.0_wp, 'gravity')
       call check_close(case%solver%solver%edp_limit, 1.0_wp, 0.0_wp, 'edp_limit')
+      call check(.not. case%solver%solver%estimate_error, 'estimate_error')
       call check_close(case%population%walls(1)%input%density, 1800.0_wp, 0.0_wp, 'density')
       call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 9.81_wp/12.0_wp, 1.0e-14_wp, &
          & 'trigger')

@@ -20,11 +20,12 @@ def table(executable, wall, motions):
     """Lines of one table."""
     rtol = RTOL[wall]
     exact, wider = (
-        run(executable, wall, motions, tolerance, threads=os.cpu_count())["histories"] for tolerance in (rtol, 100.0 * rtol)
+        run(executable, wall, motions, tolerance, threads=os.cpu_count())["histories"]
+        for tolerance in (rtol, 100.0 * rtol)
     )
     yield f"# {WALLS[wall]}"
     yield f"# {motions.catalogue.name}, PGA in g: {motions.stripes}"
-    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0}; edp_change: the EDP at 100 times that less this EDP"
+    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0}; edp_change: EDP at 100 times that less this EDP"
     yield COLUMNS
     for row, other in zip(exact, wider, strict=True):
         change = Decimal(other["edp"]) - Decimal(row["edp"])

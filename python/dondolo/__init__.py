@@ -19,7 +19,7 @@ from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.typology import Group, Typology, typology
-from dondolo.walls import FreeStandingWall, OneSidedWall, Population, TwoBlockWall, Wall, read_population
+from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
 
 __version__ = _constants().version
 
@@ -41,6 +41,7 @@ __all__ = [
     "Results",
     "StoredResults",
     "Stripes",
+    "Terms",
     "TwoBlockWall",
     "Typology",
     "Wall",

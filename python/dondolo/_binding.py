@@ -192,24 +192,27 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
     return os.fsencode(path)
 
 
-def tolerances(rtol: float | None, atol: float | None, edp_limit: float | None) -> FloatArray:
-    """rtol, atol and edp_limit, with Fortran's own defaults where there is None."""
-    if rtol is None and atol is None and edp_limit is None:
-        return _default_tolerances()
+def settings(
+    rtol: float | None, atol: float | None, edp_limit: float | None, estimate_error: bool = False
+) -> FloatArray:
+    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for estimated errors."""
+    if rtol is None and atol is None and edp_limit is None and estimate_error is False:
+        return _default_settings()
     default = constants()
     return np.array(
         [
             default.rtol if rtol is None else as_number("rtol", rtol),
             default.atol if atol is None else as_number("atol", atol),
             default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
+            float(bool(estimate_error)),
         ]
     )
 
 
 @functools.cache
-def _default_tolerances() -> FloatArray:
+def _default_settings() -> FloatArray:
     default = constants()
-    return np.array([default.rtol, default.atol, default.edp_limit])
+    return np.array([default.rtol, default.atol, default.edp_limit, 0.0])
 
 
 def describe_wall(
@@ -228,6 +231,17 @@ def describe_wall(
     parcel = receive(*_core.describe_wall(texts, values, given, pull))
     data = unpack_walls(parcel, 1)[0]
     return FlatWall(texts, values, given, pull), data
+
+
+def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
+    """J, C, G, L, Q and V of a wall, one row each, in the shape of the rotations."""
+    try:
+        values, shape = np.ravel(rotation), np.shape(rotation)
+    except ValueError:
+        raise InputError("rotation: must be numbers") from None
+    terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
+    check(stat, message)
+    return terms.T.reshape(6, *shape)
 
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
@@ -334,6 +348,13 @@ def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, cu
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
     return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+
+
+def warnings_of_errors(
+    edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str, level: float
+) -> list[str]:
+    """What the executable would warn of, of estimated errors; record and level are those of the largest."""
+    return receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)).lines
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

@@ -52,6 +52,7 @@ class Outcome(NamedTuple):
     collapsed: Any
     impacts: Any
     time_of_peak: _binding.FloatArray
+    edp_error: _binding.FloatArray
     done: int
 
 
@@ -65,17 +66,17 @@ class Request:
     im: str
     polarity: str
     engine: str
-    tolerances: _binding.FloatArray
+    settings: _binding.FloatArray
     threads: int
 
-    def _settings(self) -> tuple[Any, ...]:
+    def _arguments(self) -> tuple[Any, ...]:
         words = (_binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        return (*self.records, self.levels, *words, self.tolerances, self.threads)
+        return (*self.records, self.levels, *words, self.settings, self.threads)
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         flat = _binding.join_walls([wall._flat for wall in self.walls])
-        parcel = _binding.receive(*_core.plan(*flat, *self._settings()))
+        parcel = _binding.receive(*_core.plan(*flat, *self._arguments()))
         walls, count = len(self.walls), int(parcel.integers[len(self.walls) - 1])
         record, polarity = parcel.integers[walls:].reshape(2, count)
         scale = parcel.reals.reshape(len(self.levels), count)
@@ -85,10 +86,10 @@ class Request:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
         total = int(ends[-1])
-        edp, peak = np.empty(total), np.empty(total)
+        edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
         flats = [wall._flat for wall in self.walls]
-        settings = self._settings()
+        arguments = self._arguments()
         samples = float(self.records.lengths.mean())
         size = max(1.0, _FIRST_SAMPLES / samples)
         done, interrupted = 0, False
@@ -101,12 +102,12 @@ class Request:
                 before = int(ends[one - 1]) if one else 0
                 start = time.perf_counter()
                 *rows, stat, message = _core.run_block(
-                    *_binding.join_walls(flats[one : last + 1]), *settings, done - before + 1, count
+                    *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
                 )
                 seconds = time.perf_counter() - start
                 _binding.check(stat, message)
                 here = slice(done, done + count)
-                edp[here], collapsed[here], impacts[here], peak[here] = rows
+                edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
                 done += count
                 bar.update(count)
                 size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
@@ -114,7 +115,7 @@ class Request:
             interrupted = True
         finally:
             bar.close()
-        return Outcome(edp, collapsed, impacts, peak, done), interrupted
+        return Outcome(edp, collapsed, impacts, peak, error, done), interrupted
 
 
 def new_request(
@@ -128,6 +129,7 @@ def new_request(
     atol: float | None,
     edp_limit: float | None,
     threads: int,
+    estimate_error: bool = False,
 ) -> Request:
     """A request out of what a user gives."""
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
@@ -136,7 +138,7 @@ def new_request(
         raise InputError(f"threads = {threads}: must lie between 0 (all) and 4096")
     levels = _binding.as_array("levels", levels).copy()
     levels.flags.writeable = False
-    settings = _binding.tolerances(rtol, atol, edp_limit)
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
     return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, int(threads))
 
 

@@ -30,6 +30,7 @@ class Case:
     im, polarity, engine : str
     levels : ndarray, shape (levels,)
     rtol, atol, edp_limit : float
+    estimate_error : bool
     threads : int
     record : int
         Index of the record of a time history, from 0.
@@ -49,6 +50,7 @@ class Case:
     rtol: float
     atol: float
     edp_limit: float
+    estimate_error: bool
     threads: int
     record: int
     scale: float
@@ -57,9 +59,12 @@ class Case:
         """Run it; see `run_case`."""
         solver = {"engine": self.engine, "rtol": self.rtol, "atol": self.atol, "edp_limit": self.edp_limit}
         if self.task == "history":
-            return Results(self, response=simulate(self.population[0], self.records[self.record], self.scale, **solver))
+            record = self.records[self.record]
+            response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, **solver)
+            return Results(self, response=response)
         ensemble = {"im": self.im, "polarity": self.polarity, "threads": self.threads, "progress": progress, **solver}
         if self.task == "stripes":
+            ensemble["estimate_error"] = self.estimate_error
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
             return Results(self, stripes=stripes, fragility=stripes.fit())
         return Results(self, typology=typology(self.population, self.records, self.levels, **ensemble))
@@ -106,9 +111,9 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     """
     parcel = _binding.receive(*_core.read_case(_binding.as_path(path)))
     walls, levels, records, threads, record = (int(value) for value in parcel.integers[:5])
-    rtol, atol, edp_limit, scale = (float(value) for value in parcel.reals[:4])
+    rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]
-    weights = 4 + levels
+    weights = 5 + levels
     places = [weights + walls, 5, 6]
     people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
     places = [place + more for place, more in zip(places, _binding.walls_end(walls), strict=True)]
@@ -122,10 +127,11 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         im,
         polarity,
         engine,
-        parcel.reals[4:weights].copy(),
+        parcel.reals[5:weights].copy(),
         rtol,
         atol,
         edp_limit,
+        estimate_error == 1.0,
         threads,
         record - 1,
         scale,

@@ -7,6 +7,7 @@ module dondolo_boundary
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_lines, only : lines_type
+   use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_solver, only : solver_type
@@ -16,7 +17,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, line_of, pack_lines, as_solver, check_threads
+   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations
    public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -134,18 +135,19 @@ contains
    end function pack_lines
 
    !> Settings of the computation
-   pure function as_solver(engine, tolerances) result(solver)
+   pure function as_solver(engine, settings) result(solver)
       !> Engine
       character(len=*), intent(in) :: engine
-      !> rtol, atol, edp_limit
-      real(c_double), intent(in) :: tolerances(3)
+      !> rtol, atol, edp_limit, and 1 where errors are to be estimated, else 0
+      real(c_double), intent(in) :: settings(4)
       !> The settings
       type(solver_type) :: solver
 
       solver%engine = engine
-      solver%rtol = tolerances(1)
-      solver%atol = tolerances(2)
-      solver%edp_limit = tolerances(3)
+      solver%rtol = settings(1)
+      solver%atol = settings(2)
+      solver%edp_limit = settings(3)
+      solver%estimate_error = settings(4) > 0.0_c_double
    end function as_solver
 
    !> Check a number of threads
@@ -158,6 +160,27 @@ contains
       if (threads < 0 .or. threads > 4096) &
          & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
    end subroutine check_threads
+
+   !> Check that a mechanism can have rotations
+   subroutine check_rotations(mechanism, rotation, error)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotations [rad]
+      real(c_double), intent(in) :: rotation(:)
+      !> The first that is negative or beyond the geometric end
+      type(error_type), allocatable, intent(out) :: error
+
+      real(c_double) :: last
+      integer :: i
+
+      last = mechanism%geometric_end()
+      do i = 1, size(rotation)
+         if (rotation(i) >= 0.0_c_double .and. rotation(i) < last) cycle
+         call raise_input(error, 'rotation = '//to_text(rotation(i))//': must be at least 0 and less than '// &
+            & to_text(last)//', where the geometry of this wall ends')
+         return
+      end do
+   end subroutine check_rotations
 
    !> Make walls
    subroutine set_walls(walls, texts, numbers, given, gravity, error)
@@ -329,7 +352,7 @@ contains
    end subroutine pack_records
 
    !> A response as flat numbers
-   elemental subroutine pack_response(response, edp, collapsed, impacts, time_of_peak)
+   elemental subroutine pack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       !> The response
       type(response_type), intent(in) :: response
       !> Largest rotation / capacity
@@ -340,11 +363,14 @@ contains
       integer(c_int), intent(out) :: impacts
       !> Time of the peak [s]
       real(c_double), intent(out) :: time_of_peak
+      !> Estimated error of the EDP, 0 where it was not asked for
+      real(c_double), intent(out) :: edp_error
 
       edp = response%edp
       collapsed = merge(1, 0, response%collapsed)
       impacts = response%impacts
       time_of_peak = response%time_of_peak
+      edp_error = response%edp_error
    end subroutine pack_response
 
    !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket

@@ -71,6 +71,38 @@ subroutine describe_wall(texts, numbers, given, gravity, handle, sizes, stat, me
    call report(error, stat, message)
 end subroutine describe_wall
 
+! Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
+subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_rotations, report, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: n, given(8)
+   real(c_double), intent(in) :: numbers(8), gravity, rotation(n)
+   real(c_double), intent(out) :: terms(n, 6)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(error_type), allocatable :: error
+   integer :: i
+
+   terms = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) call check_rotations(walls(1)%mechanism, rotation, error)
+   if (.not. allocated(error)) then
+      associate (mechanism => walls(1)%mechanism)
+         do i = 1, n
+            call mechanism%terms(rotation(i), terms(i, 1), terms(i, 2), terms(i, 3), terms(i, 4), terms(i, 5))
+            terms(i, 6) = mechanism%potential(rotation(i))
+         end do
+      end associate
+   end if
+   call report(error, stat, message)
+end subroutine wall_terms
+
 ! Check what a record is to be made of
 subroutine check_record(acceleration, n, dt, pga, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
@@ -161,14 +193,14 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
 end subroutine read_walls
 
 ! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
-subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, tolerances, history, &
-      & edp, collapsed, impacts, time_of_peak, handle, sizes, stat, message)
+subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
+      & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : as_solver, pack_response, parcel_type, report, send, set_records, set_walls
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
+   use dondolo_simulate, only : simulate_wall => simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
@@ -176,8 +208,8 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    !f2py threadsafe
    character(len=*), intent(in) :: texts, name, engine
    integer(c_int), intent(in) :: n, given(8), history
-   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, tolerances(3)
-   real(c_double), intent(out) :: edp, time_of_peak
+   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, settings(4)
+   real(c_double), intent(out) :: edp, time_of_peak, edp_error
    integer(c_int), intent(out) :: collapsed, impacts
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
@@ -193,7 +225,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    handle = 0
    sizes = 0
    call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
-   solver = as_solver(engine, tolerances)
+   solver = as_solver(engine, settings)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
    if (.not. allocated(error)) then
@@ -203,21 +235,21 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    end if
    if (.not. allocated(error)) then
       if (history == 1) then
-         call simulate_rk45(walls(1)%mechanism, records(1), scale, solver, response, trace)
+         call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response, trace)
          parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
          call send(parcel, handle, sizes)
       else
-         call simulate_rk45(walls(1)%mechanism, records(1), scale, solver, response)
+         call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response)
       end if
    end if
-   call pack_response(response, edp, collapsed, impacts, time_of_peak)
+   call pack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
    call report(error, stat, message)
 end subroutine simulate
 
 ! Check what stripes of some walls would be, without running them. Integers: histories of a stripe of each wall, then
 ! record and polarity of each history of the last wall; reals: its scales (histories, levels); text: warnings
 subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, polarity, &
-      & engine, tolerances, threads, handle, sizes, stat, message)
+      & engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : as_solver, check_threads, pack_lines, parcel_type, report, send, set_records, set_walls
    use dondolo_error, only : add_place, error_type
@@ -231,7 +263,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), tolerances(3)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), settings(4)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -259,9 +291,9 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
          if (i > 1) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
             & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
          if (fresh) then
-            call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+            call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, settings), error)
          else
-            call check_limit(as_solver(engine, tolerances), walls(i)%mechanism, error)
+            call check_limit(as_solver(engine, settings), walls(i)%mechanism, error)
          end if
          if (allocated(error)) then
             if (w > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
@@ -284,7 +316,8 @@ end subroutine plan
 
 ! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe
 subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, &
-      & polarity, engine, tolerances, threads, first, count, edp, collapsed, impacts, time_of_peak, stat, message)
+      & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, stat, &
+      & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
    use dondolo_error, only : error_type
@@ -295,8 +328,8 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), tolerances(3)
-   real(c_double), intent(out) :: edp(count), time_of_peak(count)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), settings(4)
+   real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
@@ -309,6 +342,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    collapsed = 0
    impacts = 0
    time_of_peak = 0
+   edp_error = 0
    allocate (walls(w))
    call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
@@ -316,16 +350,16 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    done = 0
    do i = 1, w
       if (allocated(error) .or. done == count) exit
-      call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, tolerances), error)
+      call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, settings), error)
       if (allocated(error)) exit
       from = max(first - before, 1)
       to = min(first + count - 1 - before, size(stripes%response))
-      if (from <= to) call run_histories(stripes, walls(i), records, as_solver(engine, tolerances), from, to, threads)
+      if (from <= to) call run_histories(stripes, walls(i), records, as_solver(engine, settings), from, to, threads)
       do k = from - 1, to - 1
          j = k/size(stripes%record) + 1
          done = done + 1
          call pack_response(stripes%response(modulo(k, size(stripes%record)) + 1, j), edp(done), collapsed(done), &
-            & impacts(done), time_of_peak(done))
+            & impacts(done), time_of_peak(done), edp_error(done))
       end do
       before = before + size(stripes%response)
    end do
@@ -477,6 +511,41 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
    call report(error, stat, message)
 end subroutine warn_of_curve
 
+! What the executable would warn of, of estimated errors; record and level are those of the largest
+subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_record, only : record_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_warnings, only : sentences => warn_of_errors
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit, level
+   character(len=*), intent(in) :: record
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(record_type) :: records(1)
+   type(stripes_type) :: stripes
+   type(lines_type) :: warnings
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   records(1)%name = record
+   stripes%levels = [level]
+   stripes%record = spread(1, 1, n)
+   allocate (stripes%response(n, 1))
+   stripes%response(:, 1)%edp = edp
+   stripes%response(:, 1)%edp_error = edp_error
+   call sentences(stripes, records, edp_limit, warnings)
+   parcel%text = pack_lines(warnings)
+   call send(parcel, handle, sizes)
+   call report(error, stat, message)
+end subroutine warn_of_errors
+
 ! Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
 subroutine probability(theta, beta, x, n, p)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
@@ -494,8 +563,8 @@ subroutine probability(theta, beta, x, n, p)
 end subroutine probability
 
 ! Read a case. Integers: number of walls, of levels, of records, threads, record of the history from 1, then walls and
-! records as they are packed; reals: rtol, atol, edp_limit, scale of the history (with its sign), levels, weights,
-! walls, records; text: task, title, output, im, polarity, engine, then walls and records
+! records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history
+! (with its sign), levels, weights, walls, records; text: task, title, output, im, polarity, engine, then walls and records
 subroutine read_case(path, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_records, pack_walls, parcel_type, report, send
@@ -523,7 +592,7 @@ subroutine read_case(path, handle, sizes, stat, message)
       parcel%integers = [size(case%population%walls), size(case%stripes%levels), size(case%records), &
          & case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
-         & scale, case%stripes%levels, case%population%weight]
+         & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, case%population%weight]
       parcel%text = case%job%task//line//case%job%title//line//case%job%output//line//case%stripes%im//line// &
          & case%records_input%polarity//line//trim(case%solver%solver%engine)//line
       call pack_walls(case%population%walls, parcel)

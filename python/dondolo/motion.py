@@ -40,6 +40,8 @@ class Response:
         [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. None with history=False.
     side : ndarray of int, shape (rows,), or None
         +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
+    edp_error : float or None
+        Estimated error of `edp`; None unless asked for.
     """
 
     wall: Wall
@@ -55,9 +57,10 @@ class Response:
     rotation: FloatArray | None = None
     velocity: FloatArray | None = None
     side: np.ndarray[Any, np.dtype[np.int8]] | None = None
+    edp_error: float | None = None
 
     def _facts(self) -> list[tuple[str, str]]:
-        return [
+        facts = [
             ("wall", self.wall.name),
             ("record", self.record.name),
             ("scale", f"{self.scale:.6g}"),
@@ -66,6 +69,9 @@ class Response:
             ("impacts", str(self.impacts)),
             ("time of the peak", f"{self.time_of_peak:.6g} s"),
         ]
+        if self.edp_error is not None:
+            facts.insert(4, ("estimated error of the EDP", f"{self.edp_error:.2g}"))
+        return facts
 
     def __repr__(self) -> str:
         return "<Response: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
@@ -92,6 +98,8 @@ class Response:
             f"impacts: {self.impacts}",
             f"time_of_peak_s: {tables.cell(self.time_of_peak)}",
         ]
+        if self.edp_error is not None:
+            comments.append(f"edp_error: {tables.cell(self.edp_error)}")
         tables.write_csv(path, self._table(), comments)
 
 
@@ -104,6 +112,7 @@ def simulate(
     atol: float | None = None,
     edp_limit: float | None = None,
     history: bool = True,
+    estimate_error: bool = False,
 ) -> Response:
     """The motion of a wall under an accelerogram.
 
@@ -123,6 +132,8 @@ def simulate(
         Rotation / capacity that counts as collapse, 1 if left out.
     history : bool
         Keep the time history?
+    estimate_error : bool
+        Run it a second time with halved steps, to estimate the error of the EDP?
 
     Returns
     -------
@@ -142,8 +153,8 @@ def simulate(
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__} is no record")
     factor = _binding.as_number("scale", scale)
-    settings = _binding.tolerances(rtol, atol, edp_limit)
-    edp, collapsed, impacts, time_of_peak, handle, sizes, stat, message = _core.simulate(
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
+    edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
         *wall._flat,
         record.acceleration,
         record.dt,
@@ -155,6 +166,8 @@ def simulate(
     )
     _binding.check(stat, message)
     response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
+    if estimate_error:
+        object.__setattr__(response, "edp_error", edp_error)
     if history:
         rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
         rows.flags.writeable = False

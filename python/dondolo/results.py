@@ -166,6 +166,7 @@ def _response(path: str, wall: Wall, case: list[str]) -> Response:
         rotation,
         velocity,
         sides(np.asarray([time, acceleration, rotation, velocity]), wall.two_sided),
+        next((float(line.split()[1]) for line in comments if line.startswith("edp_error:")), None),
     )
 
 
@@ -193,6 +194,7 @@ def _stripes(path: str, wall: Wall) -> Stripes:
         rtol=_setting(comments, "rtol", np.nan),
         atol=_setting(comments, "atol", np.nan),
         edp_limit=_setting(comments, "edp_limit", 1.0),
+        edp_error=_numbers(rows, "edp_error").reshape(shape) if "edp_error" in rows else None,
     )
 
 

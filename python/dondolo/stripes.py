@@ -46,6 +46,8 @@ class Stripes:
         +1 as recorded, -1 reversed.
     engine, edp_limit, rtol, atol
         How it was computed.
+    edp_error : ndarray, shape (levels, histories), or None
+        Estimated errors of `edp`; None unless asked for.
     """
 
     wall: Wall
@@ -62,6 +64,7 @@ class Stripes:
     rtol: float
     atol: float
     edp_limit: float
+    edp_error: FloatArray | None = None
 
     @property
     def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -159,6 +162,7 @@ def multiple_stripe(
     rtol: float | None = None,
     atol: float | None = None,
     edp_limit: float | None = None,
+    estimate_error: bool = False,
     threads: int = 0,
     progress: bool = True,
 ) -> Stripes:
@@ -178,6 +182,8 @@ def multiple_stripe(
         'both' doubles the histories, except for two-sided walls, which are symmetric.
     engine, rtol, atol, edp_limit
         As for `simulate`.
+    estimate_error : bool
+        Run every history a second time with halved steps, to estimate the error of its EDP?
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
@@ -197,7 +203,7 @@ def multiple_stripe(
     Warns
     -----
     DondoloWarning
-        Scale factors above 10, records without motion.
+        Scale factors above 10, records without motion; with estimated errors, histories in doubt.
 
     Notes
     -----
@@ -206,12 +212,16 @@ def multiple_stripe(
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     several = as_records(records)
-    request = new_request((wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads)
+    request = new_request(
+        (wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, estimate_error
+    )
     plan = request.plan()
     _binding.warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
-        return _stripes(request, several, plan, outcome, len(request.levels))
+        stripes = _stripes(request, several, plan, outcome, len(request.levels))
+        _binding.warn(_warnings(stripes))
+        return stripes
     complete = outcome.done // len(plan.record)
     partial = _stripes(request, several, plan, outcome, complete) if complete else None
     raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
@@ -221,11 +231,11 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     """The stripes up to a level."""
     shape = (complete, len(plan.record))
     size = complete * len(plan.record)
-    rows = [values[:size].reshape(shape) for values in outcome[:4]]
+    *rows, error = (values[:size].reshape(shape) for values in outcome[:5])
     levels, scale = request.levels[:complete], plan.scale[:complete]
-    for array in (*rows, scale, plan.polarity):
+    for array in (*rows, error, scale, plan.polarity):
         array.flags.writeable = False
-    rtol, atol, edp_limit = (float(value) for value in request.tolerances)
+    rtol, atol, edp_limit, estimated = (float(value) for value in request.settings)
     return Stripes(
         request.walls[0],
         request.im,
@@ -238,4 +248,19 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         rtol,
         atol,
         edp_limit,
+        error if estimated else None,
+    )
+
+
+def _warnings(stripes: Stripes) -> list[str]:
+    """What the executable would warn of, of estimated errors."""
+    if stripes.edp_error is None:
+        return []
+    level, history = np.unravel_index(stripes.edp_error.argmax(), stripes.edp_error.shape)
+    return _binding.warnings_of_errors(
+        stripes.edp,
+        stripes.edp_error,
+        stripes.edp_limit,
+        stripes.record_names[history],
+        float(stripes.levels[level]),
     )

@@ -124,7 +124,7 @@ def histories_table(stripes: Stripes) -> Table:
     """Columns of ``_histories.csv``."""
     levels, histories = stripes.edp.shape
     polarity = ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity]
-    return {
+    table: Table = {
         "wall": [stripes.wall.name] * stripes.edp.size,
         "mechanism": [stripes.wall.mechanism] * stripes.edp.size,
         "record": list(stripes.record_names) * levels,
@@ -137,6 +137,9 @@ def histories_table(stripes: Stripes) -> Table:
         "impacts": stripes.impacts.ravel(),
         "time_of_peak_s": stripes.time_of_peak.ravel(),
     }
+    if stripes.edp_error is not None:
+        table["edp_error"] = stripes.edp_error.ravel()
+    return table
 
 
 def stripes_table(

@@ -6,14 +6,39 @@ import dataclasses
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo.errors import InputError
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
+
+
+class Terms(NamedTuple):
+    """Terms of the equation of motion J q'' + C q'^2 + G = -s L u_g'' + Q at some rotations, per metre of wall.
+
+    Attributes
+    ----------
+    inertia : ndarray
+        J [kg m2].
+    inertia_rate : ndarray
+        C = 1/2 dJ/dq [kg m2].
+    restoring_moment : ndarray
+        G, of gravity [N m].
+    excitation_lever : ndarray
+        L [kg m].
+    load_force : ndarray
+        Q, the generalised force of carried loads [N m]; 0 without an overburden.
+    """
+
+    inertia: _binding.FloatArray
+    inertia_rate: _binding.FloatArray
+    restoring_moment: _binding.FloatArray
+    excitation_lever: _binding.FloatArray
+    load_force: _binding.FloatArray
 
 
 @dataclass(frozen=True, repr=False)
@@ -80,6 +105,62 @@ class Wall:
     def two_sided(self) -> bool:
         """Does it rock to both sides?"""
         return self._two_sided
+
+    def terms(self, rotation: ArrayLike) -> Terms:
+        """Terms of the equation of motion at given rotations.
+
+        Parameters
+        ----------
+        rotation : array_like
+            Rotations q [rad], at least 0 and less than the geometric end; of the lower block for a two-block wall.
+
+        Returns
+        -------
+        Terms
+            J, C, G, L and Q, each in the shape of `rotation`.
+
+        Raises
+        ------
+        InputError
+            A rotation that the wall cannot have.
+
+        Notes
+        -----
+        Equations (1) and (3) of Nale et al. in the common form; docs/theory.md, section 2. One block can rotate until
+        its centroid is level with its corner (alpha + pi/2), a two-block wall until its upper block lies flat.
+
+        Examples
+        --------
+        >>> wall = TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+        >>> terms = wall.terms([0.0, 0.05])
+        >>> terms.excitation_lever.round(3).tolist()
+        [1215.0, 1221.916]
+        """
+        return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
+
+    def potential(self, rotation: ArrayLike) -> _binding.FloatArray:
+        """Potential energy of gravity and of carried loads at given rotations.
+
+        Parameters
+        ----------
+        rotation : array_like
+            Rotations q [rad], as for `terms`.
+
+        Returns
+        -------
+        ndarray, shape of rotation
+            V [J per metre of wall], measured from the base, with V' = G - Q.
+
+        Raises
+        ------
+        InputError
+            A rotation that the wall cannot have.
+
+        Notes
+        -----
+        1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
+        """
+        return _binding.wall_terms(self._flat, rotation)[5]
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""

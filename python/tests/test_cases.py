@@ -1,5 +1,6 @@
 """Parity with the executable: every number of its files, and its sentences."""
 
+import numpy as np
 import pytest
 
 import dondolo as dd
@@ -78,3 +79,23 @@ def test_the_same_sentences(root, run, tmp_path, line):
 def test_no_case(tmp_path):
     with pytest.raises(dd.InputError, match=r"nothing\.nml"):
         dd.run_case(tmp_path / "nothing.nml")
+
+
+@pytest.mark.parametrize("name", ["parapet", "history"])
+def test_estimated_errors(name, root, run, tmp_path):
+    """The same numbers from the executable, from Python, and read back from the result files."""
+    text = (root / f"data/cases/{name}.nml").read_text().replace("'../records", f"'{root}/data/records")
+    case = tmp_path / "case.nml"
+    case.write_text(
+        text.replace("&solver", "&solver estimate_error = .true.")
+        if "&solver" in text
+        else text + "&solver estimate_error = .true. /\n"
+    )
+    finished = run(case)
+    assert finished.returncode == 0, finished.stderr
+    assert "estimated error" in finished.stdout
+    results = dd.run_case(case, progress=False)
+    stored = dd.read_results(tmp_path / f"out/{name}")
+    mine, theirs = (each.response or each.stripes for each in (results, stored))
+    assert mine.edp_error is not None
+    assert np.array_equal(mine.edp_error, theirs.edp_error)

@@ -119,3 +119,15 @@ def test_scaling_the_record_or_its_factor(scale, factor, kind):
     assert 0.0 <= first.edp <= 1.0
     assert first.collapsed == (first.edp == 1.0)
     assert dd.simulate(wall, dd.Record(motion, 0.01), scale * factor, history=False).time_of_peak >= 0.0
+
+
+def test_estimated_error(wall, sine):
+    """At loose tolerances the estimate is close to how far the EDP really is off."""
+    assert dd.simulate(wall, sine, 2.0).edp_error is None
+    exact = dd.simulate(wall, sine, 2.0, rtol=1e-13, atol=1e-15, history=False).edp
+    for rtol in (1e-2, 1e-3):
+        rough = dd.simulate(wall, sine, 2.0, rtol=rtol, atol=rtol, estimate_error=True)
+        assert rough.edp != exact
+        assert rough.edp_error == pytest.approx(abs(rough.edp - exact), rel=0.2)
+        assert "estimated error" in repr(rough)
+    assert dd.simulate(wall, sine, 2.0, estimate_error=True).edp_error < 1e-9

@@ -26,7 +26,7 @@ def test_fortran_sources(root):
         set(re.findall(r"'([^']+)'", re.search(rf"^{name} = files\((.*?)\)", text, re.S | re.M).group(1)))
         for name in ("sources", "app_sources")
     )
-    assert library == {str(file.relative_to(root / "src")) for file in root.glob("src/**/*.f90")}
+    assert library == {str(file.relative_to(root / "src")) for file in root.glob("src/**/*.[fF]90")}
     other_programs = {
         f"../app/{program['main']}"
         for program in tomllib.loads((root / "fpm.toml").read_text()).get("executable", [])

@@ -5,6 +5,7 @@ import dataclasses
 import math
 import pickle
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -104,6 +105,58 @@ def test_one_block(height, slenderness):
     assert wall.frequency_parameter**2 == pytest.approx(0.75 * wall.gravity / wall.radius, rel=1e-12)
     assert wall.trigger_acceleration == pytest.approx(wall.gravity / slenderness, rel=1e-12)
     assert 0.0 <= wall.restitution_coefficient < 1.0
+
+
+def test_terms_of_the_theory():
+    wall = dd.TwoBlockWall(height=4.0, thickness=0.38, hinge=0.7)
+    terms = wall.terms([0.0, wall.slenderness_angle / 2.0])
+    expected = (7420.00158382046, -2070.03401639077, 5059.50054100952, 3856.72544168463, 0.0)
+    assert [row[1] for row in terms] == pytest.approx(expected, rel=1e-14)
+    assert wall.trigger_acceleration == terms.restoring_moment[0] / terms.excitation_lever[0]
+    one = dd.OneSidedWall(height=3.0, thickness=0.25)
+    terms = one.terms(one.capacity_angle)
+    assert (terms.inertia, terms.inertia_rate, terms.load_force) == (pytest.approx(4078.125), 0.0, 0.0)
+    assert terms.restoring_moment == 0.0
+
+
+@pytest.mark.parametrize("wall", WALLS, ids=lambda wall: wall.mechanism)
+def test_terms_and_potential_belong_together(wall):
+    q, h = np.linspace(0.02, 1.0, 20) * wall.capacity_angle, 1e-5
+    at, after, before = (wall.terms(q + step) for step in (0.0, h, -h))
+    assert at.inertia_rate == pytest.approx((after.inertia - before.inertia) / (4.0 * h), rel=1e-8, abs=1e-6)
+    slope = (wall.potential(q + h) - wall.potential(q - h)) / (2.0 * h)
+    assert at.restoring_moment - at.load_force == pytest.approx(slope, rel=1e-7, abs=1e-3)
+    assert at.load_force.any() == (wall.mechanism == "two_block")
+
+
+@pytest.mark.parametrize("wall", WALLS, ids=lambda wall: wall.mechanism)
+def test_shape_of_terms(wall):
+    table = [[0.0, 0.01, 0.02], [0.03, 0.04, 0.05]]
+    for one, row in zip(wall.terms(table), wall.terms(np.ravel(table)), strict=True):
+        assert np.array_equal(one, np.reshape(row, (2, 3)))
+    assert wall.potential(table).shape == (2, 3)
+    assert wall.potential(0.03) == wall.potential(table)[1, 0]
+    assert wall.terms(0.03).inertia == wall.terms(table).inertia[1, 0]
+
+
+@pytest.mark.parametrize("of", ["terms", "potential"])
+@pytest.mark.parametrize(
+    ("wall", "rotation", "sentence"),
+    [
+        (WALLS[0], -0.01, "rotation = -0.01: must be at least 0 and less than 1.65"),
+        (WALLS[0], [0.1, math.nan], "rotation = NaN: must be at least 0"),
+        (WALLS[1], [0.1, 1.8, 1.9], "rotation = 1.8: must be at least 0 and less than 1.768"),
+        (WALLS[2], 0.97, "rotation = 0.97: must be at least 0 and less than 0.87"),
+        (WALLS[0], [], "rotation: must be given"),
+        (WALLS[0], [[0.1], [0.1, 0.2]], "rotation: must be numbers"),
+        (WALLS[0], "0.1", "rotation: must be numbers"),
+    ],
+)
+def test_rotations_that_a_wall_cannot_have(wall, rotation, sentence, of):
+    with pytest.raises(dd.InputError) as caught:
+        getattr(wall, of)(rotation)
+    assert str(caught.value).startswith(sentence)
+    assert "\n" not in str(caught.value)
 
 
 def test_population(root):

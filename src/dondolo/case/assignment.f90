@@ -13,6 +13,7 @@ module dondolo_assignment
       module procedure :: real_assignment
       module procedure :: integer_assignment
       module procedure :: list_assignment
+      module procedure :: logical_assignment
    end interface assignment_text
 
 contains
@@ -77,5 +78,17 @@ contains
          text = text//to_text(values(i))
       end do
    end function list_assignment
+
+   !> True or false
+   pure function logical_assignment(name, value) result(text)
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value
+      logical, intent(in) :: value
+      !> name = .true. or name = .false.
+      character(len=:), allocatable :: text
+
+      text = name//' = '//trim(merge('.true. ', '.false.', value))
+   end function logical_assignment
 
 end module dondolo_assignment

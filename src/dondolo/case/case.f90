@@ -178,6 +178,11 @@ contains
 
       type(group_type) :: group
 
+      if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
+         group = namelist%group('solver')
+         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         return
+      end if
       if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
       group = namelist%group('stripes')
       call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &

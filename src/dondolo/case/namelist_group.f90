@@ -6,7 +6,7 @@ module dondolo_namelist_group
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, lower, to_text
    implicit none
    private
 
@@ -64,6 +64,8 @@ module dondolo_namelist_group
       procedure :: get_integer
       !> Take a list of real numbers
       procedure :: get_reals
+      !> Take a yes or no
+      procedure :: get_logical
       !> Refuse the value of a variable
       procedure :: refuse
    end type group_type
@@ -325,6 +327,31 @@ contains
       end associate
       call move_alloc(numbers, values)
    end subroutine get_reals
+
+   !> Take a yes or no, in the words that Fortran's namelists have for it
+   subroutine get_logical(self, name, value, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its value; left as it is when the variable was not given
+      logical, intent(inout) :: value
+      !> Neither true nor false
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=7), parameter :: yes(4) = [character(len=7) :: '.true.', '.t.', 'true', 't']
+      character(len=7), parameter :: no(4) = [character(len=7) :: '.false.', '.f.', 'false', 'f']
+      type(value_type) :: found
+      logical :: given
+
+      call single(self, name, given, found, error)
+      if (allocated(error) .or. .not. given) return
+      if (found%quoted .or. .not. any(lower(found%text) == [yes, no])) then
+         call self%refuse(name, 'must be .true. or .false.', error)
+      else
+         value = any(lower(found%text) == yes)
+      end if
+   end subroutine get_logical
 
    !> The number that a value is
    pure subroutine to_real(value, number, ok)

@@ -102,7 +102,7 @@ contains
       integer :: i
 
       call files%line('# dondolo '//dondolo_version_text)
-      call files%line('# compiler: '//compiler_version())
+      call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
       call case%echo(echo)
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)
@@ -147,20 +147,24 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: last
       character(len=11) :: polarity
       integer :: i, j
 
-      call files%line('wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s')
+      last = ''
+      if (case%solver%solver%estimate_error) last = ',edp_error'
+      call files%line('wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'//last)
       associate (stripes => results%stripes)
          do j = 1, size(stripes%levels)
             do i = 1, size(stripes%record)
                polarity = merge('reversed   ', 'as_recorded', stripes%polarity(i) < 0)
                associate (response => stripes%response(i, j))
+                  if (case%solver%solver%estimate_error) last = ','//to_table(response%edp_error)
                   call files%line(wall_cells(case, 1)//','//quoted(case%records(stripes%record(i))%name)//','// &
                      & trim(polarity)//','//stripes%im//','//to_table(stripes%levels(j))//','// &
                      & to_table(stripes%scale(i, j))//','//to_table(response%edp)//','// &
                      & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
-                     & to_table(response%time_of_peak))
+                     & to_table(response%time_of_peak)//last)
                end associate
             end do
          end do
@@ -257,6 +261,7 @@ contains
          call files%line('# collapsed: '//to_text(merge(1, 0, response%collapsed)))
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
+         if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
          call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp')
          capacity = case%population%walls(1)%mechanism%capacity
          do i = 1, trace%rows

@@ -6,11 +6,11 @@ module dondolo_run_case
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
+   use dondolo_simulate, only : simulate
    use dondolo_stripes, only : multiple_stripe, progress_interface, stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names
-   use dondolo_warnings, only : scale_warning_type, warn_of_fit, warn_of_fits, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_errors, warn_of_fit, warn_of_fits, warn_of_records
    implicit none
    private
 
@@ -58,7 +58,7 @@ contains
       select case (case%job%task)
       case ('history')
          call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
-         call simulate_rk45(case%population%walls(1)%mechanism, case%records(case%history%record), &
+         call simulate(case%population%walls(1)%mechanism, case%records(case%history%record), &
             & case%history_scale(), case%solver%solver, results%response, results%trace)
       case ('stripes')
          call run_stripes(case, results, error, team, progress)
@@ -89,6 +89,7 @@ contains
       call scales%look(results%stripes, case%records)
       call scales%warn(results%warnings)
       call warn_of_fit(case%population%walls(1), results%stripes, results%fragility(1), results%warnings)
+      call warn_of_errors(results%stripes, case%records, case%solver%solver%edp_limit, results%warnings)
    end subroutine run_stripes
 
    !> Stripes of every wall of the population, counts kept

@@ -15,8 +15,8 @@ module dondolo_solver_group
    public :: solver_variables
 
    !> Variables of the group
-   character(len=9), parameter :: solver_variables(5) = &
-      & [character(len=9) :: 'engine', 'rtol', 'atol', 'edp_limit', 'gravity']
+   character(len=14), parameter :: solver_variables(6) = &
+      & [character(len=14) :: 'engine', 'rtol', 'atol', 'edp_limit', 'estimate_error', 'gravity']
 
    !> Largest gravity that makes sense [m/s2]
    real(wp), parameter :: largest_gravity = 1.0e3_wp
@@ -48,6 +48,7 @@ contains
       if (.not. allocated(error)) call group%get_real('rtol', input%solver%rtol, error)
       if (.not. allocated(error)) call group%get_real('atol', input%solver%atol, error)
       if (.not. allocated(error)) call group%get_real('edp_limit', input%solver%edp_limit, error)
+      if (.not. allocated(error)) call group%get_logical('estimate_error', input%solver%estimate_error, error)
       if (.not. allocated(error)) call group%get_real('gravity', input%gravity, error)
       if (allocated(error)) return
       if (.not. any(engine == engine_names)) then
@@ -72,6 +73,7 @@ contains
       call lines%add('        '//assignment_text('rtol', input%solver%rtol)//', '// &
          & assignment_text('atol', input%solver%atol))
       call lines%add('        '//assignment_text('edp_limit', input%solver%edp_limit))
+      call lines%add('        '//assignment_text('estimate_error', input%solver%estimate_error))
       call lines%add('        '//assignment_text('gravity', input%gravity)//' /')
    end subroutine echo_solver
 

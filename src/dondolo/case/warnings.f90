@@ -4,6 +4,7 @@ module dondolo_warnings
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
+   use dondolo_response, only : largest_sure_error
    use dondolo_stripes, only : stripes_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : typology_type
@@ -11,7 +12,7 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, rounded
+   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, warn_of_errors, rounded
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -164,6 +165,33 @@ contains
          end associate
       end do
    end subroutine warn_of_fits
+
+   !> Warn of histories whose estimated error is large, and of collapses in doubt
+   subroutine warn_of_errors(stripes, records, edp_limit, warnings)
+      !> Stripes with estimated errors
+      type(stripes_type), intent(in) :: stripes
+      !> Records
+      type(record_type), intent(in) :: records(:)
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      character(len=:), allocatable :: of_all
+      integer :: at(2), number
+
+      of_all = ' of '//to_text(size(stripes%response))//' histories '
+      number = count(stripes%response%is_ill_conditioned())
+      if (number > 0) then
+         at = maxloc(stripes%response%edp_error)
+         call warnings%add(to_text(number)//of_all//'are ill-conditioned: the estimated error of the EDP is above '// &
+            & to_text(largest_sure_error)//', at most '//rounded(stripes%response(at(1), at(2))%edp_error)// &
+            & ' (record '''//records(stripes%record(at(1)))%name//''' at level '//to_text(stripes%levels(at(2)))//')')
+      end if
+      number = count(stripes%response%is_unsure(edp_limit))
+      if (number > 0) call warnings%add(to_text(number)//of_all// &
+         & 'are so near the limit that their estimated error leaves the collapse in doubt')
+   end subroutine warn_of_errors
 
    !> Where a bracket lies: between two levels, or above or below one
    pure function between(bracket) result(text)

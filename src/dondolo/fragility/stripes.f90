@@ -9,7 +9,7 @@ module dondolo_stripes
    use dondolo_kinds, only : wp
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
+   use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : join, to_text
    use dondolo_wall, only : wall_type
@@ -151,7 +151,7 @@ contains
       do k = last - 1, first - 1, -1
          i = modulo(k, histories) + 1
          j = k/histories + 1
-         call simulate_rk45(wall%mechanism, records(stripes%record(i)), &
+         call simulate(wall%mechanism, records(stripes%record(i)), &
             & real(stripes%polarity(i), wp)*stripes%scale(i, j), solver, stripes%response(i, j))
          !$omp atomic capture
          done = done + 1

@@ -83,16 +83,19 @@ contains
       !> Does it end on the next sample?
       logical, intent(out) :: sample_reached
 
-      real(wp) :: remaining, h, q, v, f, q_error, v_error, error, x
+      ! Longer by a little, so that rounding never asks for one step more
+      real(wp), parameter :: slack = 1.0001_wp
+      real(wp) :: longest, remaining, h, q, v, f, q_error, v_error, error, x
       logical :: accepted
       integer :: parts
 
+      longest = slack*dt/real(scene%solver%steps_per_sample, wp)
       remaining = dt - motion%time
       event = no_event
       sample_reached = .not. remaining > 0.0_wp
       if (sample_reached) return
       do
-         parts = max(1, ceiling(remaining/motion%step))
+         parts = max(1, ceiling(remaining/min(motion%step, longest)))
          h = remaining/real(parts, wp)
          call dormand_prince_step(mechanism, motion%excitation, motion%time, h, motion%q, motion%v, motion%f, &
             & q, v, f, q_error, v_error)

@@ -5,6 +5,10 @@ module dondolo_response
    private
 
    public :: response_type, trace_type
+   public :: largest_sure_error
+
+   !> A history whose EDP has a larger estimated error than this is called ill-conditioned
+   real(wp), parameter :: largest_sure_error = 1.0e-6_wp
 
    !> Result of one history
    type :: response_type
@@ -17,6 +21,13 @@ module dondolo_response
       integer :: impacts = 0
       !> Time of the largest rotation, or of reaching the limit [s]
       real(wp) :: time_of_peak = 0.0_wp
+      !> Estimated error of the EDP; 0 unless the solver was asked for it
+      real(wp) :: edp_error = 0.0_wp
+   contains
+      !> Is the EDP in doubt?
+      procedure :: is_ill_conditioned
+      !> Is it in doubt whether the wall collapses?
+      procedure :: is_unsure
    end type response_type
 
    !> Time history: rows at every sample and before and after every impact
@@ -39,6 +50,24 @@ module dondolo_response
    end type trace_type
 
 contains
+
+   !> Is the EDP in doubt?
+   elemental logical function is_ill_conditioned(self)
+      !> Result with its estimated error
+      class(response_type), intent(in) :: self
+
+      is_ill_conditioned = self%edp_error > largest_sure_error
+   end function is_ill_conditioned
+
+   !> Is it in doubt whether the wall collapses?
+   elemental logical function is_unsure(self, edp_limit)
+      !> Result with its estimated error
+      class(response_type), intent(in) :: self
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+
+      is_unsure = self%edp_error > 0.0_wp .and. self%edp + self%edp_error >= edp_limit
+   end function is_unsure
 
    !> Add a row
    pure subroutine add(self, time, acceleration, rotation, velocity)

@@ -7,7 +7,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit
+   public :: solver_type, check_solver, check_limit, halved_steps
    public :: engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -23,6 +23,10 @@ module dondolo_solver
       real(wp) :: atol = 1.0e-10_wp
       !> Rotation / capacity at which the wall has collapsed
       real(wp) :: edp_limit = 1.0_wp
+      !> Run every history a second time, to estimate the error of its EDP?
+      logical :: estimate_error = .false.
+      !> Least number of steps from sample to sample
+      integer :: steps_per_sample = 1
    end type solver_type
 
 contains
@@ -47,6 +51,22 @@ contains
          call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be positive')
       end if
    end subroutine check_solver
+
+   !> Settings that halve every step, whether samples or tolerances limit it; no tolerance gets lost in rounding
+   elemental function halved_steps(solver) result(finer)
+      !> Settings
+      type(solver_type), intent(in) :: solver
+      !> Finer settings
+      type(solver_type) :: finer
+
+      ! Half a step has a 32nd of the error that the control of the step looks at.
+      real(wp), parameter :: part = 1.0_wp/32.0_wp, least_rtol = 50.0_wp*epsilon(1.0_wp), least_atol = epsilon(1.0_wp)
+
+      finer = solver
+      finer%rtol = min(solver%rtol, max(part*solver%rtol, least_rtol))
+      finer%atol = min(solver%atol, max(part*solver%atol, least_atol))
+      finer%steps_per_sample = 2*solver%steps_per_sample
+   end function halved_steps
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)

@@ -1,0 +1,43 @@
+!> The motion of a wall under an accelerogram, and how far its result can be trusted.
+!>
+!> Rocking amplifies errors, in a few histories by more than 10^8, and nothing in a step's own error tells which.
+!> So the history is run once more with every step halved, which leaves a 32nd of the error of a fifth-order
+!> method: the difference is the error of the first run (docs/theory.md, section 5).
+module dondolo_simulate
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_record, only : record_type
+   use dondolo_response, only : response_type, trace_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_solver, only : halved_steps, solver_type
+   implicit none
+   private
+
+   public :: simulate
+
+contains
+
+   !> The motion of a wall, at rest at the start
+   pure subroutine simulate(mechanism, record, scale, solver, response, trace)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Factor on it, negative to reverse its polarity
+      real(wp), intent(in) :: scale
+      !> Engine, tolerances and limit; whether the error of the EDP is to be estimated
+      type(solver_type), intent(in) :: solver
+      !> Result
+      type(response_type), intent(out) :: response
+      !> Time history, until rest or 10 s past the end of the record; computed only if present
+      type(trace_type), intent(inout), optional :: trace
+
+      type(response_type) :: finer
+
+      call simulate_rk45(mechanism, record, scale, solver, response, trace)
+      if (.not. solver%estimate_error) return
+      call simulate_rk45(mechanism, record, scale, halved_steps(solver), finer)
+      response%edp_error = abs(finer%edp - response%edp)
+   end subroutine simulate
+
+end module dondolo_simulate
