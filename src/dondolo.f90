@@ -21,6 +21,7 @@ module dondolo
    use dondolo_intensity, only : im_names, intensity, level_unit
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_metadata, only : entry_type, metadata_type
    use dondolo_population, only : population_type, read_population
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
@@ -40,6 +41,7 @@ module dondolo
    public :: wp, dondolo_version_text, error_type
    ! Accelerograms
    public :: record_type, new_record, read_record, read_records, read_catalogue, synthetic_record
+   public :: metadata_type, entry_type
    public :: im_names, intensity, level_unit
    ! Walls
    public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type

@@ -295,6 +295,8 @@ check "check: exit code" equal "$rc" 0
 check "check: writes nothing" equal "$(listing)" "$before"
 check "check: wall" contains stdout 'one_sided'
 check "check: records" contains stdout 'r4'
+check "check: peak velocity" contains stdout 'PGV'
+check "check: problems" contains stdout 'problems'
 check "check: histories" contains stdout '40 histories'
 check "check: scale" contains stdout 'largest scale factor'
 run --check history.nml

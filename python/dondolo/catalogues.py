@@ -58,8 +58,13 @@ def build_catalogue(
     for path in files:
         if path.resolve() == target.resolve():
             continue
+        place = Path(os.path.relpath(path, target.parent)).as_posix()
         try:
+            place.encode()
             records, given_units = _read(path, dt, units)
+        except UnicodeEncodeError:
+            problems.append(f"{path}: a name that UTF-8 does not know")
+            continue
         except InputError as error:
             problems.append(str(error))
             continue
@@ -68,7 +73,6 @@ def build_catalogue(
             problems.append(f"{path}: record '{taken[0]}' stands in the catalogue already")
             continue
         names.update(record.name for record in records)
-        place = Path(os.path.relpath(path, target.parent)).as_posix()
         for record in records:
             row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
             row += (record.metadata.get("units", given_units),)
@@ -83,16 +87,16 @@ def build_catalogue(
 
 def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:
     """All channels of a file, and the units that it did not state."""
-    attempts = [(None, None)]
-    attempts += [pair for pair in ((None, units), (dt, None), (dt, units)) if pair not in attempts]
+    # What a file states may not be given unless it agrees, so that each is tried without the other first
+    attempts = dict.fromkeys([(None, None), (None, units), (dt, None), (dt, units)])
     for attempt in attempts:
         try:
             return read_records(path, *attempt), attempt[1] or ""
         except InputError as error:
-            last = error
-            if "must be given" not in str(error):
+            reason = error
+            if attempt == (None, None) and "must be given" not in str(error):
                 break
-    raise last
+    raise reason
 
 
 def _is_hidden(path: Path, root: Path) -> bool:

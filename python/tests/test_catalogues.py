@@ -1,5 +1,6 @@
 """Catalogues of folders, and their tables, from the shell."""
 
+import os
 import subprocess
 import sys
 
@@ -67,6 +68,28 @@ def test_steps_and_units_for_files_without(folder, tmp_path):
     assert records["timed"].dt == 0.01
     assert records["timed"].pga == 1.0
     assert records["valley"].pga == 0.2 * 9.80665
+
+
+def test_units_without_a_step(folder, tmp_path):
+    (folder / "titled.txt").write_text("acceleration (cm/s2)\n1\n2\n3\n")
+    target = tmp_path / "all.csv"
+    code, _, err = run("catalogue", folder, "-o", target, "--dt", "0.005", "--units", "m/s2")
+    assert code == 0
+    assert "titled" not in err
+    records = {record.name: record for record in dd.read_catalogue(target)}
+    assert records["titled"].pga == 3 * 0.01
+
+
+def test_names_that_are_no_utf8(folder):
+    odd = os.fsencode(folder) + b"/caf\xe9.AT2"
+    try:
+        with open(odd, "w") as file:
+            file.write(PEER)
+    except OSError:
+        pytest.skip("this file system knows no such names")
+    code, _, err = run("catalogue", folder)
+    assert code == 0
+    assert "a name that UTF-8 does not know" in err
 
 
 def test_names_that_stand_there_twice(folder):
