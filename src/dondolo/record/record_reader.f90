@@ -179,8 +179,8 @@ contains
          if (i == size(known) .and. found > 0) exit
          if (.not. known(i)%format%recognises(text)) cycle
          if (found > 0) then
-            call raise_input(error, text%file//': may be in the format '//names_of(known([found, i]))// &
-               & ': format must name one of them')
+            call raise_input(error, text%file//': may be in the format '''//known(found)%format%name()//''', '''// &
+               & known(i)%format%name()//''': format must name one of them')
             return
          end if
          found = i
