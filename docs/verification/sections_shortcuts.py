@@ -12,7 +12,8 @@ NONE, ALL = "none", "all of these"
 
 MEANINGS = [
     "*none*: a check of the study itself, which must be as close to the reference as dondolo is.",
-    "*rest below 1e-3 of the capacity*: a rebound that would rise less than that in still ground is rest. dondolo sets a "
+    "*rest below 1e-3 of the capacity*: a rebound that would rise less than that in still ground is rest. dondolo "
+    "sets a "
     "wall to rest only where its chain of bounces provably ends there.",
     "*rocking starts at the next sample* instead of inside the interval.",
     "*impact at the end of its step*: q = 0 and the restitution are applied where a step ends with q < 0.",
@@ -24,7 +25,8 @@ MEANINGS = [
 
 TESTS = [
     (
-        "Free fall and free rocking of a block, linear and nonlinear; Housner's amplitudes; a one-sided chain of bounces",
+        "Free fall and free rocking of a block, linear and nonlinear; Housner's amplitudes; a one-sided chain of "
+        "bounces",
         "Housner 1963; closed forms",
         "test_motion",
         ("free fall", "free rocking"),
@@ -130,7 +132,8 @@ def shortcuts(study):
         "## 6. What shortcuts cost",
         "",
         *paragraph(
-            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion by a loop of its own, "
+            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion by a loop of "
+            "its own, "
             "and takes the shortcuts that programs of this kind take, one at a time, at the default tolerances on the "
             "recorded set."
         ),
@@ -162,8 +165,10 @@ def shortcuts(study):
     harmless = [name for name in next(iter(found.values())) if not any(each[name].flags() for each in found.values())]
     harmless = ", ".join(f"*{name}*" for name in harmless if name != NONE)
     return lines + paragraph(
-        f"Without a wrong flag here: {harmless or 'none of them'}. These recordings go on until the walls are still; what "
-        "happens after the record matters where one was cut short. A curve hides much of what is lost: wrong flags of both "
+        f"Without a wrong flag here: {harmless or 'none of them'}. These recordings go on until the walls are still; "
+        f"what "
+        "happens after the record matters where one was cut short. A curve hides much of what is lost: wrong flags "
+        "of both "
         "kinds cancel in θ."
     )
 
