@@ -304,6 +304,7 @@ contains
          & ': line 4: time 0.02 after 0.02: times must be equally spaced')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.005,1'//lf, &
          & ': line 3: time 0.005 after 0.01: times must increase')
+      call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, ': line 2: all times are 0')
       call check_bad_file('1,0'//lf//'1,1'//lf//'1,2'//lf, ': line 2: all times are 1')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02'//lf, ': line 3: 1 values: must be 2 as in line 1')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1,1'//lf, ': line 3: 3 values: must be 2')
@@ -428,11 +429,11 @@ contains
          & ': line 7: DATA_TYPE')
       call check_bad_stated(dyna(step, count, units, peak, 'NOTHING: 1')//values, ': line 1: DATA_TYPE = '''': must be')
       call check_bad_stated(dyna('SAMPLING_INTERVAL_S: ', count, units, peak, kind)//values, &
-         & ': line 3: SAMPLING_INTERVAL_S = '''': must be a number')
+         & ': line 3: SAMPLING_INTERVAL_S = '''': must be a positive number')
       call check_bad_stated(dyna('SAMPLING_INTERVAL_S: 0.0', count, units, peak, kind)//values, &
-         & ': line 3: SAMPLING_INTERVAL_S = 0: must be positive')
+         & ': line 3: SAMPLING_INTERVAL_S = ''0.0'': must be a positive number')
       call check_bad_stated(dyna(step, 'NDATA: 5.5', units, peak, kind)//values, &
-         & ': line 4: NDATA = 5.5: must be a positive integer')
+         & ': line 4: NDATA = ''5.5'': must be a positive integer')
       call check_bad_stated(dyna(step, 'NDATA: many', units, peak, kind)//values, ': line 4: NDATA = ''many''')
       call check_bad_stated(dyna(step, 'NDATA: 6', units, peak, kind)//values, &
          & ': line 13: the file ends after 5 values: the header states 6')
@@ -500,9 +501,8 @@ contains
    !> Contents of no known format
    subroutine test_unknown()
       call suite('unknown')
-      call check_bad_file('0 1 2 3'//lf//'0 1 2 3'//lf, &
+      call check_bad_file('0 1 2 3'//lf//'1'//lf//'1 2'//lf, &
          & ': the format is not known: must be one of ''peer'', ''dyna'', ''')
-      call check_bad_file('title'//lf//'3 0.01'//lf//'1'//lf//'2'//lf//'3'//lf, ': the format is not known')
       call check_bad_file('words'//lf//'and more'//lf//'words'//lf, ': the format is not known')
       call check_bad_file('# remark'//lf, ': the format is not known')
       call check_bad_file('', ': the file is empty')

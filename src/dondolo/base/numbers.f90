@@ -66,7 +66,11 @@ contains
       if (digits == 0) return
       exponent = 0
       if (i <= last) then
-         if (scan(text(i:i), 'eEdD') == 0) return
+         select case (text(i:i))
+         case ('e', 'E', 'd', 'D')
+         case default
+            return
+         end select
          call take_exponent(text(i + 1:last), exponent, ok)
          if (.not. ok) return
       end if
@@ -126,10 +130,15 @@ contains
       !> Position of its last character that is no blank
       integer, intent(out) :: last
 
-      character(len=*), parameter :: blanks = ' '//achar(9)
+      character(len=1), parameter :: tab = achar(9)
 
-      last = verify(text, blanks, back=.true.)
-      first = max(verify(text, blanks), 1)
+      ! Loops, for VERIFY takes longer than all the rest of a number
+      do last = len(text), 1, -1
+         if (text(last:last) /= ' ' .and. text(last:last) /= tab) exit
+      end do
+      do first = 1, last
+         if (text(first:first) /= ' ' .and. text(first:first) /= tab) exit
+      end do
    end subroutine inner
 
    !> Add decimal digits to an integer, up to the first other character
@@ -169,11 +178,23 @@ contains
       !> It is [sign] digits, and not beyond all precisions
       logical, intent(out) :: ok
 
-      ok = .false.
+      integer(int64) :: units
+      integer :: i, digits
+      logical :: exact, minus
+
       exponent = 0
-      if (scan(text, ' '//achar(9)) > 0) return
-      call parse_integer(text, exponent, ok)
-      ok = ok .and. abs(exponent) <= largest_exponent
+      i = 1
+      minus = .false.
+      if (len(text) > 0) then
+         minus = text(1:1) == '-'
+         if (minus .or. text(1:1) == '+') i = 2
+      end if
+      units = 0
+      exact = .true.
+      digits = 0
+      call take_digits(text, i, units, exact, digits)
+      ok = digits > 0 .and. i > len(text) .and. exact .and. units <= largest_exponent
+      if (ok) exponent = int(merge(-units, units, minus))
    end subroutine take_exponent
 
 end module dondolo_numbers

@@ -31,6 +31,8 @@ module dondolo_text_file
       procedure :: line
       !> Where a line is, for messages
       procedure :: place
+      !> The next word of a line
+      procedure :: next_word
    end type text_file_type
 
 contains
@@ -151,5 +153,29 @@ contains
 
       place = self%file//': line '//to_text(i)
    end function place
+
+   !> The next word of a line: what stands between blanks and tabs
+   pure subroutine next_word(self, at, last, first, finish)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Position from which to look
+      integer, intent(in) :: at
+      !> Last position of the line
+      integer, intent(in) :: last
+      !> Position of the first character of the word, beyond `last` if there is none
+      integer, intent(out) :: first
+      !> Position of its last character
+      integer, intent(out) :: finish
+
+      character(len=1), parameter :: tab = achar(9)
+
+      ! Loops, for SCAN and VERIFY take several times longer on short words
+      do first = at, last
+         if (self%text(first:first) /= ' ' .and. self%text(first:first) /= tab) exit
+      end do
+      do finish = first, last - 1
+         if (self%text(finish + 1:finish + 1) == ' ' .or. self%text(finish + 1:finish + 1) == tab) exit
+      end do
+   end subroutine next_word
 
 end module dondolo_text_file

@@ -1,7 +1,7 @@
 !> Headers of a COSMOS file: where their parts are, and what they say of the record.
 module dondolo_cosmos_header
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed, table_type
+   use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : channel_type, raise_at
@@ -178,7 +178,7 @@ contains
       end do
       associate (metadata => channel%metadata, reals => self%reals, integers => self%integers)
          call metadata%set('event', event_of(text_line(2)))
-         call metadata%set('date', squeezed(after(text_line(4), 'origin:')))
+         call metadata%set('date', moment_of(after(text_line(4), 'origin:')))
          line = text_line(5)
          call metadata%set('network', before(code_of(line), '-'))
          call metadata%set('station', after(code_of(line), '-'))
@@ -194,6 +194,7 @@ contains
          call metadata%set('longitude', reals%field(text, 2))
          call metadata%set('processing', lower(before(text_line(1), '('))//'; '//squeezed(text_line(12)))
          call metadata%set('processed', squeezed(before(after(text_line(11), 'processed:'), 'max')))
+         call metadata%set('origin', squeezed(after(text_line(4), 'origin:')))
          call metadata%set('hypocenter', squeezed(after(text_line(3), 'hypocenter:')))
          call metadata%set('statn no', first_word(after(line, 'statn no:'), ' '))
          call metadata%set('site geology', squeezed(after(text_line(6), 'site geology:')))

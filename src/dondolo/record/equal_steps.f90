@@ -40,7 +40,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i, n, odd, decimals, digits
-      real(wp) :: rounding, rounding_of_last
+      real(wp) :: rounding, rounding_of_last, allowed
 
       dt = 0.0_wp
       n = size(time)
@@ -61,7 +61,11 @@ contains
       end if
       call print_of_times(text, first, last, decimals, digits)
       rounding_of_last = rounding_of(time(n), dt, decimals, digits)
+      ! Most times are within the rounding of their last decimal, which is quickly seen
+      allowed = min(10.0_wp**(-decimals), resolved*dt) + slack*dt
       do i = 2, n
+         if (abs(time(i) - time(i - 1) - dt) <= allowed .and. &
+            & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= allowed) cycle
          rounding = rounding_of(time(i), dt, decimals, digits)
          if (abs(time(i) - time(i - 1) - dt) <= rounding + slack*dt .and. &
             & abs(time(i) - time(1) - real(i - 1, wp)*dt) <= max(rounding, rounding_of_last) + slack*dt) cycle
@@ -107,24 +111,27 @@ contains
       !> Most significant digits of any
       integer, intent(out) :: digits
 
-      integer :: i, k, mark, after, exponent, significant
+      integer :: i, k, after, exponent, significant
       logical :: point
 
       decimals = 0
       digits = 1
       do i = 1, size(first)
-         mark = scan(text%text(first(i):last(i)), 'eEdD')
          exponent = 0
-         if (mark > 0) read (text%text(first(i) + mark:last(i)), *) exponent
-         if (mark == 0) mark = last(i) - first(i) + 2
          point = .false.
          after = 0
          significant = 0
-         do k = first(i), first(i) + mark - 2
-            if (text%text(k:k) == '.') point = .true.
-            if (index('0123456789', text%text(k:k)) == 0) cycle
-            if (point) after = after + 1
-            if (significant > 0 .or. text%text(k:k) /= '0') significant = significant + 1
+         do k = first(i), last(i)
+            select case (text%text(k:k))
+            case ('0':'9')
+               if (point) after = after + 1
+               if (significant > 0 .or. text%text(k:k) /= '0') significant = significant + 1
+            case ('.')
+               point = .true.
+            case ('e', 'E', 'd', 'D')
+               read (text%text(k + 1:last(i)), *) exponent
+               exit
+            end select
          end do
          decimals = max(decimals, after - exponent)
          digits = max(digits, significant)

@@ -1,7 +1,8 @@
-!> Plain columns of numbers: accelerations alone, one a line, or times and accelerations.
+!> Plain columns of numbers: accelerations alone, one a line, or times and one or more columns of accelerations.
 !>
 !> At the top may stand comment lines that begin with # and one line of titles. Columns are separated by semicolons,
-!> commas, or blanks and tabs.
+!> commas, or blanks and tabs. Comments `# key: value` are metadata; a title may end with units in brackets. Of three
+!> columns or more, each but the first is a channel with its title for a name, else `column 2` and so on.
 module dondolo_format_columns
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : error_type
@@ -27,9 +28,9 @@ module dondolo_format_columns
    end type columns_format_type
 
    !> Most columns that are told apart
-   integer, parameter :: most_cells = 3
+   integer, parameter :: most_cells = 64
 
-   !> Blanks
+   !> Blanks between columns
    character(len=*), parameter :: blanks = ' '//achar(9)
 
 contains
@@ -46,7 +47,7 @@ contains
    function recognises(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The first line of values holds one or two, as the second or the third does, and one of them is a number
+      !> The first line of values holds as many as the second or the third does, and one of them is a number
       logical :: recognised
 
       integer :: begin, line, first(most_cells), last(most_cells), cells, others
@@ -56,12 +57,12 @@ contains
       recognised = .false.
       begin = first_value_line(text)
       if (begin > text%lines()) return
-      call find_cells(text, begin, first, last, cells)
-      if (cells > 2) return
+      call find_cells(text, begin, separator_of(text, begin), first, last, cells)
+      if (cells >= most_cells) return
       call parse_real(text%text(first(1):last(1)), value, a_number)
       alike = begin == text%lines()
       do line = begin + 1, min(begin + 2, text%lines())
-         call find_cells(text, line, first, last, others)
+         call find_cells(text, line, separator_of(text, line), first, last, others)
          if (others == cells) alike = .true.
          if (.not. a_number) call parse_real(text%text(first(1):last(1)), value, a_number)
       end do
@@ -77,41 +78,154 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=1) :: separator
       integer :: begin, line, cell, cells, found, i, first(most_cells), last(most_cells)
       real(wp), allocatable :: values(:, :)
       integer, allocatable :: time_first(:), time_last(:)
+      real(wp) :: dt
       logical :: ok
 
       begin = first_value_line(text)
       if (begin > text%lines()) then
-         call raise_at(error, text, 1, 'no line of values')
+         call raise_at(error, text, text%lines(), 'no line of values')
          return
       end if
-      call find_cells(text, begin, first, last, cells)
-      allocate (values(text%lines() - begin + 1, cells), time_first(text%lines() - begin + 1))
-      allocate (time_last(size(time_first)))
+      separator = separator_of(text, begin)
+      call find_cells(text, begin, separator, first, last, cells)
+      if (cells >= most_cells) then
+         call raise_at(error, text, begin, 'more than '//to_text(most_cells - 1)//' columns')
+         return
+      end if
+      allocate (values(cells, text%lines() - begin + 1))
+      allocate (time_first(size(values, 2)), time_last(size(values, 2)))
       do line = begin, text%lines()
          i = line - begin + 1
-         call find_cells(text, line, first, last, found)
-         if (found /= cells) then
-            call raise_at(error, text, line, to_text(found)//' values: must be '//to_text(cells)//' as in line '// &
-               & to_text(begin))
+         call find_cells(text, line, separator, first, last, found)
+         ok = found == cells
+         do cell = 1, cells
+            if (.not. ok) exit
+            call parse_real(text%text(first(cell):last(cell)), values(cell, i), ok)
+         end do
+         if (.not. ok) then
+            call raise_bad_line(text, line, begin, cells, error)
             return
          end if
-         do cell = 1, cells
-            call parse_real(text%text(first(cell):last(cell)), values(i, cell), ok)
-            if (ok) cycle
-            call raise_at(error, text, line, 'value '''//text%text(first(cell):last(cell))//''': must be a number')
-            return
-         end do
          time_first(i) = first(1)
          time_last(i) = last(1)
       end do
-      allocate (samples%channels(1))
-      samples%channels(1)%values = values(:, cells)
-      if (cells == 2) call check_equal_steps(text, begin, values(:, 1), time_first, time_last, samples%channels(1)%dt, &
-         & error)
+      dt = 0.0_wp
+      if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
+      if (allocated(error)) return
+      allocate (samples%channels(max(cells - 1, 1)))
+      do i = 1, size(samples%channels)
+         cell = min(i + 1, cells)
+         samples%channels(i)%values = values(cell, :)
+         samples%channels(i)%dt = dt
+         if (cells > 2) samples%channels(i)%name = 'column '//to_text(cell)
+      end do
+      call read_top(text, begin, cells, samples)
    end subroutine read_columns
+
+   !> Say what is wrong in a line
+   subroutine raise_bad_line(text, line, begin, cells, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Number of the line
+      integer, intent(in) :: line
+      !> First line of values
+      integer, intent(in) :: begin
+      !> How many values it holds
+      integer, intent(in) :: cells
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: value
+      integer :: cell, found, first(most_cells), last(most_cells)
+      logical :: ok
+
+      ! The line may have another separator than the first one has
+      call find_cells(text, line, separator_of(text, line), first, last, found)
+      if (found /= cells) then
+         call raise_at(error, text, line, to_text(found)//' values: must be '//to_text(cells)//' as in line '// &
+            & to_text(begin))
+         return
+      end if
+      do cell = 1, cells
+         call parse_real(text%text(first(cell):last(cell)), value, ok)
+         if (ok) cycle
+         call raise_at(error, text, line, 'value '''//text%text(first(cell):last(cell))//''': must be a number')
+         return
+      end do
+      call raise_at(error, text, line, 'columns must be separated as in line '//to_text(begin))
+   end subroutine raise_bad_line
+
+   !> Read comments and titles
+   subroutine read_top(text, begin, cells, samples)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line of values
+      integer, intent(in) :: begin
+      !> Number of columns
+      integer, intent(in) :: cells
+      !> What the file says
+      type(samples_type), intent(inout) :: samples
+
+      character(len=:), allocatable :: content, units
+      integer :: line, mark, i, k, titles, first(most_cells), last(most_cells)
+
+      do line = 1, begin - 1
+         content = trim(adjustl(text%line(line)))
+         if (index(content, '#') == 1) then
+            mark = index(content, ':')
+            if (mark > 2) call samples%metadata%set(content(2:mark - 1), content(mark + 1:))
+            cycle
+         end if
+         call find_cells(text, line, separator_of(text, line), first, last, titles)
+         ! Blanks may stand inside titles too: a single column has the whole line for its title
+         if (cells == 1) then
+            titles = 1
+            first(1) = text%first(line)
+            last(1) = text%last(line)
+         end if
+         if (titles /= cells) cycle
+         do i = 1, size(samples%channels)
+            k = min(i + 1, cells)
+            content = unquoted(text%text(first(k):last(k)))
+            units = units_in(content)
+            if (len(units) > 0) samples%channels(i)%units = units
+            if (cells > 2 .and. len(content) > 0) samples%channels(i)%name = content
+         end do
+      end do
+   end subroutine read_top
+
+   !> Units in a title
+   pure function units_in(title) result(units)
+      !> Title
+      character(len=*), intent(in) :: title
+      !> What stands in its last brackets, if it is g or gal or holds a stroke, as m/s2 does
+      character(len=:), allocatable :: units
+
+      integer :: open, close
+
+      units = ''
+      open = scan(title, '([', back=.true.)
+      close = scan(title, ')]', back=.true.)
+      if (open == 0 .or. close <= open + 1) return
+      units = trim(adjustl(title(open + 1:close - 1)))
+      if (lower(units) /= 'g' .and. lower(units) /= 'gal' .and. index(units, '/') == 0) units = ''
+   end function units_in
+
+   !> A title without blanks and quotes around it
+   pure function unquoted(title)
+      !> Title
+      character(len=*), intent(in) :: title
+      !> The same without blanks and quotes around
+      character(len=:), allocatable :: unquoted
+
+      character(len=*), parameter :: around = blanks//'"'''
+
+      unquoted = title(max(verify(title, around), 1):verify(title, around, back=.true.))
+   end function unquoted
 
    !> First line that holds values: after comments and one line of titles
    function first_value_line(text) result(line)
@@ -147,44 +261,56 @@ contains
          & index(word, 'nan') /= 1 .and. index(word, 'inf') /= 1
    end function is_title
 
-   !> Find the columns of a line
-   pure subroutine find_cells(text, line, first, last, cells)
+   !> What separates the columns of a line
+   pure function separator_of(text, line) result(separator)
       !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line
-      !> Position of the first character of each cell
+      !> A semicolon, a comma, or a blank for blanks and tabs
+      character(len=1) :: separator
+
+      separator = ' '
+      if (index(text%text(text%first(line):text%last(line)), ',') > 0) separator = ','
+      if (index(text%text(text%first(line):text%last(line)), ';') > 0) separator = ';'
+   end function separator_of
+
+   !> Find the columns of a line
+   pure subroutine find_cells(text, line, separator, first, last, cells)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Number of the line
+      integer, intent(in) :: line
+      !> What separates them
+      character(len=1), intent(in) :: separator
+      !> Position of the first character of each cell; an empty line has one that is empty
       integer, intent(out) :: first(most_cells)
       !> Position of the last character of each cell
       integer, intent(out) :: last(most_cells)
       !> Number of cells, `most_cells` if there are more
       integer, intent(out) :: cells
 
-      character(len=1) :: separator
-      integer :: at, finish, length
+      integer :: at, begin, finish
 
-      first = 1
-      last = 0
+      first(1) = 1
+      last(1) = 0
       cells = 0
       at = text%first(line)
-      finish = text%last(line)
-      separator = ' '
-      if (index(text%text(at:finish), ',') > 0) separator = ','
-      if (index(text%text(at:finish), ';') > 0) separator = ';'
-      do while (cells < most_cells .and. at <= finish)
+      do while (cells < most_cells .and. at <= text%last(line))
          if (separator == ' ') then
-            length = verify(text%text(at:finish), blanks) - 1
-            if (length < 0) return
-            at = at + length
-            length = scan(text%text(at:finish), blanks) - 1
+            call text%next_word(at, text%last(line), begin, finish)
+            if (begin > text%last(line)) return
          else
-            length = index(text%text(at:finish), separator) - 1
+            begin = at
+            do finish = begin, text%last(line)
+               if (text%text(finish:finish) == separator) exit
+            end do
+            finish = finish - 1
          end if
-         if (length < 0) length = finish - at + 1
          cells = cells + 1
-         first(cells) = at
-         last(cells) = at + length - 1
-         at = at + length + 1
+         first(cells) = begin
+         last(cells) = finish
+         at = finish + 2
       end do
    end subroutine find_cells
 

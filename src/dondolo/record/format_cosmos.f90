@@ -1,5 +1,9 @@
-!> COSMOS strong motion files, version 1.20 (.V0c to .V2c): one record after another, each with lines of text, a table of
-!> integers, one of reals, comments that begin with |, and the values in a Fortran format that the file states.
+!> COSMOS strong motion files, version 1.20 (.V0c to .V2c): one record after another, each with lines of text, a table
+!> of integers, one of reals, comments that begin with |, and the values in a Fortran format that the file states.
+!>
+!> Records of accelerations are channels; those of velocities and displacements beside them are skipped. The counts of
+!> a raw record become accelerations by the least bit of the recorder, the sensitivity of the sensor and the gain, and
+!> lose their mean, which holds the offset of the instrument.
 !>
 !> Source of positions and codes: COSMOS Strong Motion Programs Board (2001), COSMOS Strong Motion Data Format,
 !> version 1.20, tables 1 and 2.
@@ -53,8 +57,8 @@ module dondolo_format_cosmos
    !> Positions among the integers: processing stage, quantity, units
    integer, parameter :: stage_at = 1, quantity_at = 2, units_at = 3
 
-   !> Positions among the reals: least bit of the recorder [microvolt], time step of a raw record [s], sensitivity of the
-   !> sensor [V/g], gain, time step [ms], length of the record [s], largest value
+   !> Positions among the reals: least bit of the recorder [microvolt], time step of a raw record [s], sensitivity of
+   !> the sensor [V/g], gain, time step [ms], length of the record [s], largest value
    integer, parameter :: bit_at = 22, raw_step_at = 34, sensitivity_at = 42, gain_at = 47, step_at = 62, &
       & length_at = 63, peak_at = 64
 
@@ -105,9 +109,9 @@ contains
       do i = 1, size(headers)
          if (.not. is_acceleration(text, headers(i))) cycle
          found = found + 1
+         call headers(i)%keep(text, samples%channels(found))
          call read_values(text, headers(i), samples%channels(found), error)
          if (allocated(error)) return
-         call headers(i)%keep(text, samples%channels(found))
       end do
    end subroutine read_cosmos
 
@@ -154,7 +158,7 @@ contains
 
       character(len=:), allocatable :: line, format
       integer :: count, width, per_line, next
-      real(wp) :: multiple
+      real(wp) :: multiple, mean
       logical :: ok, raw
 
       line = text%line(header%value_line)
@@ -184,8 +188,10 @@ contains
       call read_step(text, header, count, channel%dt, error)
       if (allocated(error)) return
       if (raw) then
-         channel%values = channel%values - sum(channel%values)/real(count, wp)
-         call channel%metadata%set('mean', 'removed')
+         mean = sum(channel%values)/real(count, wp)
+         channel%values = channel%values - mean
+         call channel%metadata%set('processing', channel%metadata%get('processing')//'; mean of '// &
+            & to_text(anint(mean))//' counts removed')
       else
          call check_not_missing(text, header%value_line + 1, per_line, channel%values, header%reals%missing, error)
          channel%peak = header%reals%field(text, peak_at)

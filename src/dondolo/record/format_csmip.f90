@@ -6,12 +6,12 @@
 !> files state the Fortran format as well: `in cm/sec2. (8f10.6)`.
 module dondolo_format_csmip
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed
+   use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -198,7 +198,7 @@ contains
          line = squeezed(text%line(first + 2))
          if (len(line) == 0) line = squeezed(text%line(first + 8))
          call metadata%set('event', line)
-         call metadata%set('date', squeezed(before(text%line(first + 3), '(origin')))
+         call metadata%set('date', origin_of(text%line(first + 3)))
          call read_station(rest_of('station no.'), metadata)
          call metadata%set('station name', squeezed(text%line(first + 6)))
          call metadata%set('component', channel%name)
@@ -207,7 +207,7 @@ contains
          call metadata%set('processing', 'corrected; filtered '//rest_of('filtered'))
          call metadata%set('processed', rest_of('processed:'))
          call metadata%set('record', squeezed(text%line(first + 4)))
-         call metadata%set('origin', rest_of('(origin'))
+         call metadata%set('time', squeezed(text%line(first + 3)))
          call metadata%set('hypocenter', rest_of('hypocenter'))
          call metadata%set('instr period', rest_of('instr period ='))
          call metadata%set('record length', rest_of('record length ='))
@@ -234,6 +234,26 @@ contains
       end function rest_of
 
    end subroutine read_header
+
+   !> Time of the earthquake: MAY 2, 1983 16:42 PDT     (ORIGIN(BRK): 05/02/83, 23:42:38.5 UTC)
+   pure function origin_of(line) result(origin)
+      !> The line: local time, then the origin time, whose year has two digits
+      character(len=*), intent(in) :: line
+      !> The origin time, or else the local time as the line has it
+      character(len=:), allocatable :: origin
+
+      character(len=:), allocatable :: date, year
+      integer :: at
+
+      origin = squeezed(before(line, '(origin'))
+      date = after(after(line, '(origin'), ':')
+      at = index(date, '/', back=.true.)
+      if (at == 0 .or. at + 2 > len(date)) return
+      ! The local time has the whole year
+      year = first_word(after(origin, ','), ' ')
+      if (len(year) /= 4 .or. year(max(len(year) - 1, 1):) /= date(at + 1:at + 2)) return
+      origin = moment_of(date(:at)//year//date(at + 3:))
+   end function origin_of
 
    !> Number and coordinates of a station: 36456   35.908N, 120.458W     SMA-1  S/N 4384
    subroutine read_station(line, metadata)

@@ -1,10 +1,13 @@
-!> Files of the archives ITACA and ESM (DYNA 1.0 to 1.2, ITACA 1.1): lines `KEY: value`, then one value a line.
+!> Files of the archives ITACA and ESM (DYNA 1.0 to 1.2, ITACA 1.x): lines `KEY: value`, then one value a line.
+!>
+!> Values of keys may be empty. Dates may be 19971014, 1997/10/14 or 14/10/1997.
 module dondolo_format_dyna
+   use dondolo_dates, only : iso_date, iso_time
    use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
+   use dondolo_labels, only : labels_type, read_labels
+   use dondolo_metadata, only : metadata_type
    use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -42,7 +45,10 @@ contains
       !> It begins with lines `KEY: value`, among them the sampling interval
       logical :: recognised
 
-      recognised = line_of(text, 'SAMPLING_INTERVAL_S') > 0
+      type(labels_type) :: labels
+
+      call read_labels(text, 1, header_lines(text), labels)
+      recognised = labels%line_of('SAMPLING_INTERVAL_S') > 0
    end function recognises
 
    !> Read a DYNA file
@@ -54,70 +60,84 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: count
+      type(labels_type) :: labels
+      integer :: count
 
-      allocate (samples%channels(1))
-      call check_quantity(text, error)
+      call read_labels(text, 1, header_lines(text), labels)
+      call check_quantity(text, labels, error)
       if (allocated(error)) return
+      allocate (samples%channels(1))
       associate (channel => samples%channels(1))
-         call get_number(text, 'SAMPLING_INTERVAL_S', channel%dt, error)
+         call labels%get_positive(text, 'SAMPLING_INTERVAL_S', channel%dt, error)
+         if (.not. allocated(error)) call labels%get_count(text, 'NDATA', count, error)
          if (allocated(error)) return
-         if (.not. channel%dt > 0.0_wp) then
-            call raise_at(error, text, line_of(text, 'SAMPLING_INTERVAL_S'), 'SAMPLING_INTERVAL_S = '// &
-               & to_text(channel%dt)//': must be positive')
-            return
-         end if
-         call get_number(text, 'NDATA', count, error)
-         if (allocated(error)) return
-         if (.not. (count >= 1.0_wp .and. count <= real(huge(1), wp) .and. count == anint(count))) then
-            call raise_at(error, text, line_of(text, 'NDATA'), 'NDATA = '//to_text(count)// &
-               & ': must be a positive integer')
-            return
-         end if
-         channel%units = value_of(text, 'UNITS')
-         channel%peak = value_of(text, peak_key)
+         channel%units = labels%value_of('UNITS')
+         channel%peak = labels%value_of(peak_key)
          channel%peak_units = 'cm/s2'
-         channel%peak_line = line_of(text, peak_key)
-         call read_block(text, header_lines(text) + 1, nint(count), channel%values, error)
+         channel%peak_line = labels%line_of(peak_key)
+         channel%name = one_of(labels%value_of('STREAM'), labels%value_of('COMPONENT'))
+         call read_block(text, header_lines(text) + 1, count, channel%values, error)
+         call add_metadata(labels, channel%name, samples%metadata)
       end associate
    end subroutine read_dyna
 
    !> The values must be accelerations
-   subroutine check_quantity(text, error)
+   subroutine check_quantity(text, labels, error)
       !> The file
       type(text_file_type), intent(in) :: text
+      !> Its header
+      type(labels_type), intent(in) :: labels
       !> They are something else, or the file does not say
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: line
-
-      select case (lower(value_of(text, 'DATA_TYPE')))
+      select case (lower(labels%value_of('DATA_TYPE')))
       case ('acceleration', 'corrected acceleration', 'unprocessed acceleration')
       case default
-         line = max(line_of(text, 'DATA_TYPE'), 1)
-         call raise_at(error, text, line, 'DATA_TYPE = '''//value_of(text, 'DATA_TYPE')//''': must be ACCELERATION')
+         call raise_at(error, text, max(labels%line_of('DATA_TYPE'), 1), 'DATA_TYPE = '''// &
+            & labels%value_of('DATA_TYPE')//''': must be ACCELERATION')
       end select
    end subroutine check_quantity
 
-   !> Read a number of the header
-   subroutine get_number(text, key, value, error)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> Key
-      character(len=*), intent(in) :: key
-      !> Its value
-      real(wp), intent(out) :: value
-      !> The key is missing or its value is no number
-      type(error_type), allocatable, intent(out) :: error
+   !> What the header says
+   subroutine add_metadata(labels, component, metadata)
+      !> The header
+      type(labels_type), intent(in) :: labels
+      !> The component
+      character(len=*), intent(in) :: component
+      !> What it says
+      type(metadata_type), intent(inout) :: metadata
 
-      logical :: ok
+      character(len=:), allocatable :: date, time
 
-      call parse_real(value_of(text, key), value, ok)
-      if (.not. ok) then
-         call raise_at(error, text, max(line_of(text, key), 1), key//' = '''//value_of(text, key)// &
-            & ''': must be a number')
-      end if
-   end subroutine get_number
+      call metadata%set('event', one_of(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID')))
+      date = iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy')
+      time = iso_time(labels%value_of('EVENT_TIME_HHMMSS'))
+      if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time
+      call metadata%set('date', date)
+      call metadata%set('network', labels%value_of('NETWORK'))
+      call metadata%set('station', one_of(labels%value_of('STATION_CODE'), labels%value_of('STATION_NAME')))
+      call metadata%set('component', component)
+      call metadata%set('magnitude', one_of(labels%value_of('MAGNITUDE_W'), one_of(labels%value_of('MAGNITUDE_L'), &
+         & labels%value_of('MAGNITUDE_S'))))
+      call metadata%set('latitude', labels%value_of('STATION_LATITUDE_DEGREE'))
+      call metadata%set('longitude', labels%value_of('STATION_LONGITUDE_DEGREE'))
+      ! ITACA 1.x has no such key: its type of data tells whether the values were processed
+      call metadata%set('processing', one_of(labels%value_of('PROCESSING'), labels%value_of('DATA_TYPE')))
+      call labels%add_to(metadata)
+   end subroutine add_metadata
+
+   !> A text, or another where it is empty
+   pure function one_of(text, other) result(one)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Another text
+      character(len=*), intent(in) :: other
+      !> The first of them that is not empty
+      character(len=:), allocatable :: one
+
+      one = text
+      if (len_trim(one) == 0) one = other
+   end function one_of
 
    !> Number of lines `KEY: value` at the top
    pure function header_lines(text) result(count)
@@ -130,37 +150,5 @@ contains
          if (index(text%text(text%first(count + 1):text%last(count + 1)), ':') == 0) exit
       end do
    end function header_lines
-
-   !> Line of a key in the header
-   pure function line_of(text, key) result(line)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> Key
-      character(len=*), intent(in) :: key
-      !> Number of the line, 0 if there is none
-      integer :: line
-
-      do line = header_lines(text), 1, -1
-         if (index(text%line(line), key//':') == 1) exit
-      end do
-   end function line_of
-
-   !> Value of a key in the header
-   pure function value_of(text, key) result(value)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> Key
-      character(len=*), intent(in) :: key
-      !> Its value without blanks around it, empty if there is none
-      character(len=:), allocatable :: value
-
-      integer :: line
-
-      value = ''
-      line = line_of(text, key)
-      if (line == 0) return
-      value = text%line(line)
-      value = trim(adjustl(value(len(key) + 2:)))
-   end function value_of
 
 end module dondolo_format_dyna

@@ -226,7 +226,8 @@ contains
       channel%units = before(after(line, channel%peak), ' at')
       associate (metadata => channel%metadata)
          call metadata%set('event', squeezed(text%line(first + 8)))
-         call metadata%set('date', squeezed(text%line(first + 7)))
+         call metadata%set('date', origin())
+         call metadata%set('time', squeezed(text%line(first + 7)))
          line = after(text%line(first + 1), 'site')
          call metadata%set('station', station_code())
          call metadata%set('station name', squeezed(text%line(first + 2)))
@@ -276,6 +277,27 @@ contains
             if (printed(1:1) /= '-') signed = '-'//printed
          end select
       end function coordinate
+
+      !> Time of the earthquake
+      function origin() result(moment)
+         !> Date and time as ISO 8601 has them, or the words of the header where the table of integers has none
+         character(len=:), allocatable :: moment
+
+         integer :: number(6), i
+         logical :: ok
+         character(len=24) :: buffer
+
+         moment = squeezed(text%line(first + 7))
+         ! Year, month, day, hour, minute, tenths of a second
+         do i = 1, 6
+            call integers%integer_of(text, i, number(i), ok)
+            if (.not. ok) return
+         end do
+         if (any(number < 0) .or. any(number > 9999) .or. any(number(2:5) > 60)) return
+         write (buffer, '(i4.4, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i1)') number(1), '-', number(2), '-', &
+            & number(3), 'T', number(4), ':', number(5), ':', min(number(6)/10, 99), '.', modulo(number(6), 10)
+         if (number(1) > 0) moment = trim(buffer)
+      end function origin
 
       !> Code of the station
       function station_code() result(code)

@@ -1,9 +1,12 @@
 !> PEER strong motion files (.AT2): three lines of text, a line with count and time step, then the values.
 !>
-!> The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older files, `7999    .0050    NPTS, DT`.
+!> The second line names event, date, station and component, between commas, and a station may hold commas too. In
+!> older files event and date stand together. The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older files, `7999    .0050    NPTS, DT`.
 module dondolo_format_peer
+   use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
    use dondolo_text, only : first_word, lower
@@ -23,6 +26,9 @@ module dondolo_format_peer
       !> Read a text in this format
       procedure, nopass :: read => read_peer
    end type peer_format_type
+
+   !> Line that states event, date, station and component
+   integer, parameter :: event_line = 2
 
    !> Line that states quantity and units
    integer, parameter :: quantity_line = 3
@@ -80,7 +86,71 @@ contains
          return
       end if
       call read_block(text, count_line + 1, count, samples%channels(1)%values, error)
+      call add_metadata(text%line(event_line), samples%metadata)
+      call samples%metadata%set('title', text%line(1))
+      line = text%line(quantity_line)
+      at = at - 1 + index(lower(line(at:)), samples%channels(1)%units) + len(samples%channels(1)%units)
+      call samples%metadata%set('processing', first_sentence(line(min(at, len(line) + 1):)))
    end subroutine read_peer
+
+   !> What the second line says
+   subroutine add_metadata(line, metadata)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> What it says
+      type(metadata_type), intent(inout) :: metadata
+
+      character(len=:), allocatable :: rest, word, date, time
+      integer :: at, comma, last
+
+      call metadata%set('description', line)
+      ! The date is the first word with two strokes; a year of two digits is one of the 1900s
+      rest = line
+      at = 1
+      do
+         word = first_word(rest, ' ,')
+         if (len(word) == 0) return
+         at = at + index(rest, word) - 1
+         date = word
+         if (len(date) > 3) then
+            if (date(len(date) - 2:len(date) - 2) == '/') date = date(:len(date) - 2)//'19'//date(len(date) - 1:)
+         end if
+         date = iso_date(date, 'mdy')
+         if (index(word, '/') > 0 .and. index(date, '/') == 0) exit
+         rest = rest(index(rest, word) + len(word):)
+         at = at + len(word)
+      end do
+      rest = trim(line(:at - 1))
+      if (len(rest) > 0) then
+         if (rest(len(rest):) == ',') rest = rest(:len(rest) - 1)
+      end if
+      call metadata%set('event', rest)
+      rest = line(at + len(word):)
+      comma = index(rest, ',')
+      if (comma == 0) comma = len(rest) + 1
+      time = trim(adjustl(rest(:comma - 1)))
+      if (len(time) == 4 .and. verify(time, '0123456789') == 0) date = date//'T'//time(:2)//':'//time(3:)
+      call metadata%set('date', date)
+      last = index(rest, ',', back=.true.)
+      if (last <= comma) return
+      call metadata%set('station', rest(comma + 1:last - 1))
+      ! After the component older files name the station again, in brackets
+      call metadata%set('component', first_word(rest(last + 1:), ' ('))
+   end subroutine add_metadata
+
+   !> A text without the punctuation before it
+   pure function first_sentence(text) result(sentence)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The same from the first letter or digit on
+      character(len=:), allocatable :: sentence
+
+      integer :: first
+
+      first = verify(text, ' .,;:'//achar(9))
+      sentence = ''
+      if (first > 0) sentence = trim(text(first:))
+   end function first_sentence
 
    !> Find count and time step in the fourth line
    subroutine read_count(line, count, dt, ok)

@@ -5,11 +5,11 @@
 !> Accelerations are in cm/s2 by definition of the format; the file itself does not name its units.
 module dondolo_format_smc
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, check_not_missing, squeezed, table_type
+   use dondolo_header_text, only : after, before, check_not_missing, moment_of, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
    use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -193,7 +193,7 @@ contains
          line = squeezed(text%line(4))
          at = verify(line//'x', ' 0123456789:.')
          call metadata%set('event', line(at:))
-         call metadata%set('date', line(:at - 1))
+         call metadata%set('date', date_of(line(:at - 1)))
          call metadata%set('station', stated(text%line(3)))
          call metadata%set('station name', squeezed(before(after(text%line(6), 'station ='), 'component')))
          call metadata%set('network', after(text%line(8), 'data source ='))
@@ -226,6 +226,29 @@ contains
          call metadata%set('comments', squeezed(line))
       end associate
    end subroutine read_header
+
+   !> Date and time: 1989 10 18 0004
+   pure function date_of(line) result(date)
+      !> Year, month, day, and perhaps hour and minute
+      character(len=*), intent(in) :: line
+      !> The same as ISO 8601 has it, or the line where it is no date
+      character(len=:), allocatable :: date
+
+      character(len=:), allocatable :: rest, day
+      integer :: i
+
+      date = squeezed(line)
+      rest = line
+      day = ''
+      do i = 1, 3
+         day = day//'/'//first_word(rest, ' ')
+         rest = after(rest, first_word(rest, ' '))
+      end do
+      day = moment_of(day(2:))
+      if (index(day, '-') == 0) return
+      date = day
+      if (len(rest) == 4 .and. verify(rest, '0123456789') == 0) date = day//'T'//rest(:2)//':'//rest(3:)
+   end function date_of
 
    !> A line of the header, where * says nothing
    pure function stated(line)

@@ -9,6 +9,10 @@ module dondolo_metadata
 
    public :: entry_type, metadata_type
 
+   !> Keys that mean the same in every format
+   character(len=*), parameter :: common(11) = [character(len=10) :: 'event', 'date', 'station', 'network', &
+      & 'component', 'magnitude', 'latitude', 'longitude', 'processing', 'format', 'quantity']
+
    !> A key and its value
    type :: entry_type
       !> Key
@@ -58,6 +62,7 @@ contains
             call move_alloc(self%entries(i)%value, longer(i)%value)
          end do
          longer(n + 1)%key = trim(adjustl(key))
+         if (any(common == lower(longer(n + 1)%key))) longer(n + 1)%key = lower(longer(n + 1)%key)
          call move_alloc(longer, self%entries)
          i = n + 1
       end if

@@ -98,8 +98,7 @@ contains
       !> A text that is no number, or another count
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=*), parameter :: blanks = ' '//achar(9)
-      integer :: line, at, finish, last, found
+      integer :: line, at, first, finish, last, found
       logical :: ok
 
       ! A header may state any count; the text bounds how many numbers there can be
@@ -109,23 +108,16 @@ contains
          at = text%first(line)
          last = text%last(line)
          do
-            finish = verify(text%text(at:last), blanks)
-            if (finish == 0) exit
-            at = at + finish - 1
-            finish = scan(text%text(at:last), blanks)
-            if (finish == 0) then
-               finish = last
-            else
-               finish = at + finish - 2
-            end if
+            call text%next_word(at, last, first, finish)
+            if (first > last) exit
             found = found + 1
             if (found > count) then
                call raise_at(error, text, line, 'more values than the '//to_text(count)//' that the header states')
                return
             end if
-            call parse_real(text%text(at:finish), values(found), ok)
+            call parse_real(text%text(first:finish), values(found), ok)
             if (.not. ok) then
-               call raise_at(error, text, line, 'value '//to_text(found)//' = '''//text%text(at:finish)// &
+               call raise_at(error, text, line, 'value '//to_text(found)//' = '''//text%text(first:finish)// &
                   & ''': must be a number')
                return
             end if

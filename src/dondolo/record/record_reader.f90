@@ -2,13 +2,18 @@
 module dondolo_record_reader
    use dondolo_channel, only : as_record, find_channel, name_channels
    use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_format_asa, only : asa_format_type
    use dondolo_format_columns, only : columns_format_type
    use dondolo_format_cosmos, only : cosmos_format_type
    use dondolo_format_csmip, only : csmip_format_type
+   use dondolo_format_cwa, only : cwa_format_type
    use dondolo_format_dyna, only : dyna_format_type
+   use dondolo_format_eqsig, only : eqsig_format_type
    use dondolo_format_geonet, only : geonet_format_type
+   use dondolo_format_knet, only : knet_format_type
    use dondolo_format_peer, only : peer_format_type
    use dondolo_format_smc, only : smc_format_type
+   use dondolo_format_smtk, only : smtk_format_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
    use dondolo_record_format, only : format_type, samples_type
@@ -39,6 +44,11 @@ contains
       call append(known, csmip_format_type())
       call append(known, geonet_format_type())
       call append(known, smc_format_type())
+      call append(known, smtk_format_type())
+      call append(known, knet_format_type())
+      call append(known, cwa_format_type())
+      call append(known, asa_format_type())
+      call append(known, eqsig_format_type())
       call append(known, columns_format_type())
    end subroutine list_formats
 

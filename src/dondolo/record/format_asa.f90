@@ -1,0 +1,277 @@
+!> Standard accelerograms of Mexico (ASA 2.0): lines `KEY : value` in Spanish, then one row a sample, one column of 10
+!> characters a channel.
+module dondolo_format_asa
+   use dondolo_dates, only : iso_date
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_labels, only : labels_type, read_labels
+   use dondolo_metadata, only : metadata_type
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_text, only : first_word, to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: asa_format_type
+
+   !> The format
+   type, extends(format_type) :: asa_format_type
+   contains
+      !> Name of the format: one word in lower case
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_asa
+   end type asa_format_type
+
+   !> Characters of a column
+   integer, parameter :: width = 10
+
+   !> Channels that the header has places for
+   integer, parameter :: most_channels = 12
+
+   !> Line that says what the file is
+   character(len=*), parameter :: kind = 'ARCHIVO ESTANDAR DE ACELERACION'
+
+   !> Line before the values
+   character(len=*), parameter :: data_title = 'DATOS DE ACELERACION'
+
+contains
+
+   !> Name of the format: one word in lower case
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'asa'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> It says so
+      logical :: recognised
+
+      recognised = line_with(text, 1, 20, kind) > 0
+   end function recognises
+
+   !> Read a file
+   subroutine read_asa(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(labels_type) :: labels
+      real(wp), allocatable :: values(:)
+      integer :: title, begin, channels, rows, i
+
+      title = line_with(text, 1, text%lines(), data_title)
+      ! Two rulers stand around the numbers and the names of the channels
+      begin = line_with(text, line_with(text, title + 1, title + 6, '----') + 1, title + 6, '----') + 1
+      if (title == 0 .or. begin == 1) then
+         call raise_at(error, text, text%lines(), 'no line '//data_title//', or no two rulers after it')
+         return
+      end if
+      call read_labels(text, line_with(text, 1, title, kind) + 1, title - 1, labels)
+      call labels%get_count(text, 'NUMERO DE CANALES', channels, error)
+      if (allocated(error)) return
+      if (channels > most_channels) then
+         call raise_at(error, text, labels%line_of('NUMERO DE CANALES'), 'NUMERO DE CANALES = '//to_text(channels)// &
+            & ': must be at most '//to_text(most_channels))
+         return
+      end if
+      rows = text%lines() - begin + 1
+      call read_fixed(text, begin, channels*rows, width, channels, values, error)
+      if (allocated(error)) return
+      allocate (samples%channels(channels))
+      do i = 1, channels
+         associate (channel => samples%channels(i))
+            call read_channel(text, labels, i, rows, channel%name, channel%dt, channel%peak, error)
+            if (allocated(error)) return
+            channel%values = values(i::channels)
+            channel%units = first_word(labels%value_of('UNIDADES DE LOS DATOS'), ' ')
+            channel%peak_units = 'gal'
+            channel%peak_line = max(labels%line_of('ACEL. MAX.(Gal), C1-C6'), 1)
+            call channel%metadata%set('component', channel%name)
+            if (rows /= number_of(labels, i)) call channel%metadata%set('samples', to_text(rows)// &
+               & ', of which the header states '//to_text(number_of(labels, i)))
+         end associate
+      end do
+      call add_metadata(labels, samples%metadata)
+   end subroutine read_asa
+
+   !> What the header says of a channel
+   subroutine read_channel(text, labels, number, rows, name, dt, peak, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its header
+      type(labels_type), intent(in) :: labels
+      !> Number of the channel
+      integer, intent(in) :: number
+      !> Number of rows
+      integer, intent(in) :: rows
+      !> Name of the channel
+      character(len=:), allocatable, intent(out) :: name
+      !> Time step [s]
+      real(wp), intent(out) :: dt
+      !> Largest value, as printed
+      character(len=:), allocatable, intent(out) :: peak
+      !> The step is missing or the number of samples is another
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: step = 'INTERVALO DE MUESTREO, C', rest = ' (s)'
+      character(len=:), allocatable :: key
+      logical :: ok
+
+      name = of_channel(labels, 'ORIENTACION C1-C6 (rumbo;orientacion)', 'ORIENTACION C7-C12 (rumbo;orientacion)', &
+         & number)
+      peak = of_channel(labels, 'ACEL. MAX.(Gal), C1-C6', 'ACEL. MAX.(Gal), C7-C12', number)
+      call parse_real(of_channel(labels, step//'1-C6'//rest, step//'7-C12'//rest, number), dt, ok)
+      if (.not. (ok .and. dt > 0.0_wp)) then
+         key = step//trim(merge('1-C6 ', '7-C12', number <= 6))//rest
+         call raise_at(error, text, max(labels%line_of(key), 1), key//' = '''//labels%value_of(key)// &
+            & ''': must be a positive number for channel '//to_text(number))
+         return
+      end if
+      ! Some files hold the samples at both ends of the duration, one more than they state
+      if (rows == number_of(labels, number) .or. rows == number_of(labels, number) + 1) return
+      call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '// &
+         & to_text(number_of(labels, number)))
+   end subroutine read_channel
+
+   !> Number of samples that the header states for a channel, 0 if none
+   function number_of(labels, number) result(count)
+      !> The header
+      type(labels_type), intent(in) :: labels
+      !> Number of the channel
+      integer, intent(in) :: number
+      !> Number of samples
+      integer :: count
+
+      logical :: ok
+
+      call parse_integer(of_channel(labels, 'NUM. TOTAL DE MUESTRAS, C1-C6', 'NUM. TOTAL DE MUESTRAS, C7-C12', &
+         & number), count, ok)
+   end function number_of
+
+   !> Value for one channel out of a line such as `/2455/2455/2455`
+   pure function of_channel(labels, key, later_key, number) result(value)
+      !> The header
+      type(labels_type), intent(in) :: labels
+      !> Key of channels 1 to 6
+      character(len=*), intent(in) :: key
+      !> Key of channels 7 to 12
+      character(len=*), intent(in) :: later_key
+      !> Number of the channel
+      integer, intent(in) :: number
+      !> Its value, empty if there is none
+      character(len=:), allocatable :: value
+
+      integer :: i, at
+
+      if (number <= 6) then
+         value = labels%value_of(key)//'/'
+      else
+         value = labels%value_of(later_key)//'/'
+      end if
+      do i = 1, modulo(number - 1, 6) + 1
+         at = index(value, '/')
+         value = value(at + 1:)
+      end do
+      value = trim(adjustl(value(:index(value, '/') - 1)))
+   end function of_channel
+
+   !> What the header says
+   subroutine add_metadata(labels, metadata)
+      !> The header
+      type(labels_type), intent(in) :: labels
+      !> What it says
+      type(metadata_type), intent(inout) :: metadata
+
+      character(len=:), allocatable :: date, time, key
+      integer :: i
+
+      date = iso_date(labels%value_of('FECHA DEL SISMO [GMT]'), 'dmy')
+      time = labels%value_of('HORA EPICENTRO (GMT)')
+      if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time//'Z'
+      call metadata%set('date', date)
+      call metadata%set('station', labels%value_of('CLAVE DE LA ESTACION'))
+      ! /Mb=5.30/Ms=4.80: the first
+      call metadata%set('magnitude', first_word(after(labels%value_of('MAGNITUD(ES)'), '='), '/ '))
+      key = ''
+      do i = 1, size(labels%labels)
+         associate (label => labels%labels(i))
+            if (label%key == 'COORDENADAS DE LA ESTACION' .and. i < size(labels%labels)) then
+               call metadata%set('latitude', coordinate(label%value))
+               call metadata%set('longitude', coordinate(labels%labels(i + 1)%value))
+            end if
+            if (len(label%key) == 0) then
+               call metadata%set(key, metadata%get(key)//' '//label%value)
+            else
+               key = label%key
+               call metadata%set(key, label%value)
+            end if
+         end associate
+      end do
+   end subroutine add_metadata
+
+   !> What follows a mark
+   pure function after(text, mark) result(rest)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Mark
+      character(len=*), intent(in) :: mark
+      !> The rest, empty if there is no mark
+      character(len=:), allocatable :: rest
+
+      rest = ''
+      if (index(text, mark) > 0) rest = text(index(text, mark) + len(mark):)
+   end function after
+
+   !> A coordinate in degrees, north and east positive: `99.85157 LONG. W`
+   pure function coordinate(stated) result(degrees)
+      !> What the header states
+      character(len=*), intent(in) :: stated
+      !> The number with its sign, or what is stated if it is not written so
+      character(len=:), allocatable :: degrees
+
+      real(wp) :: value
+      integer :: side
+      logical :: ok
+
+      degrees = first_word(stated, ' ')
+      side = len_trim(stated)
+      call parse_real(degrees, value, ok)
+      if (.not. ok .or. index(stated, 'L') == 0) then
+         degrees = stated
+      else if (scan(stated(side:side), 'SW') > 0) then
+         degrees = '-'//degrees
+      end if
+   end function coordinate
+
+   !> First line that holds a text
+   pure function line_with(text, from, to, part) result(line)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line to look at
+      integer, intent(in) :: from
+      !> Last line to look at
+      integer, intent(in) :: to
+      !> The text
+      character(len=*), intent(in) :: part
+      !> Number of the line, 0 if there is none
+      integer :: line
+
+      do line = max(from, 1), min(to, text%lines())
+         if (index(text%text(text%first(line):text%last(line)), part) > 0) return
+      end do
+      line = 0
+   end function line_with
+
+end module dondolo_format_asa

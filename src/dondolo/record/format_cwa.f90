@@ -1,0 +1,231 @@
+!> Files of the Central Weather Administration of Taiwan: header lines `#key: value`, then times and components in
+!> columns of 10 characters. Times are those of Taiwan.
+module dondolo_format_cwa
+   use dondolo_dates, only : iso_date
+   use dondolo_equal_steps, only : check_equal_steps
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_labels, only : labels_type, read_labels
+   use dondolo_metadata, only : metadata_type
+   use dondolo_numbers, only : parse_real
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_text, only : first_word, to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: cwa_format_type
+
+   !> The format
+   type, extends(format_type) :: cwa_format_type
+   contains
+      !> Name of the format: one word in lower case
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_cwa
+   end type cwa_format_type
+
+   !> Characters of a column
+   integer, parameter :: width = 10
+
+   !> Relative difference allowed between the mean step of the times and the sampling rate
+   real(wp), parameter :: step_tolerance = 0.01_wp
+
+contains
+
+   !> Name of the format: one word in lower case
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'cwa'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its header states sampling rate, units and sequence of the columns
+      logical :: recognised
+
+      type(labels_type) :: labels
+
+      call read_labels(text, 1, header_lines(text), labels)
+      recognised = labels%line_of('#SampleRate(Hz)') > 0 .and. labels%line_of('#AmplitudeUnit') > 0 .and. &
+         & labels%line_of('#DataSequence') > 0
+   end function recognises
+
+   !> Read a file
+   subroutine read_cwa(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(labels_type) :: labels
+      character(len=:), allocatable :: units
+      real(wp), allocatable :: values(:)
+      real(wp) :: rate, dt
+      integer :: begin, rows, columns, i
+
+      begin = header_lines(text) + 1
+      call read_labels(text, 1, begin - 1, labels)
+      call labels%get_positive(text, '#SampleRate(Hz)', rate, error)
+      if (allocated(error)) return
+      call name_channels(labels%value_of('#DataSequence'), samples)
+      columns = size(samples%channels) + 1
+      if (columns == 1) then
+         call raise_at(error, text, max(labels%line_of('#DataSequence'), 1), 'DataSequence = '''// &
+            & labels%value_of('#DataSequence')//''': must be Time and the components')
+         return
+      end if
+      rows = text%lines() - begin + 1
+      call read_fixed(text, begin, columns*rows, width, columns, values, error)
+      if (.not. allocated(error)) call check_rows(text, labels, rate, rows, error)
+      if (allocated(error)) return
+      call check_equal_steps(text, begin, values(1::columns), text%first(begin:), text%first(begin:) + width - 1, dt, &
+         & error)
+      if (allocated(error)) return
+      if (abs(dt*rate - 1.0_wp) > step_tolerance) then
+         call raise_at(error, text, labels%line_of('#SampleRate(Hz)'), 'SampleRate(Hz) = '//to_text(rate)// &
+            & ': the step of the times is '//to_text(dt))
+         return
+      end if
+      units = labels%value_of('#AmplitudeUnit')
+      do i = 1, columns - 1
+         associate (channel => samples%channels(i))
+            channel%values = values(1 + i::columns)
+            channel%dt = 1.0_wp/rate
+            channel%units = first_word(units, ' .')
+            channel%peak = larger(labels%value_of('#AmplitudeMAX. '//channel%name))
+            channel%peak_line = max(labels%line_of('#AmplitudeMAX. '//channel%name), 1)
+            call channel%metadata%set('component', channel%name)
+         end associate
+      end do
+      call add_metadata(labels, samples%metadata)
+      if (index(units, '. ') > 0) call samples%metadata%set('processing', units(index(units, '. ') + 2:))
+   end subroutine read_cwa
+
+   !> The number of rows must be the one that duration and sampling rate make
+   subroutine check_rows(text, labels, rate, rows, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its header
+      type(labels_type), intent(in) :: labels
+      !> Sampling rate [1/s]
+      real(wp), intent(in) :: rate
+      !> Number of rows
+      integer, intent(in) :: rows
+      !> It is another
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: duration
+
+      call labels%get_positive(text, '#RecordLength(sec)', duration, error)
+      if (allocated(error)) return
+      ! The duration may count from the first to the last sample
+      if (abs(real(rows, wp) - rate*duration) <= 1.0_wp) return
+      call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '// &
+         & to_text(rate*duration))
+   end subroutine check_rows
+
+   !> Name the channels from the sequence of the columns: `Time U(+); N(+); E(+)`
+   subroutine name_channels(sequence, samples)
+      !> The sequence
+      character(len=*), intent(in) :: sequence
+      !> Channels with names are set in it
+      type(samples_type), intent(inout) :: samples
+
+      character(len=*), parameter :: separators = ' ;,'//achar(9)
+      character(len=:), allocatable :: rest, word
+      character(len=16) :: names(16)
+      integer :: count, i
+
+      rest = sequence
+      count = 0
+      if (first_word(rest, separators) == 'Time') then
+         rest = rest(index(rest, 'Time') + len('Time'):)
+         do while (count < size(names))
+            word = first_word(rest, separators)
+            if (len(word) == 0) exit
+            rest = rest(index(rest, word) + len(word):)
+            count = count + 1
+            names(count) = first_word(word, '(')
+         end do
+      end if
+      allocate (samples%channels(count))
+      do i = 1, count
+         samples%channels(i)%name = trim(names(i))
+      end do
+   end subroutine name_channels
+
+   !> The larger of two numbers: `0.658~   -0.837`
+   pure function larger(range) result(number)
+      !> The numbers, smallest and largest in any order
+      character(len=*), intent(in) :: range
+      !> The text of the one that is larger in size, or all if they are no numbers
+      character(len=:), allocatable :: number
+
+      real(wp) :: one, other
+      integer :: mark
+      logical :: ok, ok_other
+
+      number = range
+      mark = index(range, '~')
+      if (mark == 0) return
+      call parse_real(range(:mark - 1), one, ok)
+      call parse_real(range(mark + 1:), other, ok_other)
+      if (.not. (ok .and. ok_other)) return
+      if (abs(one) >= abs(other)) then
+         number = trim(adjustl(range(:mark - 1)))
+      else
+         number = trim(adjustl(range(mark + 1:)))
+      end if
+   end function larger
+
+   !> What the header says
+   subroutine add_metadata(labels, metadata)
+      !> The header
+      type(labels_type), intent(in) :: labels
+      !> What it says
+      type(metadata_type), intent(inout) :: metadata
+
+      character(len=:), allocatable :: date
+      integer :: i
+
+      date = labels%value_of('#Origin Time(GMT+08)')
+      if (len(date) > 11) date = iso_date(date(:10), 'dmy')//'T'//date(12:)//'+08:00'
+      call metadata%set('date', date)
+      call metadata%set('station', labels%value_of('#StationCode'))
+      call metadata%set('magnitude', labels%value_of('#Magnitude(Ml)'))
+      call metadata%set('latitude', labels%value_of('#StationLatitude(N)'))
+      call metadata%set('longitude', labels%value_of('#StationLongitude(E)'))
+      do i = 1, size(labels%labels)
+         associate (label => labels%labels(i))
+            if (len(label%key) > 1) call metadata%set(label%key(2:), label%value)
+         end associate
+      end do
+   end subroutine add_metadata
+
+   !> Number of lines of the header
+   pure function header_lines(text) result(count)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Number of the last line at the top that begins with #; empty lines may stand between
+      integer :: count
+
+      integer :: line
+
+      count = 0
+      do line = 1, text%lines()
+         if (text%last(line) < text%first(line)) cycle
+         if (text%text(text%first(line):text%first(line)) /= '#') return
+         count = line
+      end do
+   end function header_lines
+
+end module dondolo_format_cwa

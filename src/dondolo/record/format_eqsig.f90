@@ -1,0 +1,102 @@
+!> Text files of the Python package eqsig: a line with a label, a line with count and time step, then one value a line.
+!> They do not state their units.
+module dondolo_format_eqsig
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type
+   use dondolo_text, only : first_word
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: eqsig_format_type
+
+   !> The format
+   type, extends(format_type) :: eqsig_format_type
+   contains
+      !> Name of the format: one word in lower case
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_eqsig
+   end type eqsig_format_type
+
+   !> Blanks between words
+   character(len=*), parameter :: blanks = ' '//achar(9)
+
+contains
+
+   !> Name of the format: one word in lower case
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'eqsig'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> The first line is a label and no number, the second holds count and step, the third a single number
+      logical :: recognised
+
+      real(wp) :: value, dt
+      integer :: count
+      logical :: ok
+
+      recognised = .false.
+      if (text%lines() < 3) return
+      call parse_real(first_word(text%line(1), blanks//',;'), value, ok)
+      if (ok) return
+      call read_count(text%line(2), count, dt, ok)
+      if (.not. ok) return
+      call parse_real(text%line(3), value, recognised)
+   end function recognises
+
+   !> Read a file
+   subroutine read_eqsig(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: count
+      logical :: ok
+
+      allocate (samples%channels(1))
+      call read_count(text%line(2), count, samples%channels(1)%dt, ok)
+      if (.not. ok) then
+         call raise_at(error, text, min(2, text%lines()), ''''//trim(text%line(2))// &
+            & ''': must be the number of values and their step, both positive')
+         return
+      end if
+      call read_block(text, 3, count, samples%channels(1)%values, error)
+      call samples%metadata%set('label', text%line(1))
+   end subroutine read_eqsig
+
+   !> Find count and time step in the second line
+   subroutine read_count(line, count, dt, ok)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Number of values
+      integer, intent(out) :: count
+      !> Time step [s]
+      real(wp), intent(out) :: dt
+      !> It holds the two and no more, and they are positive
+      logical, intent(out) :: ok
+
+      character(len=:), allocatable :: word
+
+      word = first_word(line, blanks)
+      dt = 0.0_wp
+      call parse_integer(word, count, ok)
+      if (ok) call parse_real(line(index(line, word) + len(word):), dt, ok)
+      if (ok) ok = count > 0 .and. dt > 0.0_wp
+   end subroutine read_count
+
+end module dondolo_format_eqsig

@@ -1,0 +1,117 @@
+!> Files of the strong-motion toolkit of the Global Earthquake Model (.cor.acc): lines `key : value`, a line that names
+!> quantity and units, then five values a line in columns of 14 characters that may touch.
+module dondolo_format_smtk
+   use dondolo_dates, only : iso_date
+   use dondolo_error, only : error_type
+   use dondolo_labels, only : labels_type, read_labels
+   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type
+   use dondolo_text, only : lower
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: smtk_format_type
+
+   !> The format
+   type, extends(format_type) :: smtk_format_type
+   contains
+      !> Name of the format: one word in lower case
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_smtk
+   end type smtk_format_type
+
+   !> Words between the quantity and its units
+   character(len=*), parameter :: series = 'time series in '
+
+   !> Most lines of a header
+   integer, parameter :: most_lines = 40
+
+contains
+
+   !> Name of the format: one word in lower case
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'smtk'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its header states step and number, and a line names quantity and units
+      logical :: recognised
+
+      type(labels_type) :: labels
+
+      call read_labels(text, 1, quantity_line(text), labels)
+      recognised = labels%line_of('Time Increment (s)') > 0 .and. labels%line_of('Number of Data') > 0
+   end function recognises
+
+   !> Read a file
+   subroutine read_smtk(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(labels_type) :: labels
+      character(len=:), allocatable :: line, date, station
+      integer :: last, count
+
+      last = quantity_line(text)
+      call read_labels(text, 1, last, labels)
+      line = trim(adjustl(text%line(last)))
+      ! Some files spell it so: Accelaration
+      if (index(lower(line), 'accel') /= 1) then
+         call raise_at(error, text, max(last, 1), ''''//line//''': must be Acceleration '//series//'...')
+         return
+      end if
+      allocate (samples%channels(1))
+      associate (channel => samples%channels(1), metadata => samples%metadata)
+         call labels%get_positive(text, 'Time Increment (s)', channel%dt, error)
+         if (.not. allocated(error)) call labels%get_count(text, 'Number of Data', count, error)
+         if (allocated(error)) return
+         channel%units = line(index(line, series) + len(series):)
+         channel%name = labels%value_of('Orientation')
+         channel%peak = labels%value_of('PGA (m/s/s)')
+         channel%peak_units = 'm/s2'
+         channel%peak_line = max(labels%line_of('PGA (m/s/s)'), 1)
+         call read_fixed(text, last + 1, count, 14, 5, channel%values, error)
+         if (allocated(error)) return
+         if (last + (count + 4)/5 < text%lines()) then
+            call raise_at(error, text, last + (count + 4)/5 + 1, 'more values than the '// &
+               & labels%value_of('Number of Data')//' that the header states')
+            return
+         end if
+         date = labels%value_of('Event Date & Time')
+         if (len(date) > 11) date = iso_date(date(:10), 'dmy')//'T'//date(12:)
+         call metadata%set('date', date)
+         station = labels%value_of('Station Code / Name')
+         if (index(station, ' / ') > 0) station = station(:index(station, ' / ') - 1)
+         call metadata%set('station', station)
+         call metadata%set('component', channel%name)
+         call metadata%set('processing', labels%value_of('Processing Info'))
+         call labels%add_to(metadata)
+      end associate
+   end subroutine read_smtk
+
+   !> Line that names quantity and units
+   pure function quantity_line(text) result(line)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Number of the line, 0 if there is none
+      integer :: line
+
+      do line = min(most_lines, text%lines()), 1, -1
+         if (index(text%text(text%first(line):text%last(line)), series) > 0) exit
+      end do
+   end function quantity_line
+
+end module dondolo_format_smtk
