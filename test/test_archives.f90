@@ -140,8 +140,7 @@ contains
       call check_motion('no_peak.v2c', cosmos(cosmos_type(peak=-999.0_wp)), 0.001_wp, 0.005_wp, record)
       call check_motion('mark.v2c', cosmos(cosmos_type(marks='is unknown/unspecified:   -777, -777.0', &
          & peak=-777.0_wp)), 0.001_wp, 0.005_wp, record)
-      call check_motion('old_ending.v1', cosmos(cosmos_type(ending='/&  ----------  End of data')), 0.001_wp, 0.005_wp, &
-         & record)
+      call check_motion('old_ending.v1', cosmos(cosmos_type(ending='/&  ---  End of data')), 0.001_wp, 0.005_wp, record)
       ! A raw record states its step in seconds
       call check_motion('raw_step.v0', cosmos(cosmos_type(stage=0, step=-999.0_wp, raw_step=0.01_wp, length=0.13_wp)), &
          & 0.001_wp, 0.01_wp, record)
@@ -189,8 +188,8 @@ contains
          do i = 1, size(motion)
             call check_close(record%acceleration(i), scale*(10.0_wp*motion(i) - mean), 1.0e-12_wp, 'count '//to_text(i))
          end do
-         call check(index(record%metadata%get('processing'), '; mean of '//to_text(anint(mean))//' counts removed') > 0, &
-            & 'the mean is said')
+         call check_text(record%metadata%get('processing'), 'raw acceleration counts; Record filtered below 0.10 Hz'// &
+            & '; mean of '//to_text(anint(mean))//' counts removed', 'processing')
       end if
       file%sensitivity = -999.0_wp
       call check_bad(cosmos(file), ': line 49: units are counts: the table of reals must state the least bit')
@@ -229,6 +228,9 @@ contains
          & 'no channel')
       call read_record(scratch//'/three.v2c', record, error, channel='up')
       call check_ok(error, 'channel Up')
+      velocity%ending = ''
+      call check_bad(cosmos(cosmos_type())//cosmos(velocity)//cosmos(up), &
+         & ': line 103: the record that begins in line 53 is cut off: must end with End-of-data')
       call check_bad(cosmos(velocity), ': line 49: quantity = ''velocity'', code 2: must be acceleration, code 1')
       call check_bad(cosmos(cosmos_type(quantity_code=2)), ', code 2: must be acceleration, code 1')
       call check_bad(cosmos(cosmos_type(quantity='displacement')), 'quantity = ''displacement'', code 1: must be')
@@ -315,7 +317,7 @@ contains
       call check_bad(csmip('UP', '14', old, format, 10.0_wp), ': line 48: value 14 of 14 = ''''')
       call check_bad(csmip('UP', '12', old, format, 1.0_wp, cut=.false.), ': line 48: text after value 12 of 12')
       call check_bad(csmip('UP', '8', old, format, 1.0_wp, cut=.false.), &
-         & ': line 48: after the 8 accelerations that the header states')
+         & ': line 48: after the 8 values that the header states')
       call check_bad(csmip('UP', '17', old, format, 10.0_wp), ': line 48: value 14 of 17')
       call check_bad(csmip('UP', 'few', old, format, 10.0_wp), ': line 46: ''FEW POINTS')
       call check_bad(csmip('UP', '13', '.000 SEC.  (UNITS: CM/SEC/SEC)', format, 10.0_wp), 'both positive')
@@ -328,7 +330,12 @@ contains
       call check_bad(content(:index(content, '   13 POINTS OF ACCEL DATA') - 1), &
          & ': line 1: no line POINTS OF ACCEL DATA')
       call check_bad(content(:index(content, '   13 POINTS OF VELOC') - 30), ': line 48: ')
-      call check_bad(content(:index(content, '   13 POINTS OF VELOC') - 1), ': line 49: after the 13 accelerations')
+      call check_bad(content(:index(content, '   13 POINTS OF VELOC') - 1), ': line 48: the channel ends with its acc')
+      call check_bad(content(:index(content, '   13 POINTS OF DISPL') - 50), &
+         & ': line 50: the channel ends within the 13 values that line 49 states')
+      call check_bad(content(:index(content, '/&') - 60)//lf//content, &
+         & ': line 53: the channel ends within the 13 values that line 52 states')
+      call check_bad(replaced(content, '/&', '??'), ': line 55: after the 13 values that the header states')
       call check_bad(content//content(:200), ': line 56: no line POINTS OF ACCEL DATA')
    end subroutine test_csmip_errors
 
@@ -350,7 +357,8 @@ contains
       call check_text(record%metadata%get('magnitude'), '4.17', 'magnitude')
       call check_text(record%metadata%get('latitude'), '-39.944', 'latitude')
       call check_text(record%metadata%get('longitude'), '176.584', 'longitude')
-      call check_text(record%metadata%get('processing'), 'corrected; Band-pass filter bands are .10-.25 Hz', 'processing')
+      call check_text(record%metadata%get('processing'), 'corrected; Band-pass filter bands are .10-.25 Hz', &
+         & 'processing')
       call write_file('three.V2A', with_crlf(geonet('S16W', 13, 10.0_wp)//geonet('S74E', 10, 1.0_wp)// &
          & geonet('Up', 13, -10.0_wp)))
       call read_records(scratch//'/three.V2A', records, error)
@@ -383,9 +391,12 @@ contains
       call check_bad(replaced(content, '      13      13      13', '      13      14      13'), ': value 14 of 14')
       call check_bad(replaced(content, '      13      13      13', '       x      13      13'), &
          & ': line 20: number of values = '''': must be a positive integer')
-      call check_bad(replaced(content, '      13      13      13', '99999999      13      13'), 'the values must be there')
-      call check_bad(replaced(content, 'at 0.020 sec', 'at 0.010 sec'), 'the table of reals states a time step of 0.02 s')
-      call check_bad(replaced(content, '  0.0050  0.0200', '  0.0050  0.0000'), 'time step = ''0.0000'': must be positive')
+      call check_bad(replaced(content, '      13      13      13', '99999999      13      13'), &
+         & 'the values must be there')
+      call check_bad(replaced(content, 'at 0.020 sec', 'at 0.010 sec'), &
+         & ': line 11: ''Instrument corrected data at 0.010 sec intervals'': the table of reals states a time step')
+      call check_bad(replaced(content, '  0.0050  0.0200', '  0.0050  0.0000'), &
+         & ': line 23: time step = ''0.0000'': must be positive')
       call check_bad(replaced(content, '-12346.0 mm/s/s', '-12046.0 mm/s/s'), ': line 14: peak value -12046')
       call check_bad(replaced(content, 'mm/s/s at', 'mm/s at'), 'units = ''mm/s'': must be one of')
       call check_bad(content(:len(content) - 60), ': line 31: value 7 of 13')
@@ -408,9 +419,9 @@ contains
       call check_text(record%metadata%get('station name'), 'Old Mill #2', 'name of the station')
       call check_text(record%metadata%get('network'), 'USGS', 'network')
       call check_text(record%metadata%get('component'), '133', 'component')
-      call check_text(record%metadata%get('magnitude'), '0.7100000E+01', 'magnitude')
-      call check_text(record%metadata%get('latitude'), '0.3752000E+02', 'latitude')
-      call check_text(record%metadata%get('longitude'), '-0.1222500E+03', 'longitude')
+      call check_text(record%metadata%get('magnitude'), '7.1', 'magnitude')
+      call check_text(record%metadata%get('latitude'), '37.52', 'latitude')
+      call check_text(record%metadata%get('longitude'), '-122.25', 'longitude')
       call check_text(record%metadata%get('event longitude'), '', 'longitude that is missing')
       call check_text(record%metadata%get('azimuth'), '133', 'azimuth')
       call check_text(record%metadata%get('inclination'), '', 'inclination that is missing')
@@ -421,7 +432,8 @@ contains
       call check_motion('wide.smc', smc(title, 13, 1, digits=8), 0.01_wp, 0.005_wp, record)
       ! A peak that is missing is not looked at
       content = smc(title, 13, 1)
-      call check_motion('no_peak.smc', replaced(content, ' -0.1234600E+04', '  0.1700000E+39'), 0.01_wp, 0.005_wp, record)
+      call check_motion('no_peak.smc', replaced(content, ' -0.1234600E+04', '  0.1700000E+39'), 0.01_wp, 0.005_wp, &
+         & record)
    end subroutine test_smc
 
    !> SMC: what is wrong
@@ -438,7 +450,8 @@ contains
       call check_bad(smc(title, 8, 2), ': line 31: text after the 8 values that the header states')
       call check_bad(smc(title, 17, 2), ': line 31: value 14 of 17')
       call check_bad(smc(title, -32768, 2), ': line 14: number of values = '''': must be a positive integer')
-      call check_bad(replaced(content, '|remark'//lf, ''), ': line 13: number of comments = ''2'': 1 lines begin with |')
+      call check_bad(replaced(content, '|remark'//lf, ''), &
+         & ': line 13: number of comments = ''2'': 1 lines begin with |')
       call check_bad(replaced(content, '  0.2000000E+03', '  0.1700000E+39'), &
          & ': line 18: values per second = '''': must be positive')
       call check_bad(replaced(content, ' -0.1234600E+04', ' -0.1334600E+04'), ': line 24: peak value -1334.6')
@@ -506,7 +519,8 @@ contains
          call check(read_well > trials/20 .and. read_well < trials - trials/20, &
             & formats(which)//': '//to_text(read_well)//' of '//to_text(trials)//' read')
          ! Velocities and displacements that are cut off, and text after the values, are no loss to CSMIP and COSMOS
-         call check(cut_well < trials/5, formats(which)//': '//to_text(cut_well)//' of '//to_text(trials/2)//' cut off read')
+         call check(cut_well < trials/5, &
+            & formats(which)//': '//to_text(cut_well)//' of '//to_text(trials/2)//' that are cut off read')
       end do
    end subroutine test_damaged
 
@@ -716,7 +730,7 @@ contains
          & '                                     UNCOR MAX  =  -.275 G, AT  .040 SEC.'//lf// &
          & 'RMS ACCEL OF (UNCOR) RECORD  =  .030 G.'//lf// &
          & 'ACCELEROGRAM BANDPASS FILTERED WITH RAMPS AT  .05- .10'//lf
-      content = content//'  '//number//' POINTS OF INSTRUMENT- AND BASELINE-CORRECTED ACCEL, VELOC AND DISPL DATA'//lf// &
+      content = content//'  '//number//' POINTS OF BASELINE-CORRECTED ACCEL, VELOC AND DISPL DATA'//lf// &
          & 'AT EQUALLY-SPACED INTERVALS OF    .020  SEC.'//lf// &
          & 'PEAK ACCELERATION = '//peak//'    CM/SEC/SEC  AT     .040   SEC.'//lf// &
          & 'PEAK   VELOCITY   =   -28.253      CM/SEC    AT     .040   SEC.'//lf// &
@@ -727,9 +741,9 @@ contains
          & printed(zeros, '(16I5)')//printed(zeros, '(8F10.3)')// &
          & '   '//number//' POINTS OF ACCEL DATA EQUALLY SPACED AT  '//step_and_units//lf// &
          & printed(multiple*motion(:values), format)// &
-         & '   '//number//' POINTS OF VELOC DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC)'//lf// &
+         & '   '//number//' POINTS OF VELOC DATA EQUALLY SPACED AT  '//step_and_units//lf// &
          & printed(zeros(:values), format)// &
-         & '   '//number//' POINTS OF DISPL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM)'//lf// &
+         & '   '//number//' POINTS OF DISPL DATA EQUALLY SPACED AT  '//step_and_units//lf// &
          & printed(zeros(:values), format)// &
          & '/&  ----------  END OF DATA FOR CHANNEL  1  ----------'//lf
    end function csmip

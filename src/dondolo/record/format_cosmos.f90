@@ -107,13 +107,28 @@ contains
       end if
       found = 0
       do i = 1, size(headers)
-         if (.not. is_acceleration(text, headers(i))) cycle
+         if (.not. is_acceleration(text, headers(i))) then
+            if (is_end(text%line(headers(i)%last_line))) cycle
+            call raise_at(error, text, headers(i)%last_line, 'the record that begins in line '// &
+               & to_text(headers(i)%first_line)//' is cut off: must end with End-of-data')
+            return
+         end if
          found = found + 1
          call headers(i)%keep(text, samples%channels(found))
          call read_values(text, headers(i), samples%channels(found), error)
          if (allocated(error)) return
       end do
    end subroutine read_cosmos
+
+   !> Is a line the end of a record?
+   pure function is_end(line)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> It says so
+      logical :: is_end
+
+      is_end = index(lower(line), 'end-of-data') == 1 .or. index(line, '/&') == 1
+   end function is_end
 
    !> Quantity of a record in words
    function quantity_of(text, header) result(quantity)
@@ -179,8 +194,7 @@ contains
       call read_fixed(text, header%value_line + 1, count, width, per_line, channel%values, error)
       if (allocated(error)) return
       next = header%value_line + 2 + (count - 1)/per_line
-      if (next > header%last_line .or. index(lower(text%line(next)), 'end-of-data') /= 1 .and. &
-         & index(text%line(next), '/&') /= 1) then
+      if (next > header%last_line .or. .not. is_end(text%line(next))) then
          call raise_at(error, text, next, 'after the '//to_text(count)// &
             & ' values that the header states: must be End-of-data')
          return

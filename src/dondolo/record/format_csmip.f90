@@ -109,7 +109,9 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: begin, next, count, width, per_line
+      integer :: begin, block, next, count, width, per_line
+      real(wp) :: dt
+      character(len=:), allocatable :: units
 
       begin = line_with(text, first, last, announcement)
       if (begin == 0) then
@@ -121,22 +123,47 @@ contains
       call read_fixed(text, begin + 1, count, width, per_line, channel%values, error)
       if (allocated(error)) return
       next = begin + (count - 1)/per_line + 2
-      if (next > last .or. index(lower(text%line(next)), 'points of veloc') == 0 .and. &
-         & index(text%line(next), '/&') /= 1) then
-         call raise_at(error, text, next, 'after the '//to_text(count)//' accelerations that the header states: '// &
-            & 'must be the velocities or the end of the channel')
+      if (next > last) then
+         call raise_at(error, text, last, 'the channel ends with its accelerations: velocities must follow')
+         return
+      end if
+      ! Velocities and displacements are skipped, but they must be there: else the file is cut off
+      do while (is_skipped(text%line(next)))
+         block = next
+         call read_announcement(text, block, count, dt, units, width, per_line, error)
+         if (allocated(error)) return
+         if ((count - 1)/per_line >= last - block) then
+            call raise_at(error, text, last, 'the channel ends within the '//to_text(count)// &
+               & ' values that line '//to_text(block)//' states')
+            return
+         end if
+         next = block + (count - 1)/per_line + 2
+      end do
+      if (next <= last .and. index(text%line(next), '/&') /= 1) then
+         call raise_at(error, text, next, 'after the '//to_text(count)//' values that the header states: '// &
+            & 'must be the next values or the end of the channel')
          return
       end if
       call read_header(text, first, min(first + text_lines, begin) - 1, channel)
    end subroutine read_channel
 
-   !> Read the line before the accelerations
+   !> Does a line announce velocities or displacements?
+   pure function is_skipped(line)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> It does
+      logical :: is_skipped
+
+      is_skipped = index(lower(line), 'points of veloc data') > 0 .or. index(lower(line), 'points of displ data') > 0
+   end function is_skipped
+
+   !> Read a line before values
    subroutine read_announcement(text, begin, count, dt, units, width, per_line, error)
       !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: begin
-      !> Number of accelerations
+      !> Number of values
       integer, intent(out) :: count
       !> Time step [s]
       real(wp), intent(out) :: dt
@@ -153,7 +180,7 @@ contains
       logical :: ok, positive
 
       line = text%line(begin)
-      rest = after(line, announcement)
+      rest = after(line, 'equally spaced at')
       call parse_integer(before(line, 'points'), count, ok)
       call parse_real(leading_number(rest), dt, positive)
       if (.not. (ok .and. count > 0 .and. positive .and. dt > 0.0_wp)) then

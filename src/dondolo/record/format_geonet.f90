@@ -239,6 +239,7 @@ contains
          call metadata%set('processing', 'corrected; '//squeezed(text%line(first + 11)))
          call metadata%set('processed', squeezed(after(text%line(first + 5), 'processed')))
          call metadata%set('accelerogram', first_word(after(text%line(first), 'accelerogram'), ' '))
+         call metadata%set('source', squeezed(after(after(text%line(first), 'accelerogram'), ' ')))
          call metadata%set('instrument', after(text%line(first + 3), 'instrument'))
          call metadata%set('resolution', squeezed(after(text%line(first + 4), 'resolution:')))
          call metadata%set('place', squeezed(text%line(first + 6)))

@@ -200,17 +200,17 @@ contains
          call metadata%set('component', samples%channels(1)%name)
          ! Moment magnitude, surface wave, local, other
          do i = 9, 6, -1
-            call metadata%set('magnitude', reals%field(text, i))
+            call metadata%set('magnitude', plain(reals%field(text, i)))
          end do
-         call metadata%set('latitude', reals%field(text, 11))
-         call metadata%set('longitude', reals%field(text, 12))
+         call metadata%set('latitude', plain(reals%field(text, 11)))
+         call metadata%set('longitude', plain(reals%field(text, 12)))
          line = text%line(1)
          call metadata%set('processing', lower(squeezed(line(2:))))
          call metadata%set('magnitudes', stated(text%line(5)))
-         call metadata%set('event latitude', reals%field(text, 3))
-         call metadata%set('event longitude', reals%field(text, 4))
-         call metadata%set('depth', reals%field(text, 5))
-         call metadata%set('epicentral dist', reals%field(text, 17))
+         call metadata%set('event latitude', plain(reals%field(text, 3)))
+         call metadata%set('event longitude', plain(reals%field(text, 4)))
+         call metadata%set('depth', plain(reals%field(text, 5)))
+         call metadata%set('epicentral dist', plain(reals%field(text, 17)))
          call metadata%set('inst type', squeezed(before(after(text%line(8), 'inst type='), 'data source')))
          call metadata%set('azimuth', integers%field(text, 14))
          call metadata%set('inclination', integers%field(text, 13))
@@ -226,6 +226,21 @@ contains
          call metadata%set('comments', squeezed(line))
       end associate
    end subroutine read_header
+
+   !> A number without exponent
+   pure function plain(printed)
+      !> The number as the table of reals has it: 0.7100000E+01; empty if it is not known
+      character(len=*), intent(in) :: printed
+      !> The same as people write it: 7.1
+      character(len=:), allocatable :: plain
+
+      real(wp) :: value
+      logical :: ok
+
+      plain = ''
+      call parse_real(printed, value, ok)
+      if (ok) plain = to_text(value)
+   end function plain
 
    !> Date and time: 1989 10 18 0004
    pure function date_of(line) result(date)
