@@ -3,6 +3,8 @@ module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_record_table, only : record_table
    use dondolo_text, only : to_text
    use dondolo_warnings, only : rounded
    implicit none
@@ -76,19 +78,12 @@ contains
       !> The case
       type(case_type), intent(in) :: case
 
-      integer :: i, width
+      type(lines_type) :: table
+      integer :: i
 
-      width = 6
-      do i = 1, size(case%records)
-         width = max(width, len(case%records(i)%name))
-      end do
-      write (output_unit, '(a5, 2x, a, 4a11)') 'no.', left('record', width), 'samples', 'dt [s]', 'PGA [g]', &
-         & 'length [s]'
-      do i = 1, size(case%records)
-         associate (record => case%records(i))
-            write (output_unit, '(i5, 2x, a, i11, f11.5, f11.4, f11.2)') i, left(record%name, width), &
-               & size(record%acceleration), record%dt, record%pga()/case%solver%gravity, record%duration()
-         end associate
+      table = record_table(case%records, case%solver%gravity)
+      do i = 1, table%count
+         write (output_unit, '(a)') table%line(i)%text
       end do
       write (output_unit, '(a)') ''
    end subroutine print_records

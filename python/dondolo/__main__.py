@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import dondolo as dd
+from dondolo import _binding
+from dondolo.catalogues import build_catalogue
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -20,6 +22,10 @@ def main(arguments: list[str] | None = None) -> int:
     warnings.showwarning = lambda message, *rest: print(f"dondolo: warning: {message}", file=sys.stderr)
     try:
         options.run(options)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except dd.InputError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         return 2
@@ -52,7 +58,39 @@ def _parser() -> argparse.ArgumentParser:
     )
     plot.add_argument("--animate", action="store_true", help="of a motion, also write an animation (GIF)")
     plot.set_defaults(run=_plot)
+    records = commands.add_parser(
+        "records",
+        help="print a table of the records of a catalogue",
+        description="Print a table of the records of a catalogue, as the executable's --check does: peaks, duration, "
+        "time step, and what looks odd about them.",
+    )
+    records.add_argument("catalogue", help="a CSV table with the column file", metavar="CATALOGUE")
+    records.set_defaults(run=_records)
+    catalogue = commands.add_parser(
+        "catalogue",
+        help="make a catalogue of a folder of accelerogram files",
+        description="Write a catalogue of all accelerogram files in a folder and the folders in it, one row a "
+        "channel. What cannot be read is named on stderr, with the reason.",
+    )
+    catalogue.add_argument("folder", help="where the files are", metavar="FOLDER")
+    catalogue.add_argument("-o", "--output", help="the catalogue; FOLDER/catalogue.csv if left out", metavar="FILE")
+    catalogue.add_argument("--dt", type=float, help="time step for the files that do not state it", metavar="SECONDS")
+    catalogue.add_argument("--units", help="units for the files that do not state them, for example g", metavar="UNITS")
+    catalogue.set_defaults(run=_catalogue)
     return parser
+
+
+def _records(options: argparse.Namespace) -> None:
+    """Print the table of a catalogue."""
+    print("\n".join(_binding.catalogue_table(options.catalogue)))
+
+
+def _catalogue(options: argparse.Namespace) -> None:
+    """Make a catalogue of a folder."""
+    made = build_catalogue(options.folder, options.output, options.dt, options.units)
+    for problem in made.problems:
+        print(f"dondolo: left out: {problem}", file=sys.stderr)
+    print(f"written: {made.path} ({made.records} records)")
 
 
 def _plot(options: argparse.Namespace) -> None:

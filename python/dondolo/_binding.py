@@ -85,6 +85,7 @@ class RecordData(NamedTuple):
     name: str
     dt: float
     acceleration: FloatArray
+    metadata: dict[str, str]
 
 
 class CurveData(NamedTuple):
@@ -277,13 +278,21 @@ def walls_end(count: int) -> tuple[int, int, int]:
 def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
     """Records out of a parcel, from given places on."""
     lengths = parcel.integers[integers : integers + count]
+    entries = parcel.integers[integers + count : integers + 2 * count]
     ends = reals + count + np.cumsum(lengths)
-    return [
-        RecordData(
-            parcel.lines[lines + i], float(parcel.reals[reals + i]), parcel.reals[ends[i] - lengths[i] : ends[i]]
+    ends_of_metadata = lines + count + 2 * np.cumsum(entries)
+    records = []
+    for i in range(count):
+        words = parcel.lines[ends_of_metadata[i] - 2 * entries[i] : ends_of_metadata[i]]
+        records.append(
+            RecordData(
+                parcel.lines[lines + i],
+                float(parcel.reals[reals + i]),
+                parcel.reals[ends[i] - lengths[i] : ends[i]],
+                dict(zip(words[::2], words[1::2], strict=True)),
+            )
         )
-        for i in range(count)
-    ]
+    return records
 
 
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
@@ -297,13 +306,26 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 
 def read_records(
-    path: str | os.PathLike[str], catalogue: bool, dt: float | None = None, units: str | None = None
+    path: str | os.PathLike[str],
+    what: int,
+    dt: float | None = None,
+    units: str | None = None,
+    channel: str | None = None,
+    layout: str | None = None,
 ) -> list[RecordData]:
-    """Read one accelerogram, or all of a catalogue."""
+    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2)."""
     step = 0.0 if dt is None else as_number("dt", dt)
-    unit = b"" if units is None else as_text("units", units)
-    parcel = receive(*_core.read_records(as_path(path), int(catalogue), int(dt is not None), step, unit))
-    return unpack_records(parcel, len(parcel.integers))
+    texts = (
+        b"" if text is None else as_text(name, text)
+        for name, text in (("units", units), ("channel", channel), ("format", layout))
+    )
+    parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
+    return unpack_records(parcel, len(parcel.integers) // 2)
+
+
+def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
+    """The table of the records of a catalogue, as the executable prints it."""
+    return receive(*_core.catalogue_table(as_path(path), constants().gravity)).lines
 
 
 def read_walls(path: str | os.PathLike[str], gravity: float | None) -> tuple[list[WallData], FloatArray]:

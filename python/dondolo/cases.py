@@ -123,7 +123,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         title,
         output,
         Population(tuple(people), parcel.reals[weights : weights + walls]),
-        tuple(Record(data.acceleration, data.dt, data.name) for data in motions),
+        tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
         im,
         polarity,
         engine,

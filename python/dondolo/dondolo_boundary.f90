@@ -322,11 +322,11 @@ contains
    subroutine pack_records(records, parcel)
       !> The records
       type(record_type), intent(in) :: records(:)
-      !> Integers: lengths; reals: time steps, all samples; text: names
+      !> Integers: lengths, numbers of metadata; reals: time steps, all samples; text: names, then keys and values
       type(parcel_type), intent(inout) :: parcel
 
       real(c_double), allocatable :: reals(:)
-      integer :: i, from, samples
+      integer :: i, k, from, samples
 
       if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
       if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
@@ -336,6 +336,14 @@ contains
          samples = samples + size(records(i)%acceleration)
          parcel%integers = [parcel%integers, size(records(i)%acceleration)]
          parcel%text = parcel%text//records(i)%name//new_line('a')
+      end do
+      parcel%integers = [parcel%integers, (records(i)%metadata%count(), i=1, size(records))]
+      do i = 1, size(records)
+         do k = 1, records(i)%metadata%count()
+            associate (entry => records(i)%metadata%entries(k))
+               parcel%text = parcel%text//entry%key//new_line('a')//entry%value//new_line('a')
+            end associate
+         end do
       end do
       from = size(parcel%reals)
       allocate (reals(from + size(records) + samples))

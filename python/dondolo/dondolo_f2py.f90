@@ -125,19 +125,60 @@ subroutine check_record(acceleration, n, dt, pga, stat, message)
    call report(error, stat, message)
 end subroutine check_record
 
-! Read one accelerogram (dt 0 and units empty where they are not given) or, with catalogue = 1, all of a catalogue
-subroutine read_records(path, catalogue, dt_given, dt, units, handle, sizes, stat, message)
+! Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
+! where they are not given
+subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_records, parcel_type, report, send
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
-   use dondolo_record_reader, only : read_record
+   use dondolo_record_reader, only : read_record, read_all => read_records
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: path, units
-   integer(c_int), intent(in) :: catalogue, dt_given
+   character(len=*), intent(in) :: path, units, channel, layout
+   integer(c_int), intent(in) :: what, dt_given
    real(c_double), intent(in) :: dt
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(record_type), allocatable :: records(:)
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   real(c_double), allocatable :: step
+
+   handle = 0
+   sizes = 0
+   ! A step that is not allocated is an argument that is not present
+   if (dt_given == 1) step = dt
+   select case (what)
+   case (0)
+      allocate (records(1))
+      call read_record(path, records(1), error, step, units, channel, layout)
+   case (1)
+      call read_catalogue(path, records, error)
+   case default
+      call read_all(path, records, error, step, units, layout)
+   end select
+   if (.not. allocated(error)) then
+      call pack_records(records, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_records
+
+! The table of the records of a catalogue: its lines
+subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_record_table, only : record_table
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: path
+   real(c_double), intent(in) :: gravity
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -147,22 +188,13 @@ subroutine read_records(path, catalogue, dt_given, dt, units, handle, sizes, sta
 
    handle = 0
    sizes = 0
-   if (catalogue == 1) then
-      call read_catalogue(path, records, error)
-   else
-      allocate (records(1))
-      if (dt_given == 1) then
-         call read_record(path, records(1), error, dt, units)
-      else
-         call read_record(path, records(1), error, units=units)
-      end if
-   end if
+   call read_catalogue(path, records, error)
    if (.not. allocated(error)) then
-      call pack_records(records, parcel)
+      parcel%text = pack_lines(record_table(records, gravity))
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
-end subroutine read_records
+end subroutine catalogue_table
 
 ! Read a population: walls as pack_walls has them, then their weights
 subroutine read_walls(path, gravity, handle, sizes, stat, message)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,11 +26,17 @@ class Record:
         Time step [s].
     name : str, optional
         Name in tables and figures.
+    metadata : mapping of str to str, optional
+        What is known of the record.
 
     Attributes
     ----------
     acceleration : ndarray of float64, read-only
         A copy of what was given.
+    metadata : mapping of str to str, read-only
+        What the header of its file says, in its order. Keys that mean the same in every format are event, date,
+        station, network, component, magnitude, latitude, longitude (of the station), processing, format,
+        quantity and units; all others are as the file names them.
     pga : float
         Peak ground acceleration [m/s2].
 
@@ -42,16 +49,26 @@ class Record:
     acceleration: _binding.FloatArray
     dt: float
     name: str = "record"
+    metadata: Mapping[str, str] = field(default_factory=dict)
     pga: float = field(init=False)
 
-    def __init__(self, acceleration: ArrayLike, dt: float, name: str = "record") -> None:
+    def __init__(
+        self,
+        acceleration: ArrayLike,
+        dt: float,
+        name: str = "record",
+        metadata: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         values = _binding.as_array("acceleration", acceleration).copy()
         step = _binding.as_number("dt", dt)
         _binding.as_text("name", name)
         pga, stat, message = _core.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
-        for what, value in (("acceleration", values), ("dt", step), ("name", name), ("pga", pga)):
+        if not isinstance(metadata, Mapping):
+            raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
+        known = MappingProxyType({str(key): str(value) for key, value in metadata.items()})
+        for what, value in (("acceleration", values), ("dt", step), ("name", name), ("metadata", known), ("pga", pga)):
             object.__setattr__(self, what, value)
 
     @property
@@ -73,6 +90,7 @@ class Record:
             ("dt", f"{self.dt:.6g} s"),
             ("duration", f"{self.duration:.6g} s"),
             ("PGA", f"{self.pga:.6g} m/s2"),
+            *((key, self.metadata[key]) for key in ("event", "date", "station", "component") if key in self.metadata),
         ]
 
     def __repr__(self) -> str:
@@ -81,26 +99,37 @@ class Record:
     def _repr_html_(self) -> str:
         return tables.html_of(f"Record '{self.name}'", self._facts())
 
+    def __getstate__(self) -> dict[str, object]:
+        # A mapping proxy cannot be pickled
+        return {**self.__dict__, "metadata": dict(self.metadata)}
+
     def __setstate__(self, state: dict[str, object]) -> None:
         self.__dict__.update(state)
+        self.__dict__["metadata"] = MappingProxyType(self.metadata)
         self.acceleration.flags.writeable = False
 
 
 def read_record(
-    path: str | os.PathLike[str], dt: float | None = None, units: str | None = None, channel: int = 1
+    path: str | os.PathLike[str],
+    dt: float | None = None,
+    units: str | None = None,
+    channel: str | int | None = None,
+    format: str | None = None,
 ) -> Record:
-    """Read an accelerogram file; the format is recognised by its content.
+    """Read one channel of an accelerogram file; the format is recognised by its content.
 
     Parameters
     ----------
     path : path
-        The file; its stem names the record.
+        The file; its stem names the record, with the channel's name where there are several.
     dt : float, optional
         Time step [s], needed where the file does not state it.
     units : str, optional
         Units of the values such as 'm/s2', 'gal' or 'g', needed where the file does not state them.
-    channel : int
-        Which of the file's channels, from 1.
+    channel : str or int, optional
+        Name of the channel or its number from 1, needed where the file holds several. A name goes before a number.
+    format : str, optional
+        Name of the format, as docs/ground_motions.md lists them, needed where it is not recognised.
 
     Returns
     -------
@@ -111,31 +140,32 @@ def read_record(
     InputError
         The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
     """
-    channels = read_records(path, dt, units)
-    if channel not in range(1, len(channels) + 1):
-        raise InputError(f"{os.fspath(path)}: channel = {channel!r}: must lie between 1 and {len(channels)}")
-    return channels[channel - 1]
+    name = str(channel) if isinstance(channel, int) else channel
+    (data,) = _binding.read_records(path, 0, dt, units, name, format)
+    return _as_record(data)
 
 
-def read_records(path: str | os.PathLike[str], dt: float | None = None, units: str | None = None) -> list[Record]:
+def read_records(
+    path: str | os.PathLike[str], dt: float | None = None, units: str | None = None, format: str | None = None
+) -> list[Record]:
     """Read all channels of an accelerogram file.
 
     Parameters
     ----------
-    path, dt, units
+    path, dt, units, format
         As those of `read_record`.
 
     Returns
     -------
     list of Record
-        One for each channel; the formats known so far have one.
+        One for each channel.
 
     Raises
     ------
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [Record(data.acceleration, data.dt, data.name) for data in _binding.read_records(path, False, dt, units)]
+    return [_as_record(data) for data in _binding.read_records(path, 2, dt, units, layout=format)]
 
 
 def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
@@ -144,7 +174,7 @@ def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
     Parameters
     ----------
     path : path
-        A CSV table with the columns file, dt_s and units; files are relative to its folder.
+        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder.
 
     Returns
     -------
@@ -155,7 +185,11 @@ def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
     InputError
         The catalogue or one of its records is wrong.
     """
-    return [Record(data.acceleration, data.dt, data.name) for data in _binding.read_records(path, True)]
+    return [_as_record(data) for data in _binding.read_records(path, 1)]
+
+
+def _as_record(data: _binding.RecordData) -> Record:
+    return Record(data.acceleration, data.dt, data.name, data.metadata)
 
 
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:

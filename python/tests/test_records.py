@@ -92,5 +92,5 @@ def test_channels(tmp_path):
     (tmp_path / "x.txt").write_text("0.1\n0.2\n0.3\n")
     (record,) = dd.read_records(tmp_path / "x.txt", dt=0.01, units="g")
     assert dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).pga == record.pga
-    with pytest.raises(dd.InputError, match="channel = 2: must lie between 1 and 1"):
+    with pytest.raises(dd.InputError, match="channel = '2': must be one of '1'"):
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)

@@ -133,13 +133,13 @@ contains
    pure function line(self, i)
       !> Text file
       class(text_file_type), intent(in) :: self
-      !> Number of the line; a number beyond the last gives an empty text
+      !> Number of the line; one that there is not gives an empty text
       integer, intent(in) :: i
       !> Its text without the line end
       character(len=:), allocatable :: line
 
       line = ''
-      if (i <= self%lines()) line = self%text(self%first(i):self%last(i))
+      if (i >= 1 .and. i <= self%lines()) line = self%text(self%first(i):self%last(i))
    end function line
 
    !> Where a line is, for messages

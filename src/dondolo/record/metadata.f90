@@ -1,7 +1,7 @@
 !> What the header of an accelerogram file says: keys and values, as texts, in the file's order.
 !>
 !> Keys that mean the same in every format are written alike: event, date, station, network, component, magnitude,
-!> latitude, longitude, processing, format, quantity. All others keep the name that the file gives them.
+!> latitude, longitude, processing, format, quantity, units. All others keep the name that the file gives them.
 module dondolo_metadata
    use dondolo_text, only : lower
    implicit none
@@ -10,8 +10,9 @@ module dondolo_metadata
    public :: entry_type, metadata_type
 
    !> Keys that mean the same in every format
-   character(len=*), parameter :: common(11) = [character(len=10) :: 'event', 'date', 'station', 'network', &
-      & 'component', 'magnitude', 'latitude', 'longitude', 'processing', 'format', 'quantity']
+   character(len=*), parameter :: common(12) = [character(len=10) :: 'event', 'date', 'station', 'network', &
+      & 'component', 'magnitude', 'latitude', 'longitude', 'processing', 'format', 'quantity', &
+      & 'units']
 
    !> A key and its value
    type :: entry_type

@@ -32,7 +32,7 @@ module dondolo_record_reader
 
 contains
 
-   !> The formats that are known; no text is recognised by two of them, but plain columns come last
+   !> The formats that are known; plain columns come last, for what no other recognises
    subroutine list_formats(known)
       !> The formats
       type(known_type), allocatable, intent(out) :: known(:)
@@ -161,20 +161,40 @@ contains
       end if
       call read_text_file(file, text, error)
       if (allocated(error)) return
-      if (i == 0) then
-         do i = 1, size(known)
-            if (known(i)%format%recognises(text)) exit
-         end do
-      end if
-      if (i > size(known)) then
-         call raise_input(error, file//': the format is not known: must be one of '//names_of(known))
-         return
-      end if
+      if (i == 0) call recognise(text, known, i, error)
+      if (allocated(error)) return
       call known(i)%format%read(text, samples, error)
       if (allocated(error)) return
       call samples%metadata%set('format', known(i)%format%name())
       call name_channels(samples%channels)
    end subroutine read_samples
+
+   !> Find the format of a text
+   subroutine recognise(text, known, found, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> The formats that are known
+      type(known_type), intent(in) :: known(:)
+      !> Number of its format
+      integer, intent(out) :: found
+      !> No format recognises it, or two do
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      found = 0
+      do i = 1, size(known)
+         if (i == size(known) .and. found > 0) exit
+         if (.not. known(i)%format%recognises(text)) cycle
+         if (found > 0) then
+            call raise_input(error, text%file//': may be in the format '//names_of(known([found, i]))// &
+               & ': format must name one of them')
+            return
+         end if
+         found = i
+      end do
+      if (found == 0) call raise_input(error, text%file//': the format is not known: must be one of '//names_of(known))
+   end subroutine recognise
 
    !> Names of formats, for messages
    function names_of(known) result(names)

@@ -1,0 +1,99 @@
+"""Catalogues made of folders of accelerogram files."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+from dondolo import tables
+from dondolo.errors import InputError
+from dondolo.records import Record, read_records
+
+#: Metadata that stand in a catalogue, for its readers.
+_KEYS = ("event", "date", "station", "component", "magnitude")
+
+
+class Catalogue(NamedTuple):
+    """What was found in a folder."""
+
+    path: Path
+    records: int
+    problems: list[str]
+
+
+def build_catalogue(
+    folder: str | os.PathLike[str],
+    file: str | os.PathLike[str] | None = None,
+    dt: float | None = None,
+    units: str | None = None,
+) -> Catalogue:
+    """Write a catalogue of all accelerogram files in a folder and the folders in it, one row a channel.
+
+    Parameters
+    ----------
+    folder : path
+        Where the files are.
+    file : path, optional
+        The catalogue; ``catalogue.csv`` in the folder if left out, where there must be none yet.
+    dt, units : optional
+        Time step [s] and units for the files that do not state them.
+
+    Returns
+    -------
+    Catalogue
+        Its path, its number of records, and one line for each file that is left out, with the reason.
+    """
+    root = Path(folder)
+    if not root.is_dir():
+        raise InputError(f"{root}: no such folder")
+    target = root / "catalogue.csv" if file is None else Path(file)
+    if file is None and target.exists():
+        raise InputError(f"{target}: stands there already: -o must name the catalogue")
+    columns = ("file", "channel", "dt_s", "units", *_KEYS)
+    table: dict[str, list[str]] = {column: [] for column in columns}
+    names: set[str] = set()
+    problems = []
+    files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]
+    for path in files:
+        if path.resolve() == target.resolve():
+            continue
+        try:
+            records, given_units = _read(path, dt, units)
+        except InputError as error:
+            problems.append(str(error))
+            continue
+        taken = [record.name for record in records if record.name in names]
+        if taken:
+            problems.append(f"{path}: record '{taken[0]}' stands in the catalogue already")
+            continue
+        names.update(record.name for record in records)
+        place = Path(os.path.relpath(path, target.parent)).as_posix()
+        for record in records:
+            row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
+            row += (record.metadata.get("units", given_units),)
+            row += tuple(record.metadata.get(key, "") for key in _KEYS)
+            for column, text in zip(columns, row, strict=True):
+                table[column].append(text)
+    if not names:
+        raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
+    tables.write_csv(target, table)
+    return Catalogue(target, len(names), problems)
+
+
+def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:
+    """All channels of a file, and the units that it did not state."""
+    attempts = [(None, None)]
+    attempts += [pair for pair in ((None, units), (dt, None), (dt, units)) if pair not in attempts]
+    for attempt in attempts:
+        try:
+            return read_records(path, *attempt), attempt[1] or ""
+        except InputError as error:
+            last = error
+            if "must be given" not in str(error):
+                break
+    raise last
+
+
+def _is_hidden(path: Path, root: Path) -> bool:
+    return any(part.startswith(".") for part in path.relative_to(root).parts)

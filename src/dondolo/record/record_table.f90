@@ -1,0 +1,177 @@
+!> Records at a glance: a table with what they are, how strong, how long, and what looks odd about them.
+module dondolo_record_table
+   use dondolo_ground_motion, only : ground_velocity, peak_velocity
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_record, only : record_type
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: record_table, record_problems
+
+   !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
+   real(wp), parameter :: abrupt = 0.1_wp
+
+   !> Last velocity that is odd, as a part of the peak: the baseline was not corrected
+   real(wp), parameter :: drifted = 0.1_wp
+
+   !> Samples in a row at the peak that are odd: the recorder reached its limit
+   integer, parameter :: clipped = 4
+
+contains
+
+   !> A table of records
+   function record_table(records, gravity) result(table)
+      !> The records
+      type(record_type), intent(in) :: records(:)
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Its lines, two of titles first
+      type(lines_type) :: table
+
+      integer, parameter :: widest = 40
+      character(len=60) :: numbers
+      integer :: i, width, origins
+
+      width = 6
+      origins = 0
+      do i = 1, size(records)
+         width = max(width, len(records(i)%name))
+         origins = max(origins, len(origin(records(i))))
+      end do
+      if (origins > 0) origins = min(max(origins, len('event, station')), widest)
+      write (numbers, '(a9, a10, a10, a11, a10)') 'samples', 'dt', 'length', 'PGA', 'PGV'
+      call table%add('  no.  '//left('record', width)//trim(numbers)//titled('event, station', origins)//'  problems')
+      write (numbers, '(a9, a10, a10, a11, a10)') '', 's', 's', 'g', 'cm/s'
+      call table%add('       '//left('', width)//trim(numbers))
+      do i = 1, size(records)
+         associate (record => records(i))
+            write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
+               & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
+            call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)// &
+               & titled(origin(record), origins)//'  '//record_problems(record)))
+         end associate
+      end do
+   end function record_table
+
+   !> What looks odd about a record
+   function record_problems(record) result(problems)
+      !> The record
+      type(record_type), intent(in) :: record
+      !> Sentences separated by semicolons, empty if nothing does
+      character(len=:), allocatable :: problems
+
+      real(wp) :: velocity(size(record%acceleration)), peak
+      integer :: n, run, longest, i
+
+      problems = ''
+      n = size(record%acceleration)
+      if (.not. record%pga() > 0.0_wp) then
+         problems = 'no motion'
+         return
+      end if
+      if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
+         & percent(abs(record%acceleration(1))/record%pga())//' of its PGA')
+      velocity = ground_velocity(record)
+      peak = peak_velocity(record)
+      if (abs(velocity(n)) > drifted*peak) call append('ends at '//percent(abs(velocity(n))/peak)//' of its PGV')
+      run = 0
+      longest = 0
+      do i = 1, n
+         run = run + 1
+         if (abs(record%acceleration(i)) < record%pga()) run = 0
+         longest = max(longest, run)
+      end do
+      if (longest >= clipped) call append(to_text(longest)//' samples in a row at its PGA')
+
+   contains
+
+      !> Append a sentence
+      subroutine append(sentence)
+         !> The sentence
+         character(len=*), intent(in) :: sentence
+
+         if (len(problems) > 0) problems = problems//'; '
+         problems = problems//sentence
+      end subroutine append
+
+   end function record_problems
+
+   !> Event and station of a record, as far as its file names them
+   pure function origin(record)
+      !> The record
+      type(record_type), intent(in) :: record
+      !> Event (or date) and station, empty if neither is known
+      character(len=:), allocatable :: origin
+
+      character(len=:), allocatable :: station
+
+      origin = record%metadata%get('event')
+      if (len(origin) == 0) origin = record%metadata%get('date')
+      station = record%metadata%get('station')
+      if (len(origin) > 0 .and. len(station) > 0) origin = origin//', '
+      origin = origin//station
+   end function origin
+
+   !> A part as a percentage
+   function percent(part)
+      !> Part
+      real(wp), intent(in) :: part
+      !> Its percentage, without decimals
+      character(len=:), allocatable :: percent
+
+      percent = to_text(nint(100.0_wp*part))//' %'
+   end function percent
+
+   !> A number of a row
+   pure function numbered(i)
+      !> Number
+      integer, intent(in) :: i
+      !> The number and two blanks
+      character(len=7) :: numbered
+
+      write (numbered, '(i5, 2x)') i
+   end function numbered
+
+   !> A column that is left out where it has no width
+   pure function titled(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width, 0 for none
+      integer, intent(in) :: width
+      !> Two blanks and the text, or nothing
+      character(len=:), allocatable :: titled
+
+      titled = ''
+      if (width > 0) titled = '  '//left(text, width)
+   end function titled
+
+   !> A text padded or cut to a width
+   pure function left(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width
+      integer, intent(in) :: width
+      !> The text and blanks, or its beginning
+      character(len=width) :: left
+
+      left = text
+   end function left
+
+   !> A line without blanks at its end, and without control characters that a file may have brought
+   pure function trimmed(line)
+      !> Line
+      character(len=*), intent(in) :: line
+      !> The same, safe to print
+      character(len=:), allocatable :: trimmed
+
+      integer :: i
+
+      trimmed = trim(line)
+      do i = 1, len(trimmed)
+         if (iachar(trimmed(i:i)) < 32) trimmed(i:i) = ' '
+      end do
+   end function trimmed
+
+end module dondolo_record_table
