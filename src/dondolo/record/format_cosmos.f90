@@ -9,7 +9,7 @@
 !> version 1.20, tables 1 and 2.
 module dondolo_format_cosmos
    use dondolo_cosmos_header, only : cosmos_header_type, find_headers
-   use dondolo_error, only : add_place, error_type
+   use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, check_not_missing, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
@@ -238,6 +238,7 @@ contains
       type(error_type), allocatable :: unknown
 
       multiple = 1.0_wp
+      raw = .false.
       words = before(after(text%line(header%value_line), 'units='), ',')
       code_in_words = leading_number(after(words, '('))
       words = before(words, '(')

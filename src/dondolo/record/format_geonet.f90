@@ -7,7 +7,6 @@ module dondolo_format_geonet
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
    use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
@@ -263,6 +262,7 @@ contains
          integer :: i
 
          signed = ''
+         word = ''
          rest = after(text%line(first + 1), station_code())
          ! Degrees, minutes, seconds and the letter, twice
          do i = 1, 3*which
