@@ -4,11 +4,15 @@ module dondolo_record_reader
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_format_asa, only : asa_format_type
    use dondolo_format_columns, only : columns_format_type
+   use dondolo_format_cosmos, only : cosmos_format_type
+   use dondolo_format_csmip, only : csmip_format_type
    use dondolo_format_cwa, only : cwa_format_type
    use dondolo_format_dyna, only : dyna_format_type
    use dondolo_format_eqsig, only : eqsig_format_type
+   use dondolo_format_geonet, only : geonet_format_type
    use dondolo_format_knet, only : knet_format_type
    use dondolo_format_peer, only : peer_format_type
+   use dondolo_format_smc, only : smc_format_type
    use dondolo_format_smtk, only : smtk_format_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
@@ -36,6 +40,10 @@ contains
       allocate (known(0))
       call append(known, peer_format_type())
       call append(known, dyna_format_type())
+      call append(known, cosmos_format_type())
+      call append(known, csmip_format_type())
+      call append(known, geonet_format_type())
+      call append(known, smc_format_type())
       call append(known, smtk_format_type())
       call append(known, knet_format_type())
       call append(known, cwa_format_type())

@@ -1,0 +1,324 @@
+!> Corrected accelerograms of GeoNet, New Zealand (.V2A): for each component 16 lines of text, tables of 40 integers and
+!> 60 reals, then accelerations, velocities and displacements, ten a line and eight characters each.
+!>
+!> Source of all positions: GeoNet, Strong Motion File Formats
+!> (geonet.org.nz/data/supplementary/strong_motion_file_formats).
+module dondolo_format_geonet
+   use dondolo_error, only : error_type
+   use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
+   use dondolo_text, only : first_word, lower, to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: geonet_format_type
+
+   !> The format of GeoNet
+   type, extends(format_type) :: geonet_format_type
+   contains
+      !> Name of the format: one word in lower case
+      procedure, nopass :: name
+      !> Is a text in this format?
+      procedure, nopass :: recognises
+      !> Read a text in this format
+      procedure, nopass :: read => read_geonet
+   end type geonet_format_type
+
+   !> Lines of a component before its values: text, integers, reals
+   integer, parameter :: text_lines = 16, integer_lines = 4, real_lines = 6
+
+   !> Characters of a number, numbers in a line
+   integer, parameter :: width = 8, per_line = 10
+
+   !> Positions among the integers: accelerations, velocities, displacements
+   integer, parameter :: counts_at(3) = [34, 35, 36]
+
+   !> Position of the time step among the reals
+   integer, parameter :: step_at = 26
+
+   !> Lines of text, from the first of a component: count, step, component, peak
+   integer, parameter :: count_line = 9, step_line = 10, component_line = 12, peak_line = 13
+
+   !> Relative difference allowed between the time step in words and that of the table
+   real(wp), parameter :: step_tolerance = 0.01_wp
+
+contains
+
+   !> Name of the format: one word in lower case
+   pure function name()
+      !> Name
+      character(len=:), allocatable :: name
+
+      name = 'geonet'
+   end function name
+
+   !> Is a text in this format?
+   function recognises(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> It begins with an accelerogram and a site
+      logical :: recognised
+
+      recognised = scan(lower(adjustl(text%line(1))), 'cu') == 1 .and. &
+         & index(lower(text%line(1)), 'corrected accelerogram') > 0 .and. &
+         & index(lower(adjustl(text%line(2))), 'site ') == 1
+   end function recognises
+
+   !> Read a GeoNet file
+   subroutine read_geonet(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(channel_type), allocatable :: longer(:)
+      integer :: first, next, i
+
+      allocate (samples%channels(0))
+      first = 1
+      do while (first <= text%lines())
+         allocate (longer(size(samples%channels) + 1))
+         do i = 1, size(samples%channels)
+            longer(i) = samples%channels(i)
+         end do
+         call read_component(text, first, next, longer(size(longer)), error)
+         if (allocated(error)) return
+         call move_alloc(longer, samples%channels)
+         first = next
+      end do
+   end subroutine read_geonet
+
+   !> Read a component
+   subroutine read_component(text, first, next, channel, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its first line
+      integer, intent(in) :: first
+      !> Line after its last
+      integer, intent(out) :: next
+      !> Its accelerations
+      type(channel_type), intent(out) :: channel
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(table_type) :: integers, reals
+      real(wp), allocatable :: others(:)
+      integer :: counts(3), i
+
+      next = first
+      if (index(lower(adjustl(text%line(first))), 'corrected accelerogram') /= 1) then
+         call raise_at(error, text, first, ''''//squeezed(text%line(first))//''': must be a Corrected accelerogram')
+         return
+      end if
+      integers = table_type(first_line=first + text_lines, per_line=per_line, width=width, &
+         & count=integer_lines*per_line)
+      reals = table_type(first_line=integers%next_line(), per_line=per_line, width=width, count=real_lines*per_line)
+      call read_counts(text, first, integers, counts, error)
+      if (allocated(error)) return
+      call read_step(text, first, reals, channel%dt, error)
+      if (allocated(error)) return
+      next = reals%next_line()
+      call read_fixed(text, next, counts(1), width, per_line, channel%values, error)
+      if (allocated(error)) return
+      next = next + lines_of(counts(1))
+      ! Read, so that a count that is wrong does not go unseen
+      do i = 2, 3
+         call read_fixed(text, next, counts(i), width, per_line, others, error)
+         if (allocated(error)) return
+         next = next + lines_of(counts(i))
+      end do
+      call read_header(text, first, integers, reals, channel)
+   end subroutine read_component
+
+   !> Lines of a block of values
+   pure function lines_of(count) result(lines)
+      !> Number of values
+      integer, intent(in) :: count
+      !> Number of lines
+      integer :: lines
+
+      lines = (count - 1 + per_line)/per_line
+   end function lines_of
+
+   !> Read the numbers of accelerations, velocities and displacements
+   subroutine read_counts(text, first, integers, counts, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line of the component
+      integer, intent(in) :: first
+      !> The table of integers
+      type(table_type), intent(in) :: integers
+      !> The numbers
+      integer, intent(out) :: counts(3)
+      !> They are not known, or that of accelerations is another in words
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, in_words
+      logical :: ok
+
+      counts = 0
+      do i = 1, 3
+         call integers%integer_of(text, counts_at(i), counts(i), ok)
+         if (ok .and. counts(i) >= merge(1, 0, i == 1) .and. counts(i) <= len(text%text)) cycle
+         call raise_at(error, text, integers%line_of(counts_at(i)), 'number of values = '''// &
+            & integers%field(text, counts_at(i))//''': must be a positive integer, and the values must be there')
+         return
+      end do
+      call parse_integer(leading_number(after(text%line(first + count_line), 'number of points')), in_words, ok)
+      if (ok .and. in_words == counts(1)) return
+      call raise_at(error, text, first + count_line, ''''//squeezed(text%line(first + count_line))// &
+         & ''': the table of integers states '//to_text(counts(1))//' accelerations')
+   end subroutine read_counts
+
+   !> Read the time step
+   subroutine read_step(text, first, reals, dt, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line of the component
+      integer, intent(in) :: first
+      !> The table of reals
+      type(table_type), intent(in) :: reals
+      !> Time step [s]
+      real(wp), intent(out) :: dt
+      !> It is not known, or another in words
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: in_words
+      logical :: ok
+
+      call parse_real(reals%field(text, step_at), dt, ok)
+      if (.not. (ok .and. dt > 0.0_wp)) then
+         call raise_at(error, text, reals%line_of(step_at), 'time step = '''//reals%field(text, step_at)// &
+            & ''': must be positive')
+         return
+      end if
+      call parse_real(leading_number(after(text%line(first + step_line), ' at ')), in_words, ok)
+      if (ok .and. abs(in_words - dt) <= step_tolerance*dt) return
+      call raise_at(error, text, first + step_line, ''''//squeezed(text%line(first + step_line))// &
+         & ''': the table of reals states a time step of '//to_text(dt)//' s')
+   end subroutine read_step
+
+   !> Keep what the header of a component says
+   subroutine read_header(text, first, integers, reals, channel)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line of the component
+      integer, intent(in) :: first
+      !> The table of integers
+      type(table_type), intent(in) :: integers
+      !> The table of reals
+      type(table_type), intent(in) :: reals
+      !> The component
+      type(channel_type), intent(inout) :: channel
+
+      character(len=:), allocatable :: line
+
+      channel%name = first_word(after(text%line(first + component_line), 'component'), ' ')
+      channel%peak_line = first + peak_line
+      line = after(text%line(channel%peak_line), 'peak')
+      channel%peak = leading_number(line)
+      channel%units = before(after(line, channel%peak), ' at')
+      associate (metadata => channel%metadata)
+         call metadata%set('event', squeezed(text%line(first + 8)))
+         call metadata%set('date', origin())
+         call metadata%set('time', squeezed(text%line(first + 7)))
+         line = after(text%line(first + 1), 'site')
+         call metadata%set('station', station_code())
+         call metadata%set('station name', squeezed(text%line(first + 2)))
+         call metadata%set('site', squeezed(line))
+         call metadata%set('component', channel%name)
+         call metadata%set('magnitude', nonzero(reals%field(text, 15)))
+         call metadata%set('latitude', coordinate(1, reals%field(text, 11)))
+         call metadata%set('longitude', coordinate(2, reals%field(text, 12)))
+         call metadata%set('processing', 'corrected; '//squeezed(text%line(first + 11)))
+         call metadata%set('processed', squeezed(after(text%line(first + 5), 'processed')))
+         call metadata%set('accelerogram', first_word(after(text%line(first), 'accelerogram'), ' '))
+         call metadata%set('source', squeezed(after(after(text%line(first), 'accelerogram'), ' ')))
+         call metadata%set('instrument', after(text%line(first + 3), 'instrument'))
+         call metadata%set('resolution', squeezed(after(text%line(first + 4), 'resolution:')))
+         call metadata%set('place', squeezed(text%line(first + 6)))
+         call metadata%set('epicentral distance', nonzero(integers%field(text, 30)))
+         call metadata%set('component direction', integers%field(text, 28))
+         call metadata%set('axis', squeezed(after(after(text%line(first + component_line), 'component'), channel%name)))
+      end associate
+
+   contains
+
+      !> A coordinate of the site, with the sign that its letter in the second line gives it
+      function coordinate(which, printed) result(signed)
+         !> 1 latitude, 2 longitude
+         integer, intent(in) :: which
+         !> The coordinate in degrees; south and west may stand without sign
+         character(len=*), intent(in) :: printed
+         !> The coordinate, positive north and east; empty if there is no letter
+         character(len=:), allocatable :: signed
+
+         character(len=:), allocatable :: rest, word
+         integer :: i
+
+         signed = ''
+         word = ''
+         rest = after(text%line(first + 1), station_code())
+         ! Degrees, minutes, seconds and the letter, twice
+         do i = 1, 3*which
+            word = first_word(rest, ' ')
+            rest = after(rest, word)
+         end do
+         if (len(word) == 0 .or. len(printed) == 0) return
+         select case (lower(word(len(word):)))
+         case ('n', 'e')
+            signed = printed
+         case ('s', 'w')
+            signed = printed
+            if (printed(1:1) /= '-') signed = '-'//printed
+         end select
+      end function coordinate
+
+      !> Time of the earthquake
+      function origin() result(moment)
+         !> Date and time as ISO 8601 has them, or the words of the header where the table of integers has none
+         character(len=:), allocatable :: moment
+
+         integer :: number(6), i
+         logical :: ok
+         character(len=24) :: buffer
+
+         moment = squeezed(text%line(first + 7))
+         ! Year, month, day, hour, minute, tenths of a second
+         do i = 1, 6
+            call integers%integer_of(text, i, number(i), ok)
+            if (.not. ok) return
+         end do
+         if (any(number < 0) .or. any(number > 9999) .or. any(number(2:5) > 60)) return
+         write (buffer, '(i4.4, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i1)') number(1), '-', number(2), '-', &
+            & number(3), 'T', number(4), ':', number(5), ':', min(number(6)/10, 99), '.', modulo(number(6), 10)
+         if (number(1) > 0) moment = trim(buffer)
+      end function origin
+
+      !> Code of the station
+      function station_code() result(code)
+         !> Code
+         character(len=:), allocatable :: code
+
+         code = first_word(after(text%line(first + 1), 'site'), ' ')
+      end function station_code
+
+   end subroutine read_header
+
+   !> A number that is zero where it is not known
+   pure function nonzero(printed)
+      !> The number
+      character(len=*), intent(in) :: printed
+      !> The same, empty if it is zero
+      character(len=:), allocatable :: nonzero
+
+      nonzero = printed
+      if (verify(printed, '0.') == 0) nonzero = ''
+   end function nonzero
+
+end module dondolo_format_geonet

@@ -1,0 +1,300 @@
+!> Words and numbers out of the header lines of archives: what stands after a label, before a mark, in a format,
+!> in a table of numbers.
+module dondolo_header_text
+   use dondolo_dates, only : iso_date
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_record_format, only : raise_at
+   use dondolo_text, only : first_word, lower, to_text
+   use dondolo_text_file, only : text_file_type
+   implicit none
+   private
+
+   public :: after, before, squeezed, moment_of, leading_number, parse_format, table_type, is_mark, check_not_missing
+
+   !> Blanks
+   character(len=*), parameter :: blanks = ' '//achar(9)
+
+   !> Digits
+   character(len=*), parameter :: digits = '0123456789'
+
+   !> Widest field of a format: more characters than any number needs
+   integer, parameter :: widest_field = 99
+
+   !> Most fields of a format in a line
+   integer, parameter :: most_columns = 999
+
+   !> Relative difference by which the print of a mark may be off
+   real(wp), parameter :: mark_tolerance = 1.0e-6_wp
+
+   !> A header that is a table of numbers in columns of equal width
+   type :: table_type
+      !> Its first line
+      integer :: first_line = 1
+      !> Numbers in a line
+      integer :: per_line = 1
+      !> Characters in a column
+      integer :: width = 1
+      !> How many numbers
+      integer :: count = 0
+      !> Number that stands for one that is not known; unless set, no number does
+      real(wp) :: missing = huge(1.0_wp)
+   contains
+      !> A number as it is printed
+      procedure :: field
+      !> A number that is an integer
+      procedure :: integer_of
+      !> Line of a number
+      procedure :: line_of
+      !> Line after the table
+      procedure :: next_line
+   end type table_type
+
+contains
+
+   !> What stands after a label, whatever its case
+   pure function after(line, label) result(rest)
+      !> Header line
+      character(len=*), intent(in) :: line
+      !> Label
+      character(len=*), intent(in) :: label
+      !> The rest of the line without blanks around it, empty if the label is not there
+      character(len=:), allocatable :: rest
+
+      integer :: at
+
+      rest = ''
+      at = index(lower(line), lower(label))
+      if (at > 0) rest = trim(adjustl(line(at + len(label):)))
+   end function after
+
+   !> What stands before a mark, whatever its case
+   pure function before(line, mark) result(start)
+      !> Header line
+      character(len=*), intent(in) :: line
+      !> Mark
+      character(len=*), intent(in) :: mark
+      !> The line up to the mark, without blanks around it; all of it if the mark is not there
+      character(len=:), allocatable :: start
+
+      integer :: at
+
+      at = index(lower(line), lower(mark))
+      if (at == 0) at = len(line) + 1
+      start = trim(adjustl(line(:at - 1)))
+   end function before
+
+   !> A text with one blank in place of several
+   pure function squeezed(text)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The same without needless blanks
+      character(len=:), allocatable :: squeezed
+
+      integer :: i, length
+      logical :: blank
+      character(len=len(text)) :: buffer
+
+      length = 0
+      blank = .true.
+      do i = 1, len(text)
+         if (index(blanks, text(i:i)) > 0) then
+            if (blank) cycle
+            blank = .true.
+         else
+            blank = .false.
+         end if
+         length = length + 1
+         buffer(length:length) = text(i:i)
+         if (blank) buffer(length:length) = ' '
+      end do
+      squeezed = trim(buffer(:length))
+   end function squeezed
+
+   !> Date and time that a text begins with: 2005-06-16T20:53:26.1 of '06/16/2005, 20:53:26.1 UTC'
+   pure function moment_of(text) result(moment)
+      !> Text: a date, with the month first where the year is last, and perhaps a time
+      character(len=*), intent(in) :: text
+      !> The two as ISO 8601 has them, or the text where it begins with no date
+      character(len=:), allocatable :: moment
+
+      character(len=*), parameter :: separators = ' ,'//achar(9)
+      character(len=:), allocatable :: date, time
+
+      moment = first_word(text, separators)
+      time = first_word(after(text, moment), separators)
+      date = iso_date(moment, 'mdy')
+      moment = squeezed(text)
+      if (index(date, '-') /= 5 .or. index(date, '-', back=.true.) /= 8 .or. len(date) /= 10) return
+      moment = date
+      if (index(time, ':') > 0 .and. verify(time, digits//':.') == 0) moment = moment//'T'//time
+   end function moment_of
+
+   !> Number that a text begins with, whatever follows it: 6.5 in '6.5(BRK)', 35.908 in '35.908N'
+   pure function leading_number(text) result(number)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The number as it is printed, empty if the text begins with none
+      character(len=:), allocatable :: number
+
+      real(wp) :: value
+      integer :: first, last
+      logical :: ok
+
+      number = ''
+      first = verify(text, blanks)
+      if (first == 0) return
+      last = verify(text(first:), digits//'+-.eEdD')
+      if (last == 0) last = len(text) - first + 2
+      ! An exponent needs its digits: 35.908E is a longitude
+      do last = first + last - 2, first, -1
+         call parse_real(text(first:last), value, ok)
+         if (.not. ok) cycle
+         number = text(first:last)
+         return
+      end do
+   end function leading_number
+
+   !> Read a Fortran format of equal fields: (8F10.5), (1E15.6), (10I8), (1P8E10.3)
+   !>
+   !> Width and columns are all that is used: every number says itself where its point is.
+   pure subroutine parse_format(text, width, per_line, ok)
+      !> Format, with its brackets and perhaps text after them
+      character(len=*), intent(in) :: text
+      !> Characters in a field
+      integer, intent(out) :: width
+      !> Fields in a line
+      integer, intent(out) :: per_line
+      !> It is such a format
+      logical, intent(out) :: ok
+
+      character(len=:), allocatable :: format
+      integer :: at
+
+      per_line = 1
+      width = 1
+      ok = .false.
+      format = lower(adjustl(text))
+      if (index(format, '(') /= 1 .or. index(format, ')') == 0) return
+      format = trim(adjustl(format(2:index(format, ')') - 1)))
+      ! A scale factor before the fields
+      at = max(verify(format, digits), 1)
+      if (index(format(at:), 'p') == 1) format = format(at + 1:)
+      format = format(max(verify(format, ' ,'), 1):)
+      at = scan(format, 'fegdi')
+      if (at == 0) return
+      if (at > 1) then
+         call parse_integer(format(:at - 1), per_line, ok)
+         if (.not. ok) return
+      end if
+      ! ES and EN are E for a reader
+      if (format(at:at) == 'e' .and. scan(format(at + 1:), 'sn') == 1) at = at + 1
+      format = format(at + 1:)
+      call parse_integer(format(:verify(format//'.', digits) - 1), width, ok)
+      ok = ok .and. per_line > 0 .and. per_line <= most_columns .and. width > 0 .and. width <= widest_field
+   end subroutine parse_format
+
+   !> Does a number stand for one that is missing?
+   elemental function is_mark(value, missing)
+      !> Number
+      real(wp), intent(in) :: value
+      !> The mark
+      real(wp), intent(in) :: missing
+      !> They are equal but for the print
+      logical :: is_mark
+
+      ! Halves: the difference of two huge numbers overflows
+      is_mark = abs(0.5_wp*value - 0.5_wp*missing) <= mark_tolerance*abs(0.5_wp*missing)
+   end function is_mark
+
+   !> None of the values of a block may be missing
+   subroutine check_not_missing(text, first_line, per_line, values, missing, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Line of the first value
+      integer, intent(in) :: first_line
+      !> Values in a line
+      integer, intent(in) :: per_line
+      !> The values
+      real(wp), intent(in) :: values(:)
+      !> Number that stands for a missing one
+      real(wp), intent(in) :: missing
+      !> One is missing
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(values)
+         if (.not. is_mark(values(i), missing)) cycle
+         call raise_at(error, text, first_line + (i - 1)/per_line, 'value '//to_text(i)//' of '// &
+            & to_text(size(values))//' is missing: '//to_text(values(i))//' is the mark for no value')
+         return
+      end do
+   end subroutine check_not_missing
+
+   !> A number of a table as it is printed
+   pure function field(self, text, i)
+      !> The table
+      class(table_type), intent(in) :: self
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Which number
+      integer, intent(in) :: i
+      !> Its print, empty if it is not known
+      character(len=:), allocatable :: field
+
+      character(len=:), allocatable :: line
+      real(wp) :: value
+      integer :: first
+      logical :: ok
+
+      field = ''
+      if (i > self%count) return
+      line = text%line(self%line_of(i))
+      first = min(modulo(i - 1, self%per_line)*self%width, len(line)) + 1
+      line = line(first:min(first + self%width - 1, len(line)))
+      call parse_real(line, value, ok)
+      if (ok .and. .not. is_mark(value, self%missing)) field = trim(adjustl(line))
+   end function field
+
+   !> A number of a table that is an integer
+   pure subroutine integer_of(self, text, i, value, ok)
+      !> The table
+      class(table_type), intent(in) :: self
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Which number
+      integer, intent(in) :: i
+      !> Its value, 0 unless ok
+      integer, intent(out) :: value
+      !> It is known
+      logical, intent(out) :: ok
+
+      call parse_integer(self%field(text, i), value, ok)
+   end subroutine integer_of
+
+   !> Line of a number of a table
+   elemental function line_of(self, i) result(line)
+      !> The table
+      class(table_type), intent(in) :: self
+      !> Which number
+      integer, intent(in) :: i
+      !> Number of its line
+      integer :: line
+
+      line = self%first_line + (i - 1)/self%per_line
+   end function line_of
+
+   !> Line after a table
+   elemental function next_line(self) result(line)
+      !> The table
+      class(table_type), intent(in) :: self
+      !> Number of the line
+      integer :: line
+
+      line = self%first_line
+      if (self%count > 0) line = self%line_of(self%count) + 1
+   end function next_line
+
+end module dondolo_header_text

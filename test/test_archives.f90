@@ -1,0 +1,892 @@
+!> Readers of the formats of archives: COSMOS, CSMIP volume 2, GeoNet V2A, SMC.
+!>
+!> The small texts are written here, in the layout of each format; recorded files are read where there are any.
+program test_archives
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
+   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_error, only : error_type
+   use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : record_type
+   use dondolo_record_reader, only : read_record, read_records
+   use dondolo_text, only : to_text
+   implicit none
+
+   character(len=*), parameter :: scratch = 'build/test_archives', lf = achar(10), cr = achar(13)
+
+   !> Accelerations of the small texts, to be multiplied; their prints touch in the columns of every format
+   real(wp), parameter :: motion(13) = [0.5_wp, -1234.5_wp, -1234.6_wp, 99.9_wp, -1111.1_wp, 0.0_wp, 7.0_wp, -0.1_wp, &
+      & 1234.4_wp, -1000.0_wp, -1000.1_wp, 3.2_wp, -2.5_wp]
+
+   !> Standard gravity [m/s2]
+   real(wp), parameter :: gravity = 9.80665_wp
+
+   !> What a COSMOS record is written with
+   type :: cosmos_type
+      character(len=40) :: title = 'Corrected acceleration    (Format v01.20'
+      character(len=20) :: text_lines = 'with 13 text lines)'
+      character(len=40) :: channel = 'Sta Cha:  1: 340 deg (Rcrdr Chan  1)'
+      character(len=60) :: marks = 'is unknown/unspecified:   -999, -999.0'
+      character(len=40) :: comment = '| sample remark'
+      integer :: comments = 2
+      character(len=12) :: count = '13'
+      character(len=20) :: quantity = 'acceleration'
+      character(len=30) :: units = 'cm/sec2(04)'
+      character(len=12) :: format = '(8F10.5)'
+      integer :: stage = 2, quantity_code = 1, unit_code = 4
+      real(wp) :: multiple = 0.1_wp, step = 5.0_wp, raw_step = -999.0_wp, length = 0.065_wp, peak = -123.46_wp
+      real(wp) :: bit = -999.0_wp, sensitivity = -999.0_wp, gain = -999.0_wp
+      character(len=40) :: ending = 'End-of-data for Chan  1 acceleration'
+   end type cosmos_type
+
+   call execute_command_line('mkdir -p '//scratch)
+   call test_header_text()
+   call test_cosmos()
+   call test_cosmos_units()
+   call test_cosmos_records()
+   call test_cosmos_errors()
+   call test_csmip()
+   call test_csmip_errors()
+   call test_geonet()
+   call test_geonet_errors()
+   call test_smc()
+   call test_smc_errors()
+   call test_damaged()
+   call test_samples()
+   call finish()
+
+contains
+
+   !> Words and numbers of header lines
+   subroutine test_header_text()
+      character(len=*), parameter :: bad(*) = [character(len=10) :: '', '8F10.3', '(8F10.3', '()', '(8X10.3)', &
+         & '(F)', '(0F10.3)', '(8F0.3)', '(1000F8.1)', '(8F100.3)', '(aF8.1)', '(-8F8.1)']
+      integer :: i, width, per_line
+      logical :: ok
+
+      call suite('header text')
+      call check_text(after('Station No. 7', 'station no.'), '7', 'after')
+      call check_text(after('Station', 'no.'), '', 'after a label that is not there')
+      call check_text(before(' cm/sec2(04)', '('), 'cm/sec2', 'before')
+      call check_text(before('cm ', '('), 'cm', 'before a mark that is not there')
+      call check_text(squeezed('  a   b'//achar(9)//'c '), 'a b c', 'squeezed')
+      call check_text(leading_number('6.5(BRK)'), '6.5', 'number before a bracket')
+      call check_text(leading_number(' 35.908E, '), '35.908', 'number before a direction')
+      call check_text(leading_number('-1.5E+02x'), '-1.5E+02', 'number with exponent')
+      call check_text(leading_number('9KM'), '9', 'number before a unit')
+      call check_text(leading_number('x9'), '', 'no number')
+      call check_text(moment_of('06/16/2005, 20:53:26.1 UTC (X)'), '2005-06-16T20:53:26.1', 'month first')
+      call check_text(moment_of('2018/11/30 17:29:29    UTC'), '2018-11-30T17:29:29', 'year first')
+      call check_text(moment_of('2018-11-30 17:29'), '2018-11-30T17:29', 'hyphens')
+      call check_text(moment_of('2018/11/30'), '2018-11-30', 'no time')
+      call check_text(moment_of('May 2,  1983 16:42'), 'May 2, 1983 16:42', 'words')
+      call check_text(moment_of('13/40/1983 16:42'), '13/40/1983 16:42', 'no date')
+      call check_text(moment_of(''), '', 'nothing')
+      call check_format('(8F10.5)', 10, 8)
+      call check_format('(1E15.6)', 15, 1)
+      call check_format(' ( 10I8 ) and more', 8, 10)
+      call check_format('(1P8E10.3)', 10, 8)
+      call check_format('(1p, 5es14.7e1)', 14, 5)
+      call check_format('(F8.1)', 8, 1)
+      do i = 1, size(bad)
+         call parse_format(trim(bad(i)), width, per_line, ok)
+         call check(.not. ok, 'format '//trim(bad(i))//' is refused')
+      end do
+   end subroutine test_header_text
+
+   !> A Fortran format that is read
+   subroutine check_format(format, width, per_line)
+      character(len=*), intent(in) :: format
+      integer, intent(in) :: width, per_line
+      integer :: found_width, found_per_line
+      logical :: ok
+
+      call parse_format(format, found_width, found_per_line, ok)
+      call check(ok .and. found_width == width .and. found_per_line == per_line, 'format '//format)
+   end subroutine check_format
+
+   !> COSMOS: values, step, metadata
+   subroutine test_cosmos()
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      type(cosmos_type) :: file
+
+      call suite('cosmos')
+      call check_motion('plain.v2c', cosmos(file), 0.001_wp, 0.005_wp, record)
+      call check_text(record%metadata%get('format'), 'cosmos', 'format')
+      call check_text(record%metadata%get('quantity'), 'acceleration', 'quantity')
+      call check_text(record%metadata%get('event'), 'Small Town', 'event')
+      call check_text(record%metadata%get('date'), '2016-02-03T04:05:06', 'date')
+      call check_text(record%metadata%get('network'), 'XX', 'network')
+      call check_text(record%metadata%get('station'), 'ABCD', 'station')
+      call check_text(record%metadata%get('station name'), 'Hill - Old Mill', 'name of the station')
+      call check_text(record%metadata%get('component'), '340 deg', 'component')
+      call check_text(record%metadata%get('magnitude'), '5.500000', 'moment magnitude before the local one')
+      call check_text(record%metadata%get('latitude'), '40.500000', 'latitude')
+      call check_text(record%metadata%get('longitude'), '-120.250000', 'longitude')
+      call check_text(record%metadata%get('processing'), &
+         & 'corrected acceleration; Record filtered below 0.10 Hz', 'processing')
+      call check_text(record%metadata%get('elevation'), '', 'elevation that is not known')
+      call check_text(record%metadata%get('comments'), 'sample remark sample remark', 'comments')
+      call check_motion('crlf.v2c', with_crlf(cosmos(file)), 0.001_wp, 0.005_wp, record)
+      file = cosmos_type(format='(1E15.6)', comment='|<SCNL>EFG.HNE.YY.--  <AUTH> 2016')
+      call check_motion('column.v2c', cosmos(file), 0.001_wp, 0.005_wp, record)
+      call check_text(record%metadata%get('network'), 'YY', 'network of the comment')
+      call check_text(record%metadata%get('station'), 'EFG', 'station of the comment')
+      call check_text(record%metadata%get('component'), 'HNE', 'component of the comment')
+      call check_motion('wide.v2c', cosmos(cosmos_type(format='(3F11.5)')), 0.001_wp, 0.005_wp, record)
+      call check_motion('no_comment.v2c', cosmos(cosmos_type(comments=0)), 0.001_wp, 0.005_wp, record)
+      call check_motion('no_length.v2c', cosmos(cosmos_type(length=-999.0_wp)), 0.001_wp, 0.005_wp, record)
+      call check_motion('no_peak.v2c', cosmos(cosmos_type(peak=-999.0_wp)), 0.001_wp, 0.005_wp, record)
+      call check_motion('mark.v2c', cosmos(cosmos_type(marks='is unknown/unspecified:   -777, -777.0', &
+         & peak=-777.0_wp)), 0.001_wp, 0.005_wp, record)
+      call check_motion('old_ending.v1', cosmos(cosmos_type(ending='/&  ---  End of data')), 0.001_wp, 0.005_wp, record)
+      ! A raw record states its step in seconds
+      call check_motion('raw_step.v0', cosmos(cosmos_type(stage=0, step=-999.0_wp, raw_step=0.01_wp, length=0.13_wp)), &
+         & 0.001_wp, 0.01_wp, record)
+      call read_record(scratch//'/plain.v2c', record, error, units='gal', dt=0.005_wp)
+      call check_ok(error, 'units and step that agree')
+      call read_record(scratch//'/plain.v2c', record, error, format='cosmos')
+      call check_ok(error, 'format that is given')
+   end subroutine test_cosmos
+
+   !> COSMOS: units by code, by words, and counts
+   subroutine test_cosmos_units()
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      type(cosmos_type) :: file
+      real(wp) :: mean, scale
+      integer :: i
+
+      call suite('cosmos units')
+      file = cosmos_type(unit_code=2, units='g(02)', multiple=0.001_wp, peak=-1.2346_wp)
+      call check_motion('g.v2c', cosmos(file), 0.001_wp*gravity, 0.005_wp, record)
+      file = cosmos_type(unit_code=10, units='gal (10)')
+      call check_motion('gal.v2c', cosmos(file), 0.001_wp, 0.005_wp, record)
+      file = cosmos_type(unit_code=11, units='mg(11)')
+      call check_motion('mg.v2c', cosmos(file), 0.0001_wp*gravity, 0.005_wp, record)
+      file = cosmos_type(unit_code=12, units='micro g(12)')
+      call check_motion('micro_g.v2c', cosmos(file), 1.0e-7_wp*gravity, 0.005_wp, record)
+      file = cosmos_type(unit_code=7, units='in/sec2(07)')
+      call check_motion('inch.v2c', cosmos(file), 0.00254_wp, 0.005_wp, record)
+      ! Code in one place only, or nowhere
+      file = cosmos_type(units='cm/s^2')
+      call check_motion('header_code.v2c', cosmos(file), 0.001_wp, 0.005_wp, record)
+      file = cosmos_type(unit_code=-999)
+      call check_motion('line_code.v2c', cosmos(file), 0.001_wp, 0.005_wp, record)
+      file = cosmos_type(unit_code=-999, units='mm/s^2')
+      call check_motion('words.v2c', cosmos(file), 0.0001_wp, 0.005_wp, record)
+      ! Counts: least bit 2 microvolt, 4 V/g, gain 0.5; the mean goes
+      file = cosmos_type(title='Raw acceleration counts   (Format v01.20', stage=0, unit_code=50, units='counts (50)', &
+         & format='(10I8)', multiple=10.0_wp, bit=2.0_wp, sensitivity=4.0_wp, gain=0.5_wp, peak=777.0_wp)
+      call write_file('counts.v0c', cosmos(file))
+      call read_record(scratch//'/counts.v0c', record, error)
+      call check_ok(error, 'counts')
+      if (.not. allocated(error)) then
+         mean = sum(10.0_wp*motion)/13.0_wp
+         scale = 1.0e-6_wp*gravity
+         do i = 1, size(motion)
+            call check_close(record%acceleration(i), scale*(10.0_wp*motion(i) - mean), 1.0e-12_wp, 'count '//to_text(i))
+         end do
+         call check_text(record%metadata%get('processing'), 'raw acceleration counts; Record filtered below 0.10 Hz'// &
+            & '; mean of '//to_text(anint(mean))//' counts removed', 'processing')
+      end if
+      file%sensitivity = -999.0_wp
+      call check_bad(cosmos(file), ': line 49: units are counts: the table of reals must state the least bit')
+      call check_bad(cosmos(cosmos_type(units='cm/sec(05)', unit_code=5)), &
+         & ': line 49: units = ''cm/sec'', code 5: must be units of acceleration')
+      call check_bad(cosmos(cosmos_type(units='cm/sec2(04)', unit_code=2)), &
+         & ': line 49: units of code 4: the table of integers states code 2')
+      call check_bad(cosmos(cosmos_type(units='g', unit_code=4)), ': line 49: units = ''g'': their code 4')
+      call check_bad(cosmos(cosmos_type(units='furlongs', unit_code=-999)), ': units = ''furlongs'': must be one of')
+      call check_bad(cosmos(cosmos_type(units=' ', unit_code=-999)), ': the file does not state its units')
+   end subroutine test_cosmos_units
+
+   !> COSMOS: several records in a file
+   subroutine test_cosmos_records()
+      type(record_type), allocatable :: records(:)
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      type(cosmos_type) :: velocity, up
+
+      call suite('cosmos records')
+      velocity = cosmos_type(title='Velocity data             (Format v01.20', quantity='velocity', quantity_code=2, &
+         & units='cm/sec(05)', unit_code=5)
+      up = cosmos_type(channel='Sta Cha:  2: Up      (Rcrdr Chan  2)', step=10.0_wp, length=0.13_wp)
+      call write_file('three.v2c', cosmos(cosmos_type())//cosmos(velocity)//cosmos(up))
+      call read_records(scratch//'/three.v2c', records, error)
+      call check_ok(error, 'acceleration, velocity, acceleration')
+      if (.not. allocated(error)) then
+         call check(size(records) == 2, 'two records')
+         call check_text(records(1)%name, 'three.340_deg', 'name 1')
+         call check_text(records(2)%name, 'three.Up', 'name 2')
+         call check_close(records(1)%dt, 0.005_wp, 1.0e-14_wp, 'dt 1')
+         call check_close(records(2)%dt, 0.01_wp, 1.0e-14_wp, 'dt 2')
+      end if
+      call read_record(scratch//'/three.v2c', record, error)
+      call check_error(error, 'three.v2c: the file holds 2 channels: channel must be one of ''340 deg'', ''Up''', &
+         & 'no channel')
+      call read_record(scratch//'/three.v2c', record, error, channel='up')
+      call check_ok(error, 'channel Up')
+      velocity%ending = ''
+      call check_bad(cosmos(cosmos_type())//cosmos(velocity)//cosmos(up), &
+         & ': line 103: the record that begins in line 53 is cut off: must end with End-of-data')
+      call check_bad(cosmos(velocity), ': line 49: quantity = ''velocity'', code 2: must be acceleration, code 1')
+      call check_bad(cosmos(cosmos_type(quantity_code=2)), ', code 2: must be acceleration, code 1')
+      call check_bad(cosmos(cosmos_type(quantity='displacement')), 'quantity = ''displacement'', code 1: must be')
+      call check_bad(cosmos(cosmos_type())//cosmos(cosmos_type(count='14')), ': line 103: value 14 of 14')
+   end subroutine test_cosmos_records
+
+   !> COSMOS: what is wrong
+   subroutine test_cosmos_errors()
+      character(len=:), allocatable :: content
+      integer :: at
+
+      call suite('cosmos errors')
+      call check_bad(cosmos(cosmos_type(count='14')), ': line 51: value 14 of 14 = ''''')
+      call check_bad(cosmos(cosmos_type(count='12')), ': line 51: text after value 12 of 12')
+      call check_bad(cosmos(cosmos_type(count='8')), ': line 51: after the 8 values that the header states')
+      call check_bad(cosmos(cosmos_type(count='99', ending='')), 'value 14 of 99')
+      call check_bad(cosmos(cosmos_type(ending='')), ': line 52: after the 13 values that the header states')
+      call check_bad(cosmos(cosmos_type(count='0')), ': line 49: ''0 acceleration pts')
+      call check_bad(cosmos(cosmos_type(count='many')), ': must begin with the number of values')
+      call check_bad(cosmos(cosmos_type(format='(free)')), ': line 49: format ''(free)'': must be a Fortran format')
+      call check_bad(cosmos(cosmos_type(step=-999.0_wp)), ': line 38: time step (number 62) = '''': must be positive')
+      call check_bad(cosmos(cosmos_type(step=0.0_wp)), ': must be positive')
+      call check_bad(cosmos(cosmos_type(step=10.0_wp)), &
+         & ': line 38: length of the record (number 63) = 0.065 s: 13 values at 0.01 s')
+      call check_bad(cosmos(cosmos_type(peak=100.0_wp)), ': line 38: peak value 100: the largest value is 123.46')
+      call check_bad(cosmos(cosmos_type(text_lines='with 12 text lines)')), ': line 13: ')
+      call check_bad(cosmos(cosmos_type(text_lines='with many text lines)')), ': must state the number of text lines')
+      call check_bad(cosmos(cosmos_type(marks='is unknown/unspecified:   -999, -123.45')), &
+         & ': line 50: value 2 of 13 is missing: -123.45 is the mark for no value')
+      content = cosmos(cosmos_type())
+      at = index(content, '| sample remark')
+      call check_bad(content(:at - 1)//content(at + 16:), ': line 46: number of comments = 2: 1 lines begin with |')
+      at = index(content, ' 100 Real')
+      call check_bad(content(:at)//'x'//content(at + 2:), ': must state number and format of the real-header values')
+      at = index(content, '  13 acceleration') - 1
+      call check_bad(content(:at), ': line 49: '''': must state number, units and format of the values')
+      call check_bad(content(:index(content, lf)), ': line 1: ''''')
+   end subroutine test_cosmos_errors
+
+   !> CSMIP: channels, values, metadata
+   subroutine test_csmip()
+      type(record_type), allocatable :: records(:)
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: old = '.020 SEC.  (UNITS: CM/SEC/SEC)'
+
+      call suite('csmip')
+      call check_motion('one.V2', csmip('90 DEG', '13', old, '(8F10.3)', 10.0_wp), 0.1_wp, 0.02_wp, record)
+      call check_text(record%metadata%get('format'), 'csmip', 'format')
+      call check_text(record%metadata%get('event'), 'SMALL TOWN EARTHQUAKE', 'event')
+      call check_text(record%metadata%get('date'), '1983-05-02T23:42:38.5', 'date')
+      call check_text(record%metadata%get('station'), '99999', 'station')
+      call check_text(record%metadata%get('station name'), 'OLD MILL', 'name of the station')
+      call check_text(record%metadata%get('component'), '90 DEG', 'component')
+      call check_text(record%metadata%get('magnitude'), '6.5', 'magnitude')
+      call check_text(record%metadata%get('latitude'), '35.500', 'latitude')
+      call check_text(record%metadata%get('longitude'), '-120.250', 'longitude')
+      call check_text(record%metadata%get('processing'), 'corrected; filtered WITH RAMPS AT .05- .10', 'processing')
+      call check_text(record%metadata%get('network'), '', 'network, which the file does not state')
+      call check_motion('fine.v2', csmip('Up', '13', '.005 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp), &
+         & 0.001_wp, 0.005_wp, record)
+      call write_file('three.V2', with_crlf(csmip('90 DEG', '13', old, '(8F10.3)', 10.0_wp)// &
+         & csmip('UP', '12', old, '(8F10.3)', 10.0_wp)//csmip('0 DEG', '13', old, '(8F10.3)', -10.0_wp))// &
+         & repeat(achar(26), 50))
+      call read_records(scratch//'/three.V2', records, error)
+      call check_ok(error, 'three channels')
+      if (.not. allocated(error)) then
+         call check(size(records) == 3, 'three records')
+         call check_text(records(2)%name, 'three.UP', 'name 2')
+         call check(size(records(1)%acceleration) == 13 .and. size(records(2)%acceleration) == 12, 'counts')
+         call check_close(records(3)%acceleration(13), 0.25_wp, 1.0e-14_wp, 'last value of channel 3')
+      end if
+      call read_record(scratch//'/three.V2', record, error, channel='3')
+      call check_ok(error, 'channel 3')
+      call check_text(record%metadata%get('component'), '0 DEG', 'component of channel 3')
+   end subroutine test_csmip
+
+   !> CSMIP: what is wrong
+   subroutine test_csmip_errors()
+      character(len=*), parameter :: old = '.020 SEC.  (UNITS: CM/SEC/SEC)', format = '(8F10.3)'
+      character(len=:), allocatable :: content
+
+      call suite('csmip errors')
+      call check_bad(csmip('UP', '14', old, format, 10.0_wp), ': line 48: value 14 of 14 = ''''')
+      call check_bad(csmip('UP', '12', old, format, 1.0_wp, cut=.false.), ': line 48: text after value 12 of 12')
+      call check_bad(csmip('UP', '8', old, format, 1.0_wp, cut=.false.), &
+         & ': line 48: after the 8 values that the header states')
+      call check_bad(csmip('UP', '17', old, format, 10.0_wp), ': line 48: value 14 of 17')
+      call check_bad(csmip('UP', 'few', old, format, 10.0_wp), ': line 46: ''FEW POINTS')
+      call check_bad(csmip('UP', '13', '.000 SEC.  (UNITS: CM/SEC/SEC)', format, 10.0_wp), 'both positive')
+      call check_bad(csmip('UP', '13', '.02 SEC.  (UNITS: CM/SEC)', format, 10.0_wp), 'units = ''CM/SEC'': must be one')
+      call check_bad(csmip('UP', '13', '.02 SEC.', format, 10.0_wp), ': the file does not state its units')
+      call check_bad(csmip('UP', '13', '.02 sec, in cm/sec2. (bad)', format, 10.0_wp), &
+         & ': line 46: format ''(bad)'': must be a Fortran format')
+      call check_bad(csmip('UP', '13', '.02 SEC. (UNITS: G)', format, 10.0_wp), ': line 18: peak value -12346')
+      content = csmip('UP', '13', old, format, 10.0_wp)
+      call check_bad(content(:index(content, '   13 POINTS OF ACCEL DATA') - 1), &
+         & ': line 1: no line POINTS OF ACCEL DATA')
+      call check_bad(content(:index(content, '   13 POINTS OF VELOC') - 30), ': line 48: ')
+      call check_bad(content(:index(content, '   13 POINTS OF VELOC') - 1), ': line 48: the channel ends with its acc')
+      call check_bad(content(:index(content, '   13 POINTS OF DISPL') - 50), &
+         & ': line 50: the channel ends within the 13 values that line 49 states')
+      call check_bad(content(:index(content, '/&') - 60)//lf//content, &
+         & ': line 53: the channel ends within the 13 values that line 52 states')
+      call check_bad(replaced(content, '/&', '??'), ': line 55: after the 13 values that the header states')
+      call check_bad(content//content(:200), ': line 56: no line POINTS OF ACCEL DATA')
+   end subroutine test_csmip_errors
+
+   !> GeoNet: components, values, metadata
+   subroutine test_geonet()
+      type(record_type), allocatable :: records(:)
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: content
+
+      call suite('geonet')
+      call check_motion('one.V2A', geonet('S16W', 13, 10.0_wp), 0.01_wp, 0.02_wp, record)
+      call check_text(record%metadata%get('format'), 'geonet', 'format')
+      call check_text(record%metadata%get('event'), 'Epicentre 40 03 27S 176 32 45E Dist 13km M 4.17', 'event')
+      call check_text(record%metadata%get('date'), '2018-02-12T21:15:54.0', 'date')
+      call check_text(record%metadata%get('station'), 'ABCD', 'station')
+      call check_text(record%metadata%get('station name'), 'Small Town Hall', 'name of the station')
+      call check_text(record%metadata%get('component'), 'S16W', 'component')
+      call check_text(record%metadata%get('magnitude'), '4.17', 'magnitude')
+      call check_text(record%metadata%get('latitude'), '-39.944', 'latitude')
+      call check_text(record%metadata%get('longitude'), '176.584', 'longitude')
+      call check_text(record%metadata%get('processing'), 'corrected; Band-pass filter bands are .10-.25 Hz', &
+         & 'processing')
+      call write_file('three.V2A', with_crlf(geonet('S16W', 13, 10.0_wp)//geonet('S74E', 10, 1.0_wp)// &
+         & geonet('Up', 13, -10.0_wp)))
+      call read_records(scratch//'/three.V2A', records, error)
+      call check_ok(error, 'three components')
+      if (.not. allocated(error)) then
+         call check(size(records) == 3, 'three records')
+         call check_text(records(2)%name, 'three.S74E', 'name 2')
+         call check(size(records(2)%acceleration) == 10, 'ten values')
+         call check_close(records(2)%acceleration(10), -1.0_wp, 1.0e-14_wp, 'last value of component 2')
+         call check_close(records(3)%acceleration(13), 0.025_wp, 1.0e-14_wp, 'last value of component 3')
+      end if
+      call read_record(scratch//'/three.V2A', record, error, channel='s74e')
+      call check_ok(error, 'component S74E')
+      content = geonet('Up', 13, 10.0_wp)
+      call check_motion('north.V2A', replaced(replaced(content, '38S', '38N'), '04E', '04W'), 0.01_wp, 0.02_wp, record)
+      call check_text(record%metadata%get('latitude'), '39.944', 'north')
+      call check_text(record%metadata%get('longitude'), '-176.584', 'west')
+      call check_motion('acceleration.V2A', geonet('Up', 13, 10.0_wp, others=0), 0.01_wp, 0.02_wp, record)
+   end subroutine test_geonet
+
+   !> GeoNet: what is wrong
+   subroutine test_geonet_errors()
+      character(len=:), allocatable :: content
+
+      call suite('geonet errors')
+      content = geonet('Up', 13, 10.0_wp)
+      call check_bad('Uncorrected'//content(10:), ': must be a Corrected accelerogram')
+      call check_bad(replaced(content, 'points    13', 'points    12'), &
+         & ': line 10: ''Number of points 12 Duration 0.24 sec'': the table of integers states 13 accelerations')
+      call check_bad(replaced(content, '      13      13      13', '      13      14      13'), ': value 14 of 14')
+      call check_bad(replaced(content, '      13      13      13', '       x      13      13'), &
+         & ': line 20: number of values = '''': must be a positive integer')
+      call check_bad(replaced(content, '      13      13      13', '99999999      13      13'), &
+         & 'the values must be there')
+      call check_bad(replaced(content, 'at 0.020 sec', 'at 0.010 sec'), &
+         & ': line 11: ''Instrument corrected data at 0.010 sec intervals'': the table of reals states a time step')
+      call check_bad(replaced(content, '  0.0050  0.0200', '  0.0050  0.0000'), &
+         & ': line 23: time step = ''0.0000'': must be positive')
+      call check_bad(replaced(content, '-12346.0 mm/s/s', '-12046.0 mm/s/s'), ': line 14: peak value -12046')
+      call check_bad(replaced(content, 'mm/s/s at', 'mm/s at'), 'units = ''mm/s'': must be one of')
+      call check_bad(content(:len(content) - 60), ': line 31: value 7 of 13')
+      call check_bad(content//'one more line'//lf, ': line 33: ''one more line'': must be a Corrected accelerogram')
+      call check_bad(content//content(:500), ': line ')
+   end subroutine test_geonet_errors
+
+   !> SMC: values, metadata
+   subroutine test_smc()
+      type(record_type) :: record
+      character(len=*), parameter :: title = '2 CORRECTED ACCELEROGRAM'
+      character(len=:), allocatable :: content
+
+      call suite('smc')
+      call check_motion('one.smc', smc(title, 13, 2), 0.01_wp, 0.005_wp, record)
+      call check_text(record%metadata%get('format'), 'smc', 'format')
+      call check_text(record%metadata%get('event'), 'Small Town, CA', 'event')
+      call check_text(record%metadata%get('date'), '1989-10-18T00:04', 'date')
+      call check_text(record%metadata%get('station'), 'A020A', 'station')
+      call check_text(record%metadata%get('station name'), 'Old Mill #2', 'name of the station')
+      call check_text(record%metadata%get('network'), 'USGS', 'network')
+      call check_text(record%metadata%get('component'), '133', 'component')
+      call check_text(record%metadata%get('magnitude'), '7.1', 'magnitude')
+      call check_text(record%metadata%get('latitude'), '37.52', 'latitude')
+      call check_text(record%metadata%get('longitude'), '-122.25', 'longitude')
+      call check_text(record%metadata%get('event longitude'), '', 'longitude that is missing')
+      call check_text(record%metadata%get('azimuth'), '133', 'azimuth')
+      call check_text(record%metadata%get('inclination'), '', 'inclination that is missing')
+      call check_text(record%metadata%get('processing'), 'corrected accelerogram', 'processing')
+      call check_text(record%metadata%get('comments'), 'remark remark', 'comments')
+      call check_motion('crlf.smc', with_crlf(smc(title, 13, 0)), 0.01_wp, 0.005_wp, record)
+      call check_motion('raw.smc', smc('1 UNCORRECTED ACCELEROGRAM', 13, 1), 0.01_wp, 0.005_wp, record)
+      call check_motion('wide.smc', smc(title, 13, 1, digits=8), 0.01_wp, 0.005_wp, record)
+      ! A peak that is missing is not looked at
+      content = smc(title, 13, 1)
+      call check_motion('no_peak.smc', replaced(content, ' -0.1234600E+04', '  0.1700000E+39'), 0.01_wp, 0.005_wp, &
+         & record)
+   end subroutine test_smc
+
+   !> SMC: what is wrong
+   subroutine test_smc_errors()
+      character(len=*), parameter :: title = '2 CORRECTED ACCELEROGRAM'
+      character(len=:), allocatable :: content
+
+      call suite('smc errors')
+      content = smc(title, 13, 2)
+      call check_bad(smc('3 VELOCITY', 13, 1), ': line 1: ''3 VELOCITY'': must be an ACCELEROGRAM')
+      call check_bad(smc('5 RESPONSE SPECTRA', 13, 1), ': must be an ACCELEROGRAM')
+      call check_bad(smc(title, 14, 2), ': line 31: value 14 of 14 = ''''')
+      call check_bad(smc(title, 12, 2), ': line 31: text after value 12 of 12')
+      call check_bad(smc(title, 8, 2), ': line 31: text after the 8 values that the header states')
+      call check_bad(smc(title, 17, 2), ': line 31: value 14 of 17')
+      call check_bad(smc(title, -32768, 2), ': line 14: number of values = '''': must be a positive integer')
+      call check_bad(replaced(content, '|remark'//lf, ''), &
+         & ': line 13: number of comments = ''2'': 1 lines begin with |')
+      call check_bad(replaced(content, '  0.2000000E+03', '  0.1700000E+39'), &
+         & ': line 18: values per second = '''': must be positive')
+      call check_bad(replaced(content, ' -0.1234600E+04', ' -0.1334600E+04'), ': line 24: peak value -1334.6')
+      call check_bad(replaced(content, ' 9.9900E+1', '1.7000E+38'), &
+         & ': line 30: value 4 of 13 is missing: 1.7e38 is the mark for no value')
+      call check_bad(replaced(content, '-1.2345E+3', '**********'), ': line 30: value 2 of 13 = ''**********''')
+      call check_bad(content(:len(content) - 15), ': line 31: value 13 of 13')
+      call check_bad(content(:len(content) - 4), ': line 31: the last value is cut off')
+      call check_bad(content(:1000), ': line ')
+      call check_bad(content//'1.0'//lf, ': line 32: text after the 13 values')
+   end subroutine test_smc_errors
+
+   !> Texts that are cut off or damaged give a record or an error that names the file, never anything else
+   subroutine test_damaged()
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: whole, content
+      character(len=*), parameter :: formats(4) = ['cosmos', 'csmip ', 'geonet', 'smc   ']
+      integer, parameter :: trials = 2000
+      integer :: which, trial, state, at, i, read_well, cut_well
+      logical :: right
+
+      call suite('damaged')
+      state = 12345
+      do which = 1, 4
+         select case (which)
+         case (1)
+            whole = cosmos(cosmos_type())//with_crlf(cosmos(cosmos_type(format='(1E15.6)')))
+         case (2)
+            whole = csmip('90 DEG', '13', '.02 SEC. (UNITS: CM/SEC/SEC)', '(8F10.3)', 10.0_wp)// &
+               & csmip('UP', '13', '.02 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp)
+         case (3)
+            whole = geonet('S16W', 13, 10.0_wp)//with_crlf(geonet('Up', 12, 10.0_wp))
+         case (4)
+            whole = smc('2 CORRECTED ACCELEROGRAM', 13, 2)
+         end select
+         right = .true.
+         read_well = 0
+         cut_well = 0
+         do trial = 1, trials
+            if (modulo(trial, 2) == 0) then
+               content = whole(:1 + next(state, len(whole) - 1))
+            else
+               content = whole
+               do i = 0, next(state, 3)
+                  at = 1 + next(state, len(content))
+                  content(at:at) = achar(ieor(iachar(content(at:at)), 2**next(state, 7)))
+               end do
+            end if
+            call write_file('damaged', content)
+            call read_records(scratch//'/damaged', records, error, format=trim(formats(which)))
+            if (allocated(error)) then
+               right = right .and. index(error%message, scratch//'/damaged: ') == 1
+               right = right .and. .not. allocated(records)
+            else
+               read_well = read_well + 1
+               if (modulo(trial, 2) == 0) cut_well = cut_well + 1
+               do i = 1, size(records)
+                  right = right .and. records(i)%dt > 0.0_wp .and. size(records(i)%acceleration) >= 2 .and. &
+                     & all(abs(records(i)%acceleration) < 1.0e4_wp)
+               end do
+            end if
+         end do
+         call check(right, formats(which)//': a record or an error that names the file')
+         call check(read_well > trials/20 .and. read_well < trials - trials/20, &
+            & formats(which)//': '//to_text(read_well)//' of '//to_text(trials)//' read')
+         ! Velocities and displacements that are cut off, and text after the values, are no loss to CSMIP and COSMOS
+         call check(cut_well < trials/5, &
+            & formats(which)//': '//to_text(cut_well)//' of '//to_text(trials/2)//' that are cut off read')
+      end do
+   end subroutine test_damaged
+
+   !> A number from 0 to n - 1 (Lehmer's generator, multiplier 16807)
+   function next(state, n)
+      integer, intent(inout) :: state
+      integer, intent(in) :: n
+      integer :: next
+
+      integer, parameter :: long = selected_int_kind(18)
+
+      state = int(modulo(16807_long*int(state, long), 2147483647_long))
+      next = modulo(state/7, n)
+   end function next
+
+   !> Recorded files, where there are any: peaks and steps as in their manifest, counts, first and last values
+   subroutine test_samples()
+      type(csv_table_type) :: table
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: folder, file, channel
+      real(wp) :: number
+      integer :: row, length, tested
+      logical :: exists
+
+      call suite('samples')
+      call get_environment_variable('DONDOLO_RECORDS', length=length)
+      allocate (character(len=length) :: folder)
+      if (length > 0) call get_environment_variable('DONDOLO_RECORDS', folder)
+      if (length == 0) folder = '../shared/records'
+      inquire (file=folder//'/manifest.csv', exist=exists)
+      if (.not. exists) then
+         call skip('no recorded accelerograms in '//folder)
+         return
+      end if
+      call read_csv(folder//'/manifest.csv', table, error)
+      call check_ok(error, 'manifest')
+      if (allocated(error)) return
+      tested = 0
+      do row = 1, table%rows()
+         file = table%get_text(row, table%column('file'))
+         if (index(file, 'formats/cosmos/') + index(file, 'formats/csmip_v2/') + index(file, 'formats/geonet/') + &
+            & index(file, 'formats/smc/') == 0) cycle
+         tested = tested + 1
+         ! Components of one file have rows of their own: file (channel 1), file (S16W)
+         channel = before(before(after(file, '('), ')'), 'channel')
+         if (index(file, '(channel') > 0) channel = before(after(file, '(channel'), ')')
+         call read_record(folder//'/'//before(file, ' ('), record, error, channel=channel)
+         call check_ok(error, file)
+         if (allocated(error)) cycle
+         call table%get_real(row, table%column('pga_m_s2'), number, error)
+         call check_close(record%pga(), number, 1.0e-3_wp, 'PGA of '//file)
+         call table%get_real(row, table%column('dt_s'), number, error)
+         call check_close(record%dt, number, 1.0e-9_wp, 'dt of '//file)
+         call table%get_real(row, table%column('npts'), number, error)
+         call check(size(record%acceleration) == nint(number), 'number of values of '//file)
+         if (index(file, '.V2c') > 0) then
+            call check_ends(record, 3.437285e-6_wp, 2.412614e-6_wp)
+            call check_text(record%metadata%get('event'), 'Point MacKenzie Earthquake', 'event')
+            call check_text(record%metadata%get('date'), '2018-11-30T17:29:29', 'date')
+            call check_text(record%metadata%get('station'), 'BMR', 'station')
+            call check_text(record%metadata%get('network'), 'AK', 'network')
+            call check_text(record%metadata%get('component'), 'BNZ', 'component')
+            call check_text(record%metadata%get('magnitude'), '7.000000', 'magnitude')
+         else if (index(file, '.v1') > 0) then
+            call check_ends(record, -0.00001e-2_wp, -0.00003e-2_wp)
+            call check_text(record%metadata%get('station'), 'J2236', 'station')
+            call check_text(record%metadata%get('station name'), 'Yucaipa - Bryant & Oak Glen', 'name of the station')
+            call check_text(record%metadata%get('component'), '340 deg', 'component')
+         else if (index(file, '(channel 1)') > 0) then
+            call check_ends(record, -3.038e-2_wp, -1.308e-2_wp)
+            call check_text(record%metadata%get('station'), '36456', 'station')
+            call check_text(record%metadata%get('magnitude'), '6.5', 'magnitude')
+            call check_text(record%metadata%get('component'), '90 DEG', 'component')
+            call check_text(record%metadata%get('longitude'), '-120.458', 'longitude')
+         else if (index(file, '(channel 3)') > 0) then
+            call check_ends(record, 1.527e-2_wp, -4.292e-2_wp)
+            call check_text(record%metadata%get('component'), '0 DEG', 'component')
+         else if (index(file, '(S74E)') > 0) then
+            call check_ends(record, 0.0_wp, 0.0_wp)
+            call check_text(record%metadata%get('station'), 'WPWS', 'station')
+            call check_text(record%metadata%get('magnitude'), '4.17', 'magnitude')
+            call check_text(record%metadata%get('latitude'), '-39.944', 'latitude')
+         else if (index(file, '.smc') > 0) then
+            call check_ends(record, 12.714e-2_wp, 7.7033e-2_wp)
+            call check_text(record%metadata%get('event'), 'Loma Prieta, CA', 'event')
+            call check_text(record%metadata%get('station name'), 'APEEL Array #2 - Redwood City', 'name of the station')
+            call check_text(record%metadata%get('component'), '133', 'component')
+         end if
+      end do
+      call check(tested == 9, to_text(tested)//' components tested')
+   end subroutine test_samples
+
+   !> First and last value
+   subroutine check_ends(record, first, last)
+      type(record_type), intent(in) :: record
+      real(wp), intent(in) :: first, last
+
+      call check_close(record%acceleration(1), first, 1.0e-12_wp, 'first value of '//record%name)
+      call check_close(record%acceleration(size(record%acceleration)), last, 1.0e-12_wp, 'last value of '//record%name)
+   end subroutine check_ends
+
+   !> A text with one channel that holds the motion
+   subroutine check_motion(file, content, factor, dt, record)
+      character(len=*), intent(in) :: file, content
+      real(wp), intent(in) :: factor, dt
+      type(record_type), intent(out) :: record
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call write_file(file, content)
+      call read_record(scratch//'/'//file, record, error)
+      call check_ok(error, file)
+      if (allocated(error)) return
+      call check_close(record%dt, dt, 1.0e-14_wp, file//': dt')
+      call check(size(record%acceleration) == size(motion), file//': '//to_text(size(record%acceleration))//' values')
+      do i = 1, min(size(record%acceleration), size(motion))
+         call check_close(record%acceleration(i), factor*motion(i), 1.0e-13_wp, file//': value '//to_text(i))
+      end do
+   end subroutine check_motion
+
+   !> A text with an error
+   subroutine check_bad(content, part)
+      character(len=*), intent(in) :: content, part
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+
+      call write_file('bad', content)
+      call read_records(scratch//'/bad', records, error)
+      call check_error(error, part, 'bad file')
+      if (allocated(error)) call check(index(error%message, scratch//'/bad: ') == 1, error%message)
+   end subroutine check_bad
+
+   !> A COSMOS record
+   function cosmos(file) result(content)
+      type(cosmos_type), intent(in) :: file
+      character(len=:), allocatable :: content
+      real(wp) :: reals(100)
+      integer :: integers(100), i
+
+      integers = -999
+      integers(1:4) = [file%stage, file%quantity_code, file%unit_code, 120]
+      reals = -999.0_wp
+      reals(1:2) = [40.5_wp, -120.25_wp]
+      reals(10:13) = [41.0_wp, -121.0_wp, 12.0_wp, 5.5_wp]
+      reals(15) = 5.25_wp
+      reals(22) = file%bit
+      reals(34) = file%raw_step
+      reals(42) = file%sensitivity
+      reals(47) = file%gain
+      reals(62:64) = [file%step, file%length, file%peak]
+      content = trim(file%title)//' '//trim(file%text_lines)//' Src: x'//lf// &
+         & 'Record of Small Town                    Feb 3, 2016 04:05 UTC'//lf// &
+         & 'Hypocenter: 41.00 -121.00 H= 12km Mw=5.5'//lf// &
+         & 'Origin: 2016/02/03 04:05:06    UTC'//lf// &
+         & 'Statn No: 99-000001 Code:XX-ABCD   XYZ  Hill - Old Mill'//lf// &
+         & 'Coords: 40.5000 -120.2500  Site geology: rock'//lf// &
+         & 'Recorder: none s/n 1 ( 1 Chns of 3 at Sta) Sensor: none'//lf// &
+         & 'Rcrd start time: 2016/02/03 04:05:10.0 UTC (Q=5) RcrdId: x.1'//lf// &
+         & trim(file%channel)//' Location:'//lf// &
+         & 'Raw record length = 0.065 sec'//lf// &
+         & 'Processed: 2016/02/04, Max = -123.46 cm/sec2 at 0.010 sec'//lf// &
+         & 'Record filtered below  0.10 Hz'//lf// &
+         & 'Values used when parameter or data value '//trim(file%marks)//lf// &
+         & ' 100 Integer-header values follow on  10 lines, Format= (10I8)'//lf
+      content = content//printed([(real(integers(i), wp), i=1, 100)], '(10I8)')// &
+         & ' 100 Real-header values follow on  20 lines, Format= (5F15.6)'//lf//printed(reals, '(5F15.6)')// &
+         & '   '//to_text(file%comments)//' Comment line(s) follow, each starting with a "|":'//lf
+      do i = 1, file%comments
+         content = content//trim(file%comment)//lf
+      end do
+      content = content//'  '//trim(file%count)//' '//trim(file%quantity)//' pts, approx  0 secs, units='// &
+         & trim(file%units)//',Format='//trim(file%format)//lf//printed(file%multiple*motion, trim(file%format))
+      if (len_trim(file%ending) > 0) content = content//trim(file%ending)//lf
+   end function cosmos
+
+   !> A channel of a CSMIP file
+   function csmip(component, count, step_and_units, format, multiple, cut) result(content)
+      character(len=*), intent(in) :: component, count, step_and_units, format
+      real(wp), intent(in) :: multiple
+      logical, intent(in), optional :: cut
+      character(len=:), allocatable :: content, number
+      real(wp) :: zeros(100)
+      character(len=12) :: peak
+      integer :: values, stat
+
+      read (count, *, iostat=stat) values
+      if (stat /= 0) values = 13
+      if (present(cut)) values = 13
+      values = min(values, 13)
+      zeros = 0.0_wp
+      write (peak, '(f12.3)') -maxval(abs(multiple*motion))
+      number = count
+      if (count == 'few') number = 'FEW'
+      content = 'CORRECTED ACCELEROGRAM   99999-S1-83123.01       CHAN  1:  '//component//'     FROM'//lf// &
+         & 'UNCORRECTED ACCELEROGRAM DATA              PROCESSED:  6/06/83, XYZ'//lf// &
+         & 'SMALL TOWN EARTHQUAKE'//lf// &
+         & 'MAY 2, 1983 16:42 PDT                   (ORIGIN(XYZ): 05/02/83, 23:42:38.5 UTC)'//lf// &
+         & '99999-S1-83123.01               TRIGGER TIME: 05/02/83, 16:42:48.2 PDT'//lf// &
+         & 'STATION NO. 99999   35.500N, 120.250W     SMA-1  S/N 1'//lf// &
+         & 'OLD MILL'//lf// &
+         & 'CHAN  1:  '//component//lf// &
+         & 'SMALL TOWN EARTHQUAKE     MAY 2, 1983 16:42 PDT'//lf// &
+         & 'HYPOCENTER(XYZ): 36.25N,120.28W, H=9KM.  ML=6.5(XYZ)'//lf// &
+         & 'INSTR PERIOD =  .0407 SEC,  DAMPING =  .630,  SENSITIVITY = 1.87 CM/G.'//lf// &
+         & '                        RECORD LENGTH =  .260 SEC.'//lf// &
+         & '                                     UNCOR MAX  =  -.275 G, AT  .040 SEC.'//lf// &
+         & 'RMS ACCEL OF (UNCOR) RECORD  =  .030 G.'//lf// &
+         & 'ACCELEROGRAM BANDPASS FILTERED WITH RAMPS AT  .05- .10'//lf
+      content = content//'  '//number//' POINTS OF BASELINE-CORRECTED ACCEL, VELOC AND DISPL DATA'//lf// &
+         & 'AT EQUALLY-SPACED INTERVALS OF    .020  SEC.'//lf// &
+         & 'PEAK ACCELERATION = '//peak//'    CM/SEC/SEC  AT     .040   SEC.'//lf// &
+         & 'PEAK   VELOCITY   =   -28.253      CM/SEC    AT     .040   SEC.'//lf// &
+         & 'PEAK DISPLACEMENT =     5.449        CM      AT     .040   SEC.'//lf// &
+         & 'INITIAL VELOCITY  =     -.052   CM/SEC;   INITIAL DISPLACEMENT =    -.110   CM'//lf// &
+         & 'SMALL TOWN EARTHQUAKE     MAY 2, 1983 16:42 PDT'//lf//lf// &
+         & '99999-S1-83123.01      OLD MILL   CHAN  1:  '//component//lf//lf// &
+         & printed(zeros, '(16I5)')//printed(zeros, '(8F10.3)')// &
+         & '   '//number//' POINTS OF ACCEL DATA EQUALLY SPACED AT  '//step_and_units//lf// &
+         & printed(multiple*motion(:values), format)// &
+         & '   '//number//' POINTS OF VELOC DATA EQUALLY SPACED AT  '//step_and_units//lf// &
+         & printed(zeros(:values), format)// &
+         & '   '//number//' POINTS OF DISPL DATA EQUALLY SPACED AT  '//step_and_units//lf// &
+         & printed(zeros(:values), format)// &
+         & '/&  ----------  END OF DATA FOR CHANNEL  1  ----------'//lf
+   end function csmip
+
+   !> A component of a GeoNet file
+   function geonet(component, count, multiple, others) result(content)
+      character(len=*), intent(in) :: component
+      integer, intent(in) :: count
+      real(wp), intent(in) :: multiple
+      integer, intent(in), optional :: others
+      character(len=:), allocatable :: content
+      character(len=200) :: line
+      real(wp) :: values(count)
+      integer :: rest
+
+      values = multiple*motion(:count)
+      rest = count
+      if (present(others)) rest = others
+      content = 'Corrected accelerogram 20180212_211554_ABCD_20 GNS Science'//lf// &
+         & 'Site ABCD      39 56 38S  176 35 04E     Basalt file:  20180212_211557_ABCD'//lf// &
+         & 'Small Town Hall'//lf// &
+         & 'Instrument Basalt_1'//lf// &
+         & 'Resolution: 24-bit   Instr Period: 0.0050 s   Damping: 0.700'//lf// &
+         & 'Accelerogram 20180212_211554_ABCD_20                 Processed 2018 February 21'//lf// &
+         & '6 km south of the town'//lf// &
+         & '2018 February 12         21:15:54 UT'//lf// &
+         & 'Epicentre  40 03 27S 176 32 45E Dist   13km M  4.17'//lf
+      write (line, '(a, i6, a)') 'Number of points', count, '    Duration 0.24 sec'
+      content = content//trim(line)//lf// &
+         & 'Instrument corrected data at 0.020 sec intervals'//lf// &
+         & 'Band-pass filter bands are .10-.25 Hz'//lf// &
+         & 'Component '//component//'  Longitudinal Accelerometer Axis'//lf
+      write (line, '(a, f9.1, a)') 'Acceleration:  peak', merge(-1, 1, multiple > 0.0_wp)*maxval(abs(values)), &
+         & ' mm/s/s at  43.68 sec     rms      2.2 mm/s/s'
+      content = content//trim(line)//lf// &
+         & 'Velocity:      peak     1.65 mm/s   at  43.56 sec     rms     0.09 mm/s'//lf// &
+         & 'Displacement:  peak    0.131 mm     at  43.66 sec     rms    0.007 mm'//lf// &
+         & '    2018       2      12      21      15     540       0       0    2018       2'//lf// &
+         & '      40       3      27     176      32      45       9       0      12      21'//lf// &
+         & '      39      56      38     176      35       4     196     196     195      13'//lf
+      write (line, '(10i8)') 21200, 250, 250, count, rest, rest, 0, 0, 15, 17000
+      content = content//trim(line)//lf// &
+         & '   200.0    0.70    0.00   0.000  0.0000   0.000   0.000   1.000     0.0    0.00'//lf// &
+         & '  39.944 176.584   40.06  176.55    4.17    0.00    0.00    0.00      0.      0.'//lf// &
+         & '  106.00    5.00    5.00  115.98  0.0050  0.0200      0.      0.      0.  9806.6'//lf// &
+         & '   -46.3   43.67     2.3   0.000      0.   -41.6   43.68     2.2   196.4   4.221'//lf// &
+         & '    1.65   43.56    0.09    5.10   3.098    0.13   43.66    0.01    0.31   0.549'//lf// &
+         & '   0.100   0.150   0.250      0.      0.  24.500   1.000  25.500      0.      0.'//lf// &
+         & printed(values, '(10F8.1)')//printed(0.0_wp*values(:rest), '(10F8.2)')// &
+         & printed(0.0_wp*values(:rest), '(10F8.3)')
+   end function geonet
+
+   !> An SMC file
+   function smc(title, count, comments, digits) result(content)
+      character(len=*), intent(in) :: title
+      integer, intent(in) :: count, comments
+      integer, intent(in), optional :: digits
+      character(len=:), allocatable :: content
+      real(wp) :: reals(50)
+      integer :: integers(48), i
+
+      integers = -32768
+      integers(2:6) = [1989, 291, 0, 4, 0]
+      integers(14) = 133
+      integers(16:17) = [comments, count]
+      if (present(digits)) integers(47) = digits
+      reals = 1.7e38_wp
+      reals(2:3) = [200.0_wp, 37.037_wp]
+      reals(6:8) = [7.1_wp, 7.1_wp, 7.0_wp]
+      reals(11:12) = [37.52_wp, -122.25_wp]
+      reals(29:32) = [0.04_wp, 1234.4_wp, 0.01_wp, -1234.6_wp]
+      content = title//lf//'*'//lf//'A020A'//lf//'     1989  10  18    0004 Small Town, CA       '//lf// &
+         & 'Moment Mag=      7.1 Ms=      7.1 Ml=      7.0'//lf// &
+         & 'station = Old Mill #2                    component=    133'//lf// &
+         & 'epicentral dist =     63.0       pk     =  -1234.6'//lf// &
+         & 'inst type=SMA-1      data source = USGS'//lf//'*'//lf//'*'//lf//'*'//lf// &
+         & printed([(real(integers(i), wp), i=1, 48)], '(8I10)')//printed(reals, '(5E15.7)')
+      do i = 1, comments
+         content = content//'|remark'//lf
+      end do
+      if (present(digits)) then
+         content = content//printed(motion, '(5ES14.7E1)')
+      else
+         content = content//printed(motion, '(8ES10.4E1)')
+      end if
+   end function smc
+
+   !> Numbers in a Fortran format
+   function printed(values, format) result(content)
+      real(wp), intent(in) :: values(:)
+      character(len=*), intent(in) :: format
+      character(len=:), allocatable :: content
+      character(len=200) :: lines(100)
+      integer :: i, stat
+
+      content = ''
+      if (size(values) == 0) return
+      lines = achar(0)
+      if (scan(format, 'Ii') > 0) then
+         write (lines, format) nint(values)
+      else
+         write (lines, format, iostat=stat) values
+         if (stat /= 0) write (lines, '(8f10.5)') values
+      end if
+      do i = 1, size(lines)
+         if (lines(i)(1:1) == achar(0)) exit
+         content = content//trim(lines(i))//lf
+      end do
+   end function printed
+
+   !> The same text with lines that end in CRLF
+   function with_crlf(content) result(converted)
+      character(len=*), intent(in) :: content
+      character(len=:), allocatable :: converted
+      integer :: i
+
+      converted = ''
+      do i = 1, len(content)
+         if (content(i:i) == lf) converted = converted//cr
+         converted = converted//content(i:i)
+      end do
+   end function with_crlf
+
+   !> A text with another part in the place of one, once
+   function replaced(content, part, by)
+      character(len=*), intent(in) :: content, part, by
+      character(len=:), allocatable :: replaced
+      integer :: at
+
+      at = index(content, part)
+      call check(at > 0, 'the text to change holds '//part)
+      replaced = content(:at - 1)//by//content(at + len(part):)
+   end function replaced
+
+   !> Write a small file, byte by byte
+   subroutine write_file(file, content)
+      character(len=*), intent(in) :: file, content
+      integer :: unit
+
+      open (newunit=unit, file=scratch//'/'//file, access='stream', form='unformatted', action='write', &
+         & status='replace')
+      write (unit) content
+      close (unit)
+   end subroutine write_file
+
+end program test_archives
