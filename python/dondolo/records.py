@@ -25,11 +25,15 @@ class Record:
         Time step [s].
     name : str, optional
         Name in tables and figures.
+    processing : iterable of str, optional
+        What was done to the record since it was read, a sentence a step; functions that process records add theirs.
 
     Attributes
     ----------
     acceleration : ndarray of float64, read-only
         A copy of what was given.
+    processing : tuple of str
+        Steps of processing, the first first; () for a record as it was read.
     pga : float
         Peak ground acceleration [m/s2].
 
@@ -42,17 +46,48 @@ class Record:
     acceleration: _binding.FloatArray
     dt: float
     name: str = "record"
+    processing: tuple[str, ...] = ()
     pga: float = field(init=False)
 
-    def __init__(self, acceleration: ArrayLike, dt: float, name: str = "record") -> None:
+    def __init__(
+        self, acceleration: ArrayLike, dt: float, name: str = "record", processing: Iterable[str] = ()
+    ) -> None:
         values = _binding.as_array("acceleration", acceleration).copy()
         step = _binding.as_number("dt", dt)
         _binding.as_text("name", name)
+        steps = (processing,) if isinstance(processing, str) else tuple(processing)
+        for text in steps:
+            _binding.as_text("processing", text)
         pga, stat, message = _core.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
-        for what, value in (("acceleration", values), ("dt", step), ("name", name), ("pga", pga)):
+        for what, value in (
+            ("acceleration", values),
+            ("dt", step),
+            ("name", name),
+            ("processing", steps),
+            ("pga", pga),
+        ):
             object.__setattr__(self, what, value)
+
+    def processed(self, acceleration: ArrayLike, step: str, dt: float | None = None) -> Record:
+        """A record made from this one by a step of processing, one of your own for instance.
+
+        Parameters
+        ----------
+        acceleration : array_like, shape (samples,)
+            The new samples [m/s2].
+        step : str
+            What was done, for `processing`.
+        dt : float, optional
+            The new time step [s], that of this record if left out.
+
+        Returns
+        -------
+        Record
+            Of the same name, with the step added to its history of processing.
+        """
+        return Record(acceleration, self.dt if dt is None else dt, self.name, (*self.processing, step))
 
     @property
     def duration(self) -> float:
@@ -73,6 +108,7 @@ class Record:
             ("dt", f"{self.dt:.6g} s"),
             ("duration", f"{self.duration:.6g} s"),
             ("PGA", f"{self.pga:.6g} m/s2"),
+            *(("processing", step) for step in self.processing),
         ]
 
     def __repr__(self) -> str:
