@@ -18,8 +18,8 @@ from dondolo.walls import Wall
 
 FloatArray = _binding.FloatArray
 
-# A wall that overturns after an impact falls with so much energy that 10/p are long enough for the fall, as long as its
-# speed ratio is below 0.999: over the top, the fall of a slender block takes 2 asinh(e/sqrt(1 - e^2))/p.
+# A wall that overturns after its impact has had energy for the way over the top before it, and more by 1/e^2: with
+# x = e/sqrt(1 - e^2) the fall of a slender block from 5 alpha takes at most (asinh(x) + asinh(4 x))/p: 9/p for 0.999.
 _LONGEST_FALL = 10.0
 
 
@@ -388,9 +388,7 @@ class _Runner(NamedTuple):
         return edp, collapsed == 1, impacts, time
 
 
-def _bisect(
-    runner: _Runner, brackets: Sequence[_Bracket], tolerance: float, label: str
-) -> tuple[list[_Bracket], bool]:
+def _bisect(runner: _Runner, brackets: Sequence[_Bracket], tolerance: float, label: str) -> tuple[list[_Bracket], bool]:
     """Halve every bracket until all are short; a third state in a bracket makes two of it."""
     wide, short = list(brackets), []
     while True:

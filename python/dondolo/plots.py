@@ -334,25 +334,24 @@ def plot_overturning_spectrum(spectrum: OverturningSpectrum, ax: Axes | None = N
     edges = np.concatenate([[x[0] + first], inner, [x[-1] + last]])
     # Lightness and hatching tell them apart in grey.
     looks = {
-        State.OVERTURNED: (style.BLUE, None, "overturns without impact"),
-        State.OVERTURNED_AFTER_IMPACTS: (style.BRICK, "////", "overturns after impacts"),
-        State.AT_REST: (style.LIGHT, None, "does not rock"),
+        State.OVERTURNED: (style.BLUE, style.BLUE, None, "overturns without impact"),
+        State.OVERTURNED_AFTER_IMPACTS: (style.BRICK, style.RED, "////", "overturns after impacts"),
+        State.SAFE: ("white", style.GREY, None, "survives, no impact during the pulse"),
+        State.SAFE_AFTER_IMPACTS: ("white", style.GREY, "..", "survives, impacts during the pulse"),
+        State.AT_REST: (style.LIGHT, style.LIGHT, None, "does not rock"),
     }
     columns = [(i, window) for i in range(len(x)) for window in spectrum.windows(i)]
-    for state, (color, hatch, label) in looks.items():
-        corners = [
-            [(edges[i + a], height / unit) for a, height in zip((0, 1, 1, 0), np.repeat(window[:2], 2), strict=True)]
-            for i, window in columns
-            if window.state == state
-        ]
+    for state, (face, edge, hatch, label) in looks.items():
+        corners = []
+        for i, window in columns:
+            if window.state == state:
+                low, high = 0.0 if state == State.AT_REST else window.lower / unit, window.upper / unit
+                corners.append([(edges[i], low), (edges[i + 1], low), (edges[i + 1], high), (edges[i], high)])
         if corners:
-            # One polygon may be as thin as a line: its own edge keeps the columns of a region together.
-            ax.add_collection(PolyCollection(corners, facecolor=color, edgecolor="none", antialiased=False))
+            ax.add_collection(PolyCollection(corners, facecolor=face, edgecolor="none", antialiased=False))
             if hatch:
-                ax.add_collection(
-                    PolyCollection(corners, facecolor="none", edgecolor=style.RED, hatch=hatch, linewidth=0.0)
-                )
-            ax.fill_between([], [], [], facecolor=color, edgecolor=style.RED if hatch else color, hatch=hatch, label=label)
+                ax.add_collection(PolyCollection(corners, facecolor="none", edgecolor=edge, hatch=hatch, linewidth=0.0))
+            ax.fill_between([], [], [], facecolor=face, edgecolor=edge, hatch=hatch, linewidth=0.6, label=label)
     for boundary in spectrum.boundaries:
         if max(boundary.below, boundary.above) >= State.OVERTURNED_AFTER_IMPACTS:
             i = int(np.searchsorted(spectrum.frequencies, boundary.frequency))
@@ -365,5 +364,5 @@ def plot_overturning_spectrum(spectrum: OverturningSpectrum, ax: Axes | None = N
     one_block = spectrum.wall.mechanism != "two_block"
     ax.set_ylabel("amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
     ax.set_title(f"{spectrum.wall.name}, {spectrum.pulse}", loc="left", parse_math=False)
-    style.legend(ax, loc="upper left")
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     return ax

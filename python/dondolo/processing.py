@@ -134,10 +134,10 @@ def band_pass(
     Notes
     -----
     1.5 order/low seconds of zeros go before and after the record, as long at each end as Converse and Brady (1992) ask
-    for both together (Boore 2005, On pads and filters, BSSA 95(2):745-750); without a low corner `high` takes its place.
-    Without the padded ends the integrals of the record are not those of the filtered motion: velocity and displacement
-    may drift, which `keep_padding` avoids (Boore 2005). ITACA and ESM taper 2 to 5 % and filter with order 2
-    (Paolucci et al. 2011).
+    for both together (Boore 2005, On pads and filters, BSSA 95(2):745-750); without a low corner `high` takes its
+    place. Without its padded ends a record's velocity and displacement are not quite those of the filtered motion and
+    may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with order 2 (Paolucci et al.
+    2011).
     """
     from scipy import signal
 
@@ -161,18 +161,18 @@ def band_pass(
     part = _binding.as_number("taper", taper)
     if not 0.0 <= part <= 0.5:
         raise InputError(f"taper = {taper:g}: must lie between 0 and 0.5")
-    kind, name = ("band", "band-pass") if len(corners) == 2 else (("high", "high-pass"), ("low", "low-pass"))[low is None]
-    filter_ = signal.butter(degree, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / record.dt, output="sos")
+    kind = "low" if low is None else "high" if high is None else "band"
+    sections = signal.butter(degree, np.squeeze(corners), kind, fs=1.0 / record.dt, output="sos")
     pad = int(np.ceil(1.5 * degree / corners[0] / record.dt))
     if part > 0.0:
         values = values * signal.windows.tukey(len(values), 2.0 * part)
     padded = np.concatenate([np.zeros(pad), values, np.zeros(pad)])
-    filtered = signal.sosfiltfilt(filter_, padded, padtype=None)
+    filtered = signal.sosfiltfilt(sections, padded, padtype=None)
     if not keep_padding:
         filtered = filtered[pad:-pad]
     text = "-".join(f"{value:g}" for value in corners)
     step = (
-        f"{name} {text} Hz, Butterworth order {degree}, zero phase (two passes), taper {100.0 * part:g} %, "
+        f"{kind}-pass {text} Hz, Butterworth order {degree}, zero phase (two passes), taper {100.0 * part:g} %, "
         f"{pad * record.dt:.6g} s of zeros at each end, {'kept' if keep_padding else 'cut off again'}"
     )
     return record.processed(filtered, step)
@@ -325,9 +325,7 @@ def rotate(first: Record, second: Record, angle: float) -> Record:
     return Record(values, first.dt, f"{first.name} at {direction:g} degrees", (*steps, text))
 
 
-def rotd(
-    first: Record, second: Record, measure: Callable[[Record], float] | None = None, angles: int = 180
-) -> RotD:
+def rotd(first: Record, second: Record, measure: Callable[[Record], float] | None = None, angles: int = 180) -> RotD:
     """Median and largest value of a measure over all directions of two horizontal components.
 
     Parameters
@@ -424,4 +422,3 @@ def _whole(name: str, value: Any, least: int, most: int) -> int:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
         raise InputError(f"{name} = {value!r}: must be a whole number between {least} and {most}")
     return int(value)
-

@@ -148,8 +148,11 @@ def mavroeidis_papageorgiou(
     count = int(np.ceil(np.pi * gamma / np.sqrt(8.0 * error / (1.0 + 1.5 / gamma**2))))
     angle = np.pi * gamma * np.arange(-count, count + 1) / count
     slow = angle / gamma
-    values = -np.pi * frequency * amplitude * (
-        np.sin(slow) * np.cos(angle + nu) / gamma + (1.0 + np.cos(slow)) * np.sin(angle + nu)
+    values = (
+        -np.pi
+        * frequency
+        * amplitude
+        * (np.sin(slow) * np.cos(angle + nu) / gamma + (1.0 + np.cos(slow)) * np.sin(angle + nu))
     )
     return Record(values, 0.5 * gamma / frequency / count, _name("mavroeidis_papageorgiou", frequency))
 
