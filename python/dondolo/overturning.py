@@ -77,7 +77,7 @@ class OverturningSpectrum:
     wall : Wall
         The wall.
     pulse : str
-        Name of the pulse.
+        Name of the pulse's records, without the frequency.
     frequencies : ndarray, shape (frequencies,)
         Of the pulse [Hz].
     amplitudes : ndarray, shape (amplitudes,)
@@ -287,7 +287,7 @@ def overturning_spectrum(
         edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in (outcome.edp, outcome.impacts))
         spectrum = OverturningSpectrum(
             wall,
-            getattr(pulse, "__name__", type(pulse).__name__),
+            runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
             float(settings[2]),
             polarity,
             frequencies=frequency[:complete].copy(),
