@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, NamedTuple
 
@@ -69,6 +70,7 @@ class Window(NamedTuple):
     state: State
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class OverturningSpectrum:
     """What pulses of many frequencies and amplitudes do to a wall.
 
@@ -94,16 +96,16 @@ class OverturningSpectrum:
         How it was computed.
     """
 
-    def __init__(self, wall: Wall, pulse: str, edp_limit: float, polarity: str, **arrays: Any) -> None:
-        self.wall, self.pulse, self.edp_limit, self.polarity = wall, pulse, edp_limit, polarity
-        self.frequencies: FloatArray = arrays["frequencies"]
-        self.amplitudes: FloatArray = arrays["amplitudes"]
-        self.state: np.ndarray[Any, np.dtype[np.int8]] = arrays["state"]
-        self.edp: FloatArray = arrays["edp"]
-        self.impacts: np.ndarray[Any, np.dtype[np.int32]] = arrays["impacts"]
-        self.boundaries: tuple[Boundary, ...] = arrays["boundaries"]
-        for array in (self.frequencies, self.amplitudes, self.state, self.edp, self.impacts):
-            array.flags.writeable = False
+    wall: Wall
+    pulse: str
+    frequencies: FloatArray
+    amplitudes: FloatArray
+    state: np.ndarray[Any, np.dtype[np.int8]]
+    edp: FloatArray
+    impacts: np.ndarray[Any, np.dtype[np.int32]]
+    boundaries: tuple[Boundary, ...]
+    edp_limit: float
+    polarity: str
 
     @property
     def overturned(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
@@ -282,27 +284,28 @@ def overturning_spectrum(
     ]
     if not stopped:
         brackets, stopped = _bisect(runner, brackets, width, f"{wall.name}: boundaries")
-    spectrum = None
-    if complete:
-        edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in (outcome.edp, outcome.impacts))
-        spectrum = OverturningSpectrum(
-            wall,
-            runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
-            float(settings[2]),
-            polarity,
-            frequencies=frequency[:complete].copy(),
-            amplitudes=amplitude,
-            state=state.T.copy(),
-            edp=edp,
-            impacts=impacts,
-            boundaries=tuple(
-                Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
-                for b in sorted(brackets)
-            ),
-        )
+    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in outcome[:3])
+    scanned = frequency[:complete].copy()
+    for array in (scanned, amplitude, states, edp, impacts):
+        array.flags.writeable = False
+    spectrum = OverturningSpectrum(
+        wall,
+        runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
+        scanned,
+        amplitude,
+        states,
+        edp,
+        impacts,
+        tuple(
+            Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
+            for b in sorted(brackets)
+        ),
+        float(settings[2]),
+        polarity,
+    )
     if stopped:
-        raise Interrupted(f"interrupted: the scans of {complete} of {columns} frequencies are complete", spectrum)
-    assert spectrum is not None
+        sentence = f"interrupted: the scans of {complete} of {columns} frequencies are complete"
+        raise Interrupted(sentence, spectrum if complete else None)
     return spectrum
 
 

@@ -6,7 +6,6 @@ Nothing here is applied by itself: an analysis takes records as they are.
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -217,6 +216,8 @@ def resample(record: Record, dt: float) -> Record:
         lines = values[:-1, None] + np.diff(values)[:, None] * inner
         text = f"resampled from {record.dt:g} to {step:g} s, linear between the samples (exact)"
         return record.processed(np.append(lines.ravel(), values[-1]), text, record.dt / parts)
+    from fractions import Fraction
+
     from scipy import signal
 
     part = Fraction(ratio).limit_denominator(_LARGEST_FACTOR)

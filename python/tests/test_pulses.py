@@ -1,6 +1,7 @@
 """Pulses against their closed forms, and overturning spectra against published values."""
 
 import os
+import pickle
 import signal
 
 import matplotlib
@@ -197,6 +198,7 @@ def test_every_point_is_the_motion_it_stands_for(spectrum):
 def test_shapes_and_tables(spectrum, tmp_path):
     assert spectrum.state.shape == spectrum.edp.shape == spectrum.impacts.shape == (30, 10)
     assert not spectrum.state.flags.writeable
+    assert pickle.loads(pickle.dumps(spectrum)).boundaries == spectrum.boundaries
     assert np.array_equal(spectrum.overturned, spectrum.edp == 5.0)
     assert repr(spectrum).startswith("<OverturningSpectrum: wall block, pulse one_sine")
     assert "one_sine" in spectrum._repr_html_()
