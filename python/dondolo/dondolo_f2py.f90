@@ -367,8 +367,8 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
 end subroutine run_block
 
 ! Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
-subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, engine, &
-      & settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
+subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
+      & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, check_threads, pack_response, report, set_records, set_walls
    use dondolo_error, only : error_type, raise_input

@@ -230,8 +230,8 @@ def overturning_spectrum(
         As for `simulate`.
     edp_limit : float
         Rotation / capacity that counts as overturned. A block passes its capacity and may come back while the pulse
-        lasts, so that 1, which is right for fragility, would be too low for an overturning spectrum. At 5 no pulse
-        brings a slender block back; squat walls need less, since the limit must lie within the geometry.
+        lasts, so that 1, which is right for fragility, is too low for an overturning spectrum; docs/processing.md
+        shows how limits compare. Squat walls need less than 5, since the limit must lie within the geometry.
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
