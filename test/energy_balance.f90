@@ -78,7 +78,7 @@ contains
       type(trace_type), intent(in) :: trace
       integer, intent(in) :: i
       type(excitation_type) :: ground
-      real(wp) :: h, q(2), v(2), f(2), b(0:5), fifth, third, change, allowed, speed, scale, unit
+      real(wp) :: h, q(2), v(2), f(2), b(0:5), power(5), work, doubt, change, allowed, speed, scale, unit
 
       ! The side is that of the rotation, or of the velocity where the motion leaves or reaches q = 0.
       ground%side = sign(1.0_wp, trace%velocity(i))
@@ -96,21 +96,24 @@ contains
       f(1) = angular_acceleration(mechanism, ground, 0.0_wp, q(1), v(1))
       f(2) = angular_acceleration(mechanism, ground, h, q(2), v(2))
       b = dense_rotation(h, q(1), v(1), f(1), q(2), v(2), f(2))
-      fifth = work(mechanism, ground, h, b)
-      third = work(mechanism, ground, h, [q(1), q(1) + h*v(1)/3.0_wp, q(2) - h*v(2)/3.0_wp, q(2)])
+      power = power_along(mechanism, ground, h, b)
+      work = sum(weights*power)
+      ! The cubic without the accelerations tells how well the rows describe the motion.
+      doubt = sum(weights*abs(power - power_along(mechanism, ground, h, &
+         & [q(1), q(1) + h*v(1)/3.0_wp, q(2) - h*v(2)/3.0_wp, q(2)])))
       change = kinetic(mechanism, q(2), v(2)) - kinetic(mechanism, q(1), v(1)) &
          & + mechanism%potential(q(2)) - mechanism%potential(q(1))
       ! What the rows do not resolve says nothing of the motion; next to the geometric end J grows without bound.
       if (any(b < 0.0_wp) .or. maxval(b) > 0.98_wp*mechanism%geometric_end()) return
       speed = maxval(abs(5.0_wp*(b(1:) - b(:4))/h))
-      scale = kinetic(mechanism, q(1), speed) + abs(fifth)
-      if (abs(fifth - third) > 1.0e-3_wp*scale) return
-      ! Errors of the speed by rtol and by atol, of the work as told by two polynomials, and of rounding
+      scale = kinetic(mechanism, q(1), speed) + abs(work)
+      if (doubt > 1.0e-3_wp*scale) return
+      ! Errors of the speed by rtol and by atol, of the work, and of rounding
       unit = kinetic(mechanism, q(1), mechanism%frequency_parameter()*mechanism%capacity)
-      allowed = 2.0_wp*(solver%rtol*scale + solver%atol*sqrt(scale*unit)) + abs(fifth - third) &
+      allowed = 2.0_wp*(solver%rtol*scale + solver%atol*sqrt(scale*unit)) + doubt &
          & + 50.0_wp*epsilon(unit)*abs(mechanism%potential(q(1)))
       balance%intervals = balance%intervals + 1
-      balance%worst = max(balance%worst, abs(change - fifth)/allowed)
+      balance%worst = max(balance%worst, abs(change - work)/allowed)
    end subroutine check_interval
 
    !> Kinetic energy
@@ -123,16 +126,16 @@ contains
       kinetic = 0.5_wp*j*v**2
    end function kinetic
 
-   !> Work of the ground along a motion given by Bernstein coefficients: the integral of -s L u_g'' dq
-   real(wp) function work(mechanism, ground, h, b)
+   !> Power of the ground at Gauss's nodes of a motion given by Bernstein coefficients, -s L u_g'' q', times the interval
+   function power_along(mechanism, ground, h, b) result(power)
       class(mechanism_type), intent(in) :: mechanism
       type(excitation_type), intent(in) :: ground
       real(wp), intent(in) :: h, b(0:)
+      real(wp) :: power(5)
       real(wp) :: c(0:ubound(b, 1)), x, slope, j, cc, g, l, load
       integer :: k, m, n
 
       n = ubound(b, 1)
-      work = 0.0_wp
       do k = 1, 5
          x = nodes(k)
          c = b
@@ -141,8 +144,8 @@ contains
             c(:m - 1) = (1.0_wp - x)*c(:m - 1) + x*c(1:m)
          end do
          call mechanism%terms(c(0), j, cc, g, l, load)
-         work = work - weights(k)*ground%side*l*(ground%start + ground%slope*x*h)*slope
+         power(k) = -ground%side*l*(ground%start + ground%slope*x*h)*slope
       end do
-   end function work
+   end function power_along
 
 end module energy_balance

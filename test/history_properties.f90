@@ -22,8 +22,11 @@ module history_properties
    !> after a record of two samples
    real(wp), parameter :: most_evaluations = 2.0e3_wp
 
+   !> Longest time of a history, which no machine should need [s]
+   real(wp), parameter :: longest = 20.0_wp
+
    !> Largest error of the energy over one interval / what the tolerances allow one step
-   real(wp), parameter :: largest_imbalance = 200.0_wp
+   real(wp), parameter :: largest_imbalance = 100.0_wp
 
    ! What the histories came to, for one line at the end
    integer, save :: moved = 0, collapsed = 0, impacts = 0, balanced = 0, conditioned = 0
@@ -83,6 +86,7 @@ contains
       call simulate_rk45(counting, history%record, history%scale, history%solver, response)
       call cpu_time(end)
       slowest = max(slowest, end - start)
+      call check(end - start <= longest, what//': seconds '//to_text(end - start))
       work = real(evaluations, wp)/real(size(history%record%acceleration) + response%impacts, wp)
       most_work = max(most_work, work)
       call check(work <= most_evaluations, what//': evaluations a sample '//to_text(work))

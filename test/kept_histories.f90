@@ -45,7 +45,7 @@ contains
       case (4)
          what = 'every bounce went through the whole record, 24 s'
          call wall('one_sided', restitution=0.9999_wp)
-         call record([-0.82_wp, -0.9176_wp, (-0.8_wp, i=1, 20000), 3.0_wp], 0.01_wp)
+         call record([-0.82_wp, -0.9176_wp, (-0.8_wp, i=1, 50000), 3.0_wp], 0.01_wp)
       case (5)
          what = 'bounces without number'
          call wall('free_standing', restitution=1.0_wp - 1.0e-6_wp)

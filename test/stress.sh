@@ -58,7 +58,7 @@ stage() {
    if compgen -G "$work/broken.*" >/dev/null; then
       status=1
       cat "$work"/broken.*
-      cat "$work"/part.* | grep -h -A 12 -E 'FAILED|ERROR|runtime error|received signal' | head -n 40
+      grep -h -A 12 -E 'FAILED|ERROR: |runtime error|received signal' "$work"/part.* | head -n 40
    fi
 }
 
