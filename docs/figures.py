@@ -1,5 +1,11 @@
-"""Draw the figures of the README into docs/figures, from the embedded synthetic accelerograms."""
+"""Draw the figures of the README and of docs/processing.md into docs/figures.
 
+The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only where
+those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set.
+"""
+
+import os
+import sys
 from pathlib import Path
 
 import matplotlib
@@ -8,35 +14,238 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from dondolo.processing import velocity
+from scipy.signal import cont2discrete, lfilter
 
 import dondolo as dd
 from dondolo import style
 
 root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")
+figures = root / "docs/figures"
+
+# The model of the synthetic records as the tests have it
+sys.path.insert(0, str(root / "python/tests"))
+from sabetta_pugliese import Model, mean_frequency  # noqa: E402
 
 
 def main() -> None:
     """Draw all figures."""
+    quick_start()
+    mechanisms()
+    processing()
+    pulses()
+    overturning()
+    statistics()
+    spectra()
+
+
+def new_axes(rows, columns, size, **options):
+    """A figure of several axes in the style of dondolo."""
+    with plt.rc_context(style.RC):
+        return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
+
+
+def quick_start():
+    """Stripes and curve of the README's first example."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
-    with plt.rc_context(style.RC):
-        figure, axes = plt.subplots(1, 2, figsize=(9.6, 3.8), layout="constrained")
+    figure, axes = new_axes(1, 2, (9.6, 3.8))
     dd.plot_stripes(stripes, axes[0])
     dd.plot_fragility(stripes.fit(), stripes, axes[1])
-    figure.savefig(root / "docs/figures/quick_start.png", dpi=100)
+    figure.savefig(figures / "quick_start.png", dpi=100)
 
+
+def mechanisms():
+    """Three walls, rotated."""
     walls = [
         (dd.OneSidedWall(height=1.5, thickness=0.25, name="one_sided"), 0.6),
         (dd.FreeStandingWall(height=1.8, thickness=0.45, name="free_standing"), -0.6),
         (dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6, name="two_block"), 0.8),
     ]
-    with plt.rc_context(style.RC):
-        figure, axes = plt.subplots(1, 3, figsize=(9.6, 4.0), layout="constrained")
+    figure, axes = new_axes(1, 3, (9.6, 4.0))
     for ax, (shown, part) in zip(axes, walls, strict=True):
         dd.plot_wall(shown, rotation=part * shown.capacity_angle, ax=ax)
         ax.set_title(shown.name, loc="left", family="monospace")
-    figure.savefig(root / "docs/figures/mechanisms.png", dpi=100)
+    figure.savefig(figures / "mechanisms.png", dpi=100)
+
+
+def processing():
+    """A record with a shifted zero and long-period noise, before and after."""
+    clean = next(record for record in records if "friuli_1976_sep_15" in record.name)
+    time = clean.time
+    noise = 0.01 + 0.03 * np.sin(2.0 * np.pi * 0.04 * time)
+    given = clean.processed(clean.acceleration + noise, "0.01 m/s2 and 0.03 m/s2 of 0.04 Hz added")
+    mean = dd.correct_baseline(given)
+    curves = [
+        (given, style.GREY, "-", "as given"),
+        (mean, style.BLUE, "--", "mean taken off"),
+        (dd.band_pass(mean, 0.1, 25.0, keep_padding=True), style.RED, "-", "and band-pass 0.1-25 Hz, pads kept"),
+    ]
+    figure, axes = new_axes(3, 1, (8.4, 6.0), sharex=True)
+    for record, color, line, label in curves:
+        # Pads are shown before time 0 and after the end
+        shift = 0.5 * (record.duration - clean.duration)
+        speed = velocity(record)
+        way = np.append(0.0, np.cumsum(0.5 * record.dt * (speed[1:] + speed[:-1])))
+        for ax, values in zip(axes, (record.acceleration, speed, way), strict=True):
+            ax.plot(record.time - shift, values, color=color, linestyle=line, linewidth=1.0, label=label)
+    for ax, label in zip(axes, ("acceleration\n[m/s²]", "velocity\n[m/s]", "displacement\n[m]"), strict=True):
+        ax.set_ylabel(label)
+    axes[0].set_xlim(-10.0, clean.duration + 10.0)
+    axes[2].set_xlabel("time [s]")
+    axes[0].set_title(f"{clean.name} (synthetic) with noise added", loc="left")
+    style.legend(axes[1], loc="upper left")
+    figure.savefig(figures / "processing.png", dpi=100)
+
+
+def pulses():
+    """The four pulses: acceleration and velocity."""
+    shown = [
+        (dd.one_sine(1.0, 1.0), "one_sine"),
+        (dd.one_cosine(1.0, 1.0), "one_cosine"),
+        (dd.ricker(1.0, 1.0), "ricker"),
+        (dd.mavroeidis_papageorgiou(1.0 / (2.0 * np.pi), 1.0, phase=90.0, gamma=2.5), "mavroeidis_papageorgiou"),
+    ]
+    figure, axes = new_axes(2, 4, (9.6, 3.8), sharey="row", sharex="col")
+    for column, (record, name) in zip(axes.T, shown, strict=True):
+        time = np.concatenate([[-0.2, 0.0], record.time, record.duration + np.array([0.0, 0.2])])
+        for ax, values in zip(column, (record.acceleration, 2.0 * np.pi * velocity(record)), strict=True):
+            end = values[-1] if ax is column[1] else 0.0
+            ax.plot(time, np.concatenate([[0.0, 0.0], values, [end, end]]), color=style.BLUE)
+        column[0].set_title(name, loc="left", family="monospace", fontsize=8.5)
+        column[1].set_xlabel("time in periods of the pulse")
+    axes[0, 0].set_ylabel("acceleration / $a_p$")
+    axes[1, 0].set_ylabel("velocity / $(a_p / \\omega_p)$")
+    figure.savefig(figures / "pulses.png", dpi=100)
+
+
+def overturning():
+    """Overturning spectra of Zhang and Makris' block under a sine and under a Ricker wavelet."""
+    radius, alpha, p = 0.75 * 9.81 / 2.14**2, 0.25, 2.14
+    wall = dd.FreeStandingWall(
+        height=2.0 * radius * np.cos(alpha),
+        thickness=2.0 * radius * np.sin(alpha),
+        restitution="constant",
+        restitution_value=0.9,
+        name="alpha = 0.25, p = 2.14/s, restitution 0.9",
+    )
+    figure, axes = new_axes(1, 2, (10.4, 4.8), sharey=True)
+    for ax, pulse in zip(axes, (dd.one_sine, dd.ricker), strict=True):
+        ratio, height = np.linspace(0.1, 8.0, 159), np.linspace(0.1, 12.0, 120)
+        spectrum = dd.overturning_spectrum(wall, pulse, ratio * p / (2.0 * np.pi), height * np.tan(alpha))
+        dd.plot_overturning_spectrum(spectrum, ax)
+        ax.set_title(pulse.__name__, loc="left", family="monospace")
+    axes[1].set_ylabel("")
+    # Zhang and Makris (2001), figures 7 and 8, linear block: overturns from, safe from, without impact from
+    published = np.array([3.005, 6.325, 7.175])
+    axes[0].plot(
+        np.full(3, 5.0),
+        published * alpha / np.tan(alpha),
+        linestyle="none",
+        marker="D",
+        markersize=5,
+        markerfacecolor="white",
+        markeredgecolor=style.BLACK,
+        label="published, linear block",
+    )
+    for ax in axes:
+        ax.get_legend().remove()
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
+    figure.savefig(figures / "overturning_spectrum.png", dpi=100)
+
+
+def statistics():
+    """200 realisations against the model."""
+    scenario = (6.0, 10.0, "rock")
+    made, model = dd.synthetic_records(*scenario, count=200, seed=2024), Model(*scenario)
+    time, step = made[0].time, made[0].dt
+    squares = np.array([record.acceleration**2 for record in made])
+    figure, axes = new_axes(1, 3, (10.4, 3.6))
+    width = round(0.5 / step)
+    smooth = np.convolve(squares.mean(axis=0), np.ones(width) / width, mode="same")
+    axes[0].plot(time, smooth, color=style.BLUE, label="mean of 200, over 0.5 s")
+    axes[0].plot(time, model.power(time), color=style.BLACK, linestyle="--", label="model")
+    axes[0].set_ylabel("squared acceleration [m²/s⁴]")
+    energy = step * np.cumsum(squares, axis=1)
+    low, high = np.percentile(energy, [5.0, 95.0], axis=0)
+    axes[1].fill_between(time, low, high, color=style.BLUE, alpha=0.2, linewidth=0.0, label="90 % of 200")
+    axes[1].plot(time, energy.mean(axis=0), color=style.BLUE, label="mean of 200")
+    axes[1].plot(time, model.energy * model.husid(time), color=style.BLACK, linestyle="--", label="model")
+    axes[1].set_ylabel("integral of squared acceleration [m²/s³]")
+    middle = np.arange(1.0, model.length - 1.5, 0.5)
+    measured = [mean_frequency(made, t, 1.5) for t in middle]
+    axes[2].plot(
+        middle, measured, color=style.BLUE, marker="o", markersize=3, linestyle="none", label="200, over 1.5 s"
+    )
+    axes[2].plot(time, model.frequency(time), color=style.BLACK, linestyle="--", label="model")
+    axes[2].set_ylabel("central frequency [Hz]")
+    axes[2].set_ylim(0.0, None)
+    for ax in axes:
+        ax.set_xlabel("time [s]")
+        ax.legend(frameon=False, fontsize=8.5)
+    axes[0].set_title("magnitude {:g}, {:g} km, {}".format(*scenario), loc="left")
+    figure.savefig(figures / "synthetic_statistics.png", dpi=100)
+    total, spread = energy[:, -1].mean(), energy[:, -1].std()
+    print(f"mean energy {total:.5g}, model {model.energy:.5g}, coefficient of variation {spread / total:.3f}")
+
+
+def response_spectrum(record, periods, damping=0.05):
+    """Spectral pseudo-acceleration [m/s2]: exact for straight lines between samples, peaks at samples."""
+    values = []
+    for period in periods:
+        w = 2.0 * np.pi / period
+        top, bottom, _ = cont2discrete(([-1.0], [1.0, 2.0 * damping * w, w**2]), record.dt, method="foh")
+        # The free motion after the record, for a period
+        ground = np.append(record.acceleration, np.zeros(int(period / record.dt)))
+        values.append(w**2 * np.abs(lfilter(top.ravel(), bottom, ground)).max())
+    return np.array(values)
+
+
+def spectra():
+    """Response spectra of the synthetic suite beside those of recorded Italian accelerograms."""
+    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    if not (folder / "italy44.csv").is_file():
+        print("synthetic_spectra.png: not drawn, no recorded accelerograms here (DONDOLO_RECORDS names their folder)")
+        return
+    periods = np.geomspace(0.04, 4.0, 60)
+    sets = [
+        ("synthetic44", records, style.BLUE, "-"),
+        ("recorded", dd.read_catalogue(folder / "italy44.csv"), style.RED, "--"),
+    ]
+    figure, axes = new_axes(1, 3, (10.4, 3.8))
+    for name, several, color, line in sets:
+        logs = np.log([response_spectrum(record, periods) / 9.81 for record in several])
+        pga = np.log([record.pga / 9.81 for record in several])
+        shape = logs - pga[:, None]
+        for ax, values in zip(axes[:2], (logs, shape), strict=True):
+            low, median, high = np.exp(np.percentile(values, [16.0, 50.0, 84.0], axis=0))
+            ax.fill_between(periods, low, high, color=color, alpha=0.2, linewidth=0.0)
+            ax.plot(periods, median, color=color, linestyle=line, label=f"{name}: median, 16-84 %")
+        axes[2].plot(periods, shape.std(axis=0, ddof=1), color=color, linestyle=line, label=name)
+        at = [0.1, 0.3, 1.0, 2.0, 4.0]
+        print(
+            f"{name}: median PGA {np.exp(np.median(pga)):.3f} g, {np.exp(pga.min()):.3f} to {np.exp(pga.max()):.3f};",
+            *(
+                f"T = {t}: Sa/PGA {np.exp(np.median([np.interp(t, periods, row) for row in shape])):.3f},"
+                f" std of ln {np.interp(t, periods, shape.std(axis=0, ddof=1)):.2f};"
+                for t in at
+            ),
+        )
+    for ax in axes:
+        ax.set_xscale("log")
+        ax.set_xlabel("period [s]")
+        ax.set_xticks([0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0], ["0.05", "0.1", "0.2", "0.5", "1", "2", "4"])
+        ax.minorticks_off()
+    axes[0].set_yscale("log")
+    axes[0].set_ylabel("spectral acceleration, 5 % damping [g]")
+    axes[1].set_yscale("log")
+    axes[1].set_ylabel("spectral acceleration / PGA")
+    axes[2].set_ylabel("standard deviation of ln(Sa/PGA)")
+    axes[2].set_ylim(0.0, None)
+    for ax in axes:
+        style.legend(ax, loc="lower left" if ax is not axes[2] else "upper left")
+    figure.savefig(figures / "synthetic_spectra.png", dpi=100)
 
 
 if __name__ == "__main__":

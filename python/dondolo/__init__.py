@@ -14,10 +14,14 @@ from dondolo.drawing import animate_history, plot_wall
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
 from dondolo.motion import Response, simulate
-from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
+from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
+from dondolo.plots import plot_fragility, plot_history, plot_overturning_spectrum, plot_stripes, plot_typology
+from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
+from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
+from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
 
@@ -25,6 +29,7 @@ __version__ = _constants().version
 
 __all__ = [
     "Bootstrap",
+    "Boundary",
     "Case",
     "Comparison",
     "DondoloError",
@@ -35,23 +40,34 @@ __all__ = [
     "InputError",
     "Interrupted",
     "OneSidedWall",
+    "OverturningSpectrum",
     "Population",
     "Record",
     "Response",
     "Results",
+    "RotD",
+    "State",
     "StoredResults",
     "Stripes",
     "Terms",
     "TwoBlockWall",
     "Typology",
     "Wall",
+    "Window",
     "__version__",
     "animate_history",
+    "band_pass",
     "compare",
+    "correct_baseline",
     "fit_fragility",
+    "mavroeidis_papageorgiou",
     "multiple_stripe",
+    "one_cosine",
+    "one_sine",
+    "overturning_spectrum",
     "plot_fragility",
     "plot_history",
+    "plot_overturning_spectrum",
     "plot_stripes",
     "plot_typology",
     "plot_wall",
@@ -61,7 +77,14 @@ __all__ = [
     "read_record",
     "read_records",
     "read_results",
+    "resample",
+    "reverse",
+    "ricker",
+    "rotate",
+    "rotd",
     "run_case",
     "simulate",
+    "synthetic_records",
+    "trim",
     "typology",
 ]

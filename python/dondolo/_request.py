@@ -6,7 +6,7 @@ A block takes less than half a second, so that Ctrl-C is answered soon and what 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -90,32 +90,46 @@ class Request:
         collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
         flats = [wall._flat for wall in self.walls]
         arguments = self._arguments()
-        samples = float(self.records.lengths.mean())
-        size = max(1.0, _FIRST_SAMPLES / samples)
-        done, interrupted = 0, False
-        bar = progress_bar(total, progress, label, "history")
-        try:
-            while done < total:
-                count = min(int(size), total - done)
-                # The walls that the block touches
-                one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
-                before = int(ends[one - 1]) if one else 0
-                start = time.perf_counter()
-                *rows, stat, message = _core.run_block(
-                    *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
-                )
-                seconds = time.perf_counter() - start
-                _binding.check(stat, message)
-                here = slice(done, done + count)
-                edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
-                done += count
-                bar.update(count)
-                size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
-        except KeyboardInterrupt:
-            interrupted = True
-        finally:
-            bar.close()
+
+        def block(done: int, count: int) -> None:
+            # The walls that the block touches
+            one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
+            before = int(ends[one - 1]) if one else 0
+            *rows, stat, message = _core.run_block(
+                *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
+            )
+            _binding.check(stat, message)
+            here = slice(done, done + count)
+            edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
+
+        done, interrupted = in_blocks(total, float(self.records.lengths.mean()), block, progress, label)
         return Outcome(edp, collapsed, impacts, peak, error, done), interrupted
+
+
+def in_blocks(
+    total: int, samples: float, block: Callable[[int, int], None], progress: bool, label: str
+) -> tuple[int, bool]:
+    """Run histories block by block: how many are done, and whether Ctrl-C stopped it before the end.
+
+    `block(done, count)` runs the next `count` histories; `samples` are those of a record, on average.
+    """
+    size = max(1.0, _FIRST_SAMPLES / samples)
+    done, interrupted = 0, False
+    bar = progress_bar(total, progress, label, "history")
+    try:
+        while done < total:
+            count = min(int(size), total - done)
+            start = time.perf_counter()
+            block(done, count)
+            seconds = time.perf_counter() - start
+            done += count
+            bar.update(count)
+            size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
+    except KeyboardInterrupt:
+        interrupted = True
+    finally:
+        bar.close()
+    return done, interrupted
 
 
 def new_request(
@@ -132,14 +146,20 @@ def new_request(
     estimate_error: bool = False,
 ) -> Request:
     """A request out of what a user gives."""
+    team = check_threads(threads)
+    levels = _binding.as_array("levels", levels).copy()
+    levels.flags.writeable = False
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
+    return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, team)
+
+
+def check_threads(threads: int) -> int:
+    """A number of threads as Fortran takes it, which checks the rest."""
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
         raise InputError(f"threads = {threads!r}: must be a whole number")
     if not -(2**31) <= threads < 2**31:
         raise InputError(f"threads = {threads}: must lie between 0 (all) and 4096")
-    levels = _binding.as_array("levels", levels).copy()
-    levels.flags.writeable = False
-    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
-    return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, int(threads))
+    return int(threads)
 
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str) -> Any:

@@ -398,6 +398,92 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    call report(error, stat, message)
 end subroutine run_block
 
+! Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
+subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
+      & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : as_solver, check_threads, pack_response, report, set_records, set_walls
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_stripes, only : run_histories, stripes_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: texts, names, engine
+   integer(c_int), intent(in) :: given(8), r, n, k, threads, lengths(r), record(k)
+   real(c_double), intent(in) :: numbers(8), gravity, dt(r), acceleration(n), scale(k), settings(4)
+   real(c_double), intent(out) :: edp(k), time_of_peak(k)
+   integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(record_type), allocatable :: records(:)
+   type(solver_type) :: solver
+   type(stripes_type) :: histories
+   type(error_type), allocatable :: error
+   real(c_double) :: edp_error(k)
+   integer :: i
+
+   edp = 0
+   collapsed = 0
+   impacts = 0
+   time_of_peak = 0
+   solver = as_solver(engine, settings)
+   call check_threads(threads, error)
+   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), &
+      & [gravity], error)
+   if (.not. allocated(error)) call check_solver(solver, error)
+   if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
+   if (.not. allocated(error)) then
+      call set_records(records, names, lengths, dt, acceleration)
+      do i = 1, k
+         if (abs(scale(i))*records(record(i))%pga() <= largest_acceleration) cycle
+         call raise_input(error, 'scale = '//to_text(scale(i))//': makes record '''//records(record(i))%name// &
+            & ''' exceed '//to_text(largest_acceleration)//' m/s2')
+         exit
+      end do
+   end if
+   if (.not. allocated(error)) then
+      histories%record = record
+      histories%polarity = spread(1, 1, k)
+      histories%scale = reshape(scale, [k, 1])
+      allocate (histories%response(k, 1))
+      call run_histories(histories, walls(1), records, solver, 1, k, threads)
+      call pack_response(histories%response(:, 1), edp, collapsed, impacts, time_of_peak, edp_error)
+   end if
+   call report(error, stat, message)
+end subroutine run_scaled
+
+! A synthetic record: one realisation of the model of Sabetta and Pugliese (1996)
+subroutine synthetic_record(magnitude, distance, site, seed, stream, deviations, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_records, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_synthetic, only : make_record => synthetic_record
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: site
+   integer(c_int), intent(in) :: seed, stream
+   real(c_double), intent(in) :: magnitude, distance, deviations
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(record_type) :: records(1)
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call make_record(records(1), magnitude, distance, site, seed, stream, deviations, error)
+   if (.not. allocated(error)) then
+      call pack_records(records, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine synthetic_record
+
 ! Fit k curves, each to m levels. A status of 0 is a fit that failed; message tells of the first that went wrong
 subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int

@@ -26,6 +26,8 @@ class Record:
         Time step [s].
     name : str, optional
         Name in tables and figures.
+    processing : iterable of str, optional
+        What was done to the record since it was read, a sentence a step; functions that process records add theirs.
     metadata : mapping of str to str, optional
         What is known of the record.
 
@@ -33,6 +35,8 @@ class Record:
     ----------
     acceleration : ndarray of float64, read-only
         A copy of what was given.
+    processing : tuple of str
+        Steps of processing, the first first; () for a record as it was read.
     metadata : mapping of str to str, read-only
         What the header of its file says, in its order. Keys that mean the same in every format are event, date,
         station, network, component, magnitude, latitude, longitude (of the station), processing, format,
@@ -49,6 +53,7 @@ class Record:
     acceleration: _binding.FloatArray
     dt: float
     name: str = "record"
+    processing: tuple[str, ...] = ()
     metadata: Mapping[str, str] = field(default_factory=dict)
     pga: float = field(init=False)
 
@@ -57,20 +62,51 @@ class Record:
         acceleration: ArrayLike,
         dt: float,
         name: str = "record",
+        processing: Iterable[str] = (),
         *,
         metadata: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         values = _binding.as_array("acceleration", acceleration).copy()
         step = _binding.as_number("dt", dt)
         _binding.as_text("name", name)
+        steps = (processing,) if isinstance(processing, str) else tuple(processing)
+        for text in steps:
+            _binding.as_text("processing", text)
         pga, stat, message = _core.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
         if not isinstance(metadata, Mapping):
             raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
         known = MappingProxyType({str(key): str(value) for key, value in metadata.items()})
-        for what, value in (("acceleration", values), ("dt", step), ("name", name), ("metadata", known), ("pga", pga)):
+        for what, value in (
+            ("acceleration", values),
+            ("dt", step),
+            ("name", name),
+            ("processing", steps),
+            ("metadata", known),
+            ("pga", pga),
+        ):
             object.__setattr__(self, what, value)
+
+    def processed(self, acceleration: ArrayLike, step: str, dt: float | None = None) -> Record:
+        """A record made from this one by a step of processing, one of your own for instance.
+
+        Parameters
+        ----------
+        acceleration : array_like, shape (samples,)
+            The new samples [m/s2].
+        step : str
+            What was done, for `processing`.
+        dt : float, optional
+            The new time step [s], that of this record if left out.
+
+        Returns
+        -------
+        Record
+            Of the same name and metadata, with the step added to its history of processing.
+        """
+        steps = (*self.processing, step)
+        return Record(acceleration, self.dt if dt is None else dt, self.name, steps, metadata=self.metadata)
 
     @property
     def duration(self) -> float:
@@ -92,6 +128,7 @@ class Record:
             ("duration", f"{self.duration:.6g} s"),
             ("PGA", f"{self.pga:.6g} m/s2"),
             *((key, self.metadata[key]) for key in ("event", "date", "station", "component") if key in self.metadata),
+            *(("processing", step) for step in self.processing),
         ]
 
     def __repr__(self) -> str:

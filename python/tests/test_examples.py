@@ -14,6 +14,9 @@ import pytest
         ("stripes_and_curve", ["stripes.png", "curve.png"]),
         ("two_mechanisms", ["two_mechanisms.png"]),
         ("population", ["population.png", "population_fragility.csv"]),
+        ("process_records", ["process_records.png"]),
+        ("overturning", ["overturning.png", "overturning_boundaries.csv"]),
+        ("synthetic_motions", ["synthetic_motions.png"]),
     ],
 )
 def test_example(example, figures, root, tmp_path):

@@ -1,0 +1,39 @@
+"""Overturning spectrum: which amplitudes and frequencies of a pulse overturn a pinnacle (Zhang and Makris 2001)."""
+
+# %%
+from pathlib import Path
+
+import numpy as np
+
+import dondolo as dd
+
+out = Path("out/examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% A pulse is a record: 1 Hz, 4 m/s2, chords within 1e-5 of the amplitude
+pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
+print(dd.simulate(pinnacle, dd.ricker(4.0, 1.0), edp_limit=5.0))
+
+# %% All amplitudes are scanned, since a stronger pulse may be a safer one.
+spectrum = dd.overturning_spectrum(
+    pinnacle, dd.one_sine, frequencies=np.linspace(0.2, 3.0, 57), amplitudes=np.linspace(0.1, 2.4, 47)
+)
+print(spectrum)
+
+# %% Where the state changes at 1 Hz, in g; the two ends of every bracket are runs of their own
+for boundary in spectrum.boundaries:
+    if np.isclose(boundary.frequency, 1.0):
+        print(f"{boundary.lower:.5f} {boundary.below.name:26} {boundary.upper:.5f} {boundary.above.name}")
+
+# %% A pulse with more cycles: any function of amplitude and frequency that returns a record
+near_fault = dd.overturning_spectrum(
+    pinnacle,
+    lambda amplitude, frequency: dd.mavroeidis_papageorgiou(amplitude, frequency, phase=90.0, gamma=2.5),
+    frequencies=[0.5, 1.0, 2.0],
+    amplitudes=np.linspace(0.1, 2.4, 24),
+)
+print(near_fault.overturned.any(axis=0))
+
+# %%
+spectrum.to_csv(out / "overturning_boundaries.csv", table="boundaries")
+dd.plot_overturning_spectrum(spectrum).figure.savefig(out / "overturning.png")

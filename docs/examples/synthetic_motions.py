@@ -1,0 +1,26 @@
+"""Synthetic records of one earthquake and site, as many as are wanted, and a fragility curve from them."""
+
+# %%
+from pathlib import Path
+
+import numpy as np
+
+import dondolo as dd
+
+out = Path("out/examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% Magnitude 6 at 10 km on rock. The same seed makes the same records everywhere.
+records = dd.synthetic_records(magnitude=6.0, distance=10.0, site="rock", count=40, seed=1)
+print(records[0])
+pga = np.array([record.pga for record in records]) / 9.81
+print(f"PGA: median {np.median(pga):.3f} g, standard deviation of its logarithm {np.log(pga).std(ddof=1):.3f}")
+
+# %% Only the phases are random: the records are much alike, and the curve is steep.
+wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.3, 1.2, 10), polarity="both")
+curve = stripes.fit()
+print(curve)
+
+# %%
+dd.plot_fragility(curve, stripes).figure.savefig(out / "synthetic_motions.png")
