@@ -593,8 +593,8 @@ subroutine read_case(path, handle, sizes, stat, message)
          & case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
          & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, case%population%weight]
-      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line//case%stripes%im//line// &
-         & case%records_input%polarity//line//trim(case%solver%solver%engine)//line
+      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line// &
+         & case%stripes%scaling%name//line//case%records_input%polarity//line//trim(case%solver%solver%engine)//line
       call pack_walls(case%population%walls, parcel)
       call pack_records(case%records, parcel)
       call send(parcel, handle, sizes)
