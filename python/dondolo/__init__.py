@@ -11,10 +11,12 @@ from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
+from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.motion import Response, simulate
-from dondolo.plots import plot_fragility, plot_history, plot_stripes, plot_typology
+from dondolo.plots import plot_fragility, plot_history, plot_intensities, plot_stripes, plot_typology
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
@@ -33,6 +35,7 @@ __all__ = [
     "FreeStandingWall",
     "Group",
     "InputError",
+    "IntensityComparison",
     "Interrupted",
     "OneSidedWall",
     "Population",
@@ -40,6 +43,7 @@ __all__ = [
     "Response",
     "Results",
     "StoredResults",
+    "Spectrum",
     "Stripes",
     "Terms",
     "TwoBlockWall",
@@ -48,10 +52,13 @@ __all__ = [
     "__version__",
     "animate_history",
     "compare",
+    "compare_intensities",
     "fit_fragility",
+    "intensity_table",
     "multiple_stripe",
     "plot_fragility",
     "plot_history",
+    "plot_intensities",
     "plot_stripes",
     "plot_typology",
     "plot_wall",
@@ -61,6 +68,7 @@ __all__ = [
     "read_record",
     "read_records",
     "read_results",
+    "response_spectrum",
     "run_case",
     "simulate",
     "typology",

@@ -51,24 +51,22 @@ contains
       !> There is no such measure, or it does not grow with the record
       type(error_type), allocatable, intent(out) :: error
 
-      select case (name)
-      case ('pga/a0')
-         call new_measure(scaling%measure, 'pga', error)
-         scaling%name = name
-      case ('p*pgv/a0')
-         call new_measure(scaling%measure, 'pgv', error)
-         scaling%name = name
-      case default
-         call new_measure(scaling%measure, name, error)
-         if (allocated(error)) then
-            error%message = 'im = '''//name//''': must be one of '//join(scaling_names)//im_help
-         else if (scaling%measure%power() == 0) then
-            call raise_input(error, 'im = '''//name//''': a duration stays as it is when a record is scaled; '// &
-               & 'must be one of '//join(scaling_names))
-         else
-            scaling%name = scaling%measure%name
-         end if
-      end select
+      character(len=:), allocatable :: measure
+
+      measure = name
+      if (any(wall_names == name)) measure = name(index(name, 'pg'):index(name, '/') - 1)
+      ! Fortran would take trailing blanks for nothing
+      if (len_trim(name) < len(name)) measure = ''
+      call new_measure(scaling%measure, measure, error)
+      if (allocated(error)) then
+         error%message = 'im = '''//name//''': must be one of '//join(scaling_names)//im_help
+      else if (scaling%measure%power() == 0) then
+         call raise_input(error, 'im = '''//name//''': a duration stays as it is when a record is scaled; '// &
+            & 'must be one of '//join(scaling_names)//im_help)
+      else
+         scaling%name = scaling%measure%name
+         if (any(wall_names == name)) scaling%name = name
+      end if
    end subroutine new_scaling
 
    !> Factor that scales a record to a level

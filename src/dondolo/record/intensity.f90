@@ -72,7 +72,8 @@ contains
       logical :: ok
 
       open = index(name, '(')
-      ok = any(im_names == name)
+      ! Fortran would take trailing blanks for nothing
+      ok = any(im_names == name) .and. len_trim(name) == len(name)
       if (ok .and. open == 0) then
          measure%kind = name
          measure%name = name
