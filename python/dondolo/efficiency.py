@@ -35,8 +35,8 @@ class IntensityComparison:
     curves : tuple of Fragility
         Their curves.
     dispersion : ndarray, shape (measures,)
-        Of the scale factor at which a record brings the wall down: beta, halved for the Arias intensity, which grows with
-        the square of the scale. Measures compare by it; by beta alone any power of a measure would seem another one.
+        Of the scale factor at which a record brings the wall down: beta, halved for the Arias intensity, which grows
+        with the square of the scale. By beta alone a measure and its square would seem to differ.
     se_dispersion : ndarray, shape (measures,)
         Its standard errors.
     ratio : ndarray, shape (measures,)
@@ -172,9 +172,7 @@ def compare_intensities(
     return IntensityComparison(tuple(analyses), tuple(curves), dispersion, error, ratio, interval)
 
 
-def _levels(
-    wall: Wall, records: tuple[Record, ...], im: str, count: int, polarity: str, threads: int
-) -> FloatArray:
+def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polarity: str, threads: int) -> FloatArray:
     """Levels that cover a curve from nearly none to nearly all collapses."""
     pga = np.array([record.pga for record in records])
 

@@ -49,9 +49,7 @@ class Spectrum:
 
     def to_frame(self) -> Any:
         """The spectrum as a pandas DataFrame."""
-        return tables.frame(
-            {"period [s]": self.periods, "sd [m]": self.sd, "sv [m/s]": self.sv, "sa [m/s2]": self.sa}
-        )
+        return tables.frame({"period [s]": self.periods, "sd [m]": self.sd, "sv [m/s]": self.sv, "sa [m/s2]": self.sa})
 
     def __repr__(self) -> str:
         low, high = self.periods.min(), self.periods.max()
