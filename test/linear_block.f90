@@ -15,6 +15,8 @@ module linear_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: motion
+      procedure :: peak_after
    end type linear_block_type
 
 contains
@@ -57,5 +59,33 @@ contains
 
       q = huge(self%p2)
    end function geometric_end
+
+   !> Rotation and velocity after a time t, in closed form, under a push -s u_g''/(alpha g) = x + r t
+   pure function motion(self, start, x, r, t) result(state)
+      class(linear_block_type), intent(in) :: self
+      real(wp), intent(in) :: start(2), x, r, t
+      real(wp) :: state(2), c, d, p
+
+      p = sqrt(self%p2)
+      associate (alpha => self%capacity)
+         c = start(1) - alpha*(1.0_wp - x)
+         d = (start(2) + alpha*r)/p
+         state(1) = alpha*(1.0_wp - x - r*t) + c*cosh(p*t) + d*sinh(p*t)
+         state(2) = -alpha*r + p*(c*sinh(p*t) + d*cosh(p*t))
+      end associate
+   end function motion
+
+   !> Time and rotation of the peak that follows a state moving outwards in still ground
+   pure function peak_after(self, state) result(peak)
+      class(linear_block_type), intent(in) :: self
+      real(wp), intent(in) :: state(2)
+      real(wp) :: peak(2), p
+
+      p = sqrt(self%p2)
+      associate (alpha => self%capacity)
+         peak(1) = atanh(state(2)/(p*(alpha - state(1))))/p
+         peak(2) = alpha - sqrt((alpha - state(1))**2 - (state(2)/p)**2)
+      end associate
+   end function peak_after
 
 end module linear_block

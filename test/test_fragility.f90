@@ -5,7 +5,11 @@ program test_fragility
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_stripes, only : stripes_type
    use dondolo_typology, only : combine_population, combine_walls, typology_type
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : warn_of_fit
    implicit none
 
    call test_two_stripes()
@@ -50,6 +54,8 @@ contains
          & 1.246_wp, 1.564_wp, 2.014_wp, 2.417_wp, 3.021_wp, 3.625_wp, 4.028_wp, 4.431_wp, 5.035_wp]
       real(wp), parameter :: collapses(16) = [0, 0, 0, 0, 0, 4, 13, 23, 38, 41, 44, 45, 45, 45, 45, 45]
       type(fragility_type) :: curve
+      type(stripes_type) :: stripes
+      type(lines_type) :: warnings
 
       call suite('published data')
       curve = fitted(levels, collapses, spread(45.0_wp, 1, 16), 'sixteen stripes of 45')
@@ -64,6 +70,12 @@ contains
       call check_text(curve%status, 'extrapolated', 'status')
       call check_close(curve%theta, 5.85981_wp, 1.0e-6_wp, 'theta')
       call check_close(curve%beta, 0.684495_wp, 1.0e-6_wp, 'beta')
+      stripes%levels = [1.0_wp, 1.5_wp, 2.0_wp]
+      allocate(stripes%response(59, 3))
+      call warn_of_fit(wall_type(), stripes, curve, warnings)
+      call check(warnings%count == 1, 'one warning')
+      call check_text(warnings%line(1)%text, &
+         & 'theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates', 'warning')
    end subroutine test_published
 
    !> Every case without a finite maximum has a status, and a bracket instead of a number

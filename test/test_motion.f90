@@ -4,94 +4,30 @@
 !> Makris (2001), J. Eng. Mech. 127, 473-483. Digits that these do not print were computed independently by
 !> quadrature or by an eighth-order method with tolerance 1e-11.
 program test_motion
-   use checks, only : check, check_close, check_ok, finish, suite
-   use dondolo_error, only : error_type
+   use checks, only : check, check_close, finish, suite
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : one_sided_restitution
-   use dondolo_record, only : new_record, record_type
+   use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
-   use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use linear_block, only : linear_block_type, new_linear_block
+   use dondolo_wall, only : wall_type
+   use linear_block, only : new_linear_block
+   use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none
 
    real(wp), parameter :: g = 9.81_wp, pi = acos(-1.0_wp)
 
    call test_free_fall()
    call test_bounces()
-   call test_pulses()
-   call test_pulses_with_impacts()
-   call test_published_impacts()
    call test_rest()
-   call test_tail()
    call test_symmetries()
    call test_trace()
+   call test_doubt()
    call finish()
 
 contains
-
-   !> A record from its samples
-   function accelerogram(a, dt) result(record)
-      real(wp), intent(in) :: a(:), dt
-      type(record_type) :: record
-      type(error_type), allocatable :: error
-
-      call new_record(record, a, dt, 'test', error)
-      call check_ok(error, 'record')
-   end function accelerogram
-
-   !> Samples of a pulse: amplitude times sin or cos of omega t, sampled so finely that the chords do not matter
-   function pulse(shape, amplitude, omega, duration) result(record)
-      character(len=*), intent(in) :: shape
-      real(wp), intent(in) :: amplitude, omega, duration
-      type(record_type) :: record
-      real(wp) :: t(0:40000)
-      integer :: i
-
-      t = duration*[(real(i, wp)/40000.0_wp, i=0, 40000)]
-      if (shape == 'sin') record = accelerogram(-amplitude*sin(omega*t), duration/40000.0_wp)
-      if (shape == 'cos') record = accelerogram(-amplitude*cos(omega*t), duration/40000.0_wp)
-   end function pulse
-
-   !> Still ground
-   function stillness(duration) result(record)
-      real(wp), intent(in) :: duration
-      type(record_type) :: record
-
-      record = accelerogram(spread(0.0_wp, 1, 101), duration/100.0_wp)
-   end function stillness
-
-   !> A wall by its names
-   function made(mechanism, height, thickness, restitution) result(wall)
-      character(len=*), intent(in) :: mechanism
-      real(wp), intent(in) :: height, thickness
-      real(wp), intent(in), optional :: restitution
-      type(wall_type) :: wall
-      type(wall_input_type) :: input
-      type(error_type), allocatable :: error
-
-      input%mechanism = mechanism
-      input%height = height
-      input%thickness = thickness
-      if (present(restitution)) then
-         input%restitution = 'constant'
-         input%restitution_value = restitution
-      end if
-      call new_wall(wall, input, error)
-      call check_ok(error, 'wall')
-   end function made
-
-   !> Tight tolerances
-   function tight(edp_limit) result(solver)
-      real(wp), intent(in) :: edp_limit
-      type(solver_type) :: solver
-
-      solver%rtol = 1.0e-12_wp
-      solver%atol = 1.0e-14_wp
-      solver%edp_limit = edp_limit
-   end function tight
 
    !> Time of the first impact of a wall released from a rotation, and the speed of it
    subroutine fall(mechanism, q, time, speed)
@@ -202,102 +138,6 @@ contains
       trace%rows = 0
    end subroutine bounces
 
-   !> Does a wall overturn in truth under a pulse? Blocks pass their capacity and come back
-   logical function overturns(mechanism, record, scale)
-      class(mechanism_type), intent(in) :: mechanism
-      type(record_type), intent(in) :: record
-      real(wp), intent(in) :: scale
-      type(response_type) :: response
-
-      call simulate_rk45(mechanism, record, scale, tight(5.0_wp), response)
-      overturns = response%collapsed
-   end function overturns
-
-   !> A threshold of overturning: the two states just below and just above it
-   subroutine check_threshold(mechanism, record, threshold, tolerance, above, what)
-      class(mechanism_type), intent(in) :: mechanism
-      type(record_type), intent(in) :: record
-      real(wp), intent(in) :: threshold, tolerance
-      logical, intent(in) :: above
-      character(len=*), intent(in) :: what
-
-      call check(overturns(mechanism, record, threshold*(1.0_wp + tolerance)) .eqv. above, what//', above')
-      call check(overturns(mechanism, record, threshold*(1.0_wp - tolerance)) .neqv. above, what//', below')
-   end subroutine check_threshold
-
-   !> Pulses that overturn the linear block without impact: the integral of p exp(-p t) a/(alpha g) from the start
-   !> of rocking exceeds 1. Amplitudes in units of alpha g
-   subroutine test_pulses()
-      real(wp), parameter :: p = 2.0_wp, unit = 0.1_wp*g
-      real(wp), parameter :: t1(3) = [0.5_wp, 1.0_wp, 2.0_wp]
-      real(wp), parameter :: rectangular(3) = [2.54149408_wp, 1.58197671_wp, 1.15651764_wp]
-      real(wp), parameter :: w_sine(4) = [1.0_wp, 2.0_wp, 3.0_wp, 5.0_wp]
-      real(wp), parameter :: half_sine(4) = [1.3223965979_wp, 1.8007239306_wp, 2.2938723134_wp, 3.2891467775_wp]
-      real(wp), parameter :: w_cosine(3) = [2.0_wp, 3.0_wp, 4.0_wp]
-      real(wp), parameter :: cosine(3) = [5.2258285268_wp, 11.4043903552_wp, 21.4613832600_wp]
-      type(linear_block_type) :: block
-      integer :: i
-
-      call suite('pulses without impact')
-      block = new_linear_block(p, 0.1_wp, 0.5_wp, .true.)
-      do i = 1, 3
-         call check_threshold(block, accelerogram([-unit, -unit], t1(i)/p), rectangular(i), 5.0e-9_wp, .true., &
-            & 'rectangular pulse')
-      end do
-      do i = 1, 4
-         call check_threshold(block, pulse('sin', unit, w_sine(i)*p, pi/(w_sine(i)*p)), half_sine(i), 1.0e-8_wp, &
-            & .true., 'half-sine pulse')
-      end do
-      call check_threshold(block, pulse('sin', unit, 5.0_wp*p, 2.0_wp*pi/(5.0_wp*p)), 7.1681287971_wp, 1.0e-8_wp, &
-         & .true., 'one-sine pulse')
-      do i = 1, 3
-         call check_threshold(block, pulse('cos', unit, w_cosine(i)*p, 2.0_wp*pi/(w_cosine(i)*p)), cosine(i), &
-            & 1.0e-8_wp, .true., 'one-cosine pulse')
-      end do
-   end subroutine test_pulses
-
-   !> Zhang and Makris, figures 7 and 8: overturning with impacts, a safe window above it, overturning without impact
-   subroutine test_pulses_with_impacts()
-      real(wp), parameter :: p = 2.14_wp, unit = 0.25_wp*g
-
-      type(linear_block_type) :: block
-      type(record_type) :: sine
-
-      call suite('one-sine pulse with impacts')
-      block = new_linear_block(p, 0.25_wp, 0.9_wp, .true.)
-      sine = pulse('sin', unit, 5.0_wp*p, 2.0_wp*pi/(5.0_wp*p))
-      call check_threshold(block, sine, 3.0186_wp, 1.0e-4_wp, .true., 'overturns with impacts')
-      call check_threshold(block, sine, 6.3181_wp, 1.0e-4_wp, .false., 'safe again')
-      call check_threshold(block, sine, 7.1681_wp, 1.0e-4_wp, .true., 'overturns without impact')
-   end subroutine test_pulses_with_impacts
-
-   !> Published overturning accelerations, in g
-   subroutine test_published_impacts()
-      type(wall_type) :: wall
-      type(record_type) :: cosine
-      real(wp) :: alpha, radius
-
-      call suite('published overturning')
-      ! Makris and Roussos, figure 2: half-sine, b = 0.2 m, h = 0.6 m, linear
-      alpha = atan(0.2_wp/0.6_wp)
-      radius = hypot(0.2_wp, 0.6_wp)
-      call check_threshold(new_linear_block(sqrt(0.75_wp*g/radius), alpha, 0.5_wp, .true.), &
-         & pulse('sin', g, 2.0_wp*pi, 0.5_wp), 0.554586_wp, 2.0e-6_wp, .true., 'half sine')
-      ! Figure 11: one cosine, b = 0.5 m, h = 1.5 m, nonlinear
-      wall = made('free_standing', 3.0_wp, 1.0_wp, 0.85_wp)
-      call check_threshold(wall%mechanism, pulse('cos', g, 2.0_wp*pi, 1.0_wp), 0.625845_wp, 2.0e-6_wp, .true., &
-         & 'one cosine')
-      ! alpha = 15 degrees, p = 2 rad/s, Housner's restitution, two seconds of A cos(pi t): the strongest of them
-      alpha = pi/12.0_wp
-      radius = 3.0_wp*g/16.0_wp
-      wall = made('free_standing', 2.0_wp*radius*cos(alpha), 2.0_wp*radius*sin(alpha))
-      cosine = pulse('cos', g, pi, 2.0_wp)
-      call check_threshold(wall%mechanism, cosine, 0.315034018_wp, 1.0e-7_wp, .true., 'first overturning')
-      call check_threshold(wall%mechanism, cosine, 0.328168_wp, 2.0e-6_wp, .false., 'safe window opens')
-      call check_threshold(wall%mechanism, cosine, 0.331450_wp, 2.0e-6_wp, .true., 'safe window closes')
-      call check_threshold(wall%mechanism, cosine, 0.346045_wp, 2.0e-6_wp, .false., 'second window opens')
-   end subroutine test_published_impacts
-
    !> Rest and its end
    subroutine test_rest()
       type(wall_type) :: wall
@@ -323,31 +163,6 @@ contains
       call check(response%impacts == 0, 'nothing has hit anything yet')
    end subroutine test_rest
 
-   !> The closed form after the record against stepping through still ground
-   subroutine test_tail()
-      type(wall_type) :: wall
-      type(response_type) :: stepped, closed
-      real(wp) :: factor, a(6)
-      integer :: i, m
-
-      call suite('after the record')
-      a = [0.0_wp, -1.0_wp, -2.0_wp, -2.5_wp, -1.0_wp, 0.0_wp]
-      do m = 1, 3
-         if (m == 1) wall = made('one_sided', 3.0_wp, 0.25_wp)
-         if (m == 2) wall = made('free_standing', 2.0_wp, 0.5_wp)
-         if (m == 3) wall = made('two_block', 3.0_wp, 0.25_wp)
-         do i = 1, 20
-            factor = 0.25_wp*real(i, wp)*wall%mechanism%trigger_acceleration()
-            call simulate_rk45(wall%mechanism, accelerogram(a, 0.05_wp), factor, tight(1.0_wp), closed)
-            call simulate_rk45(wall%mechanism, accelerogram([a, spread(0.0_wp, 1, 400)], 0.05_wp), factor, &
-               & tight(1.0_wp), stepped)
-            call check(closed%collapsed .eqv. stepped%collapsed, 'same flag')
-            call check_close(closed%edp, stepped%edp, 1.0e-10_wp, 'peak')
-            call check_close(closed%time_of_peak, stepped%time_of_peak, 1.0e-7_wp, 'time of the peak')
-         end do
-      end do
-   end subroutine test_tail
-
    !> What must not change a result
    subroutine test_symmetries()
       type(wall_type) :: wall
@@ -363,9 +178,7 @@ contains
       record = accelerogram(a, 0.01_wp)
       finer = accelerogram(b, 0.005_wp)
       do m = 1, 3
-         if (m == 1) wall = made('one_sided', 3.0_wp, 0.25_wp)
-         if (m == 2) wall = made('free_standing', 2.0_wp, 0.5_wp)
-         if (m == 3) wall = made('two_block', 3.0_wp, 0.25_wp)
+         wall = a_wall(m)
          do i = 1, 10
             call simulate_rk45(wall%mechanism, record, 0.2_wp*i, tight(1.0_wp), one)
             call simulate_rk45(wall%mechanism, finer, 0.2_wp*i, tight(1.0_wp), other)
@@ -414,5 +227,22 @@ contains
          & 'until rest or 10 s after it')
       call check(maxval(abs(trace%rotation))/wall%mechanism%capacity >= 0.999_wp*one%edp, 'the peak after the record')
    end subroutine test_trace
+
+   !> Which results an estimated error leaves in doubt
+   subroutine test_doubt()
+      type(response_type) :: response
+
+      call suite('doubt')
+      response = response_type(edp=0.9_wp, edp_error=0.9e-6_wp)
+      call check(.not. response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a small error')
+      response%edp_error = 1.1e-6_wp
+      call check(response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a large one, far from the limit')
+      response%edp_error = 0.06_wp
+      call check(response%is_unsure(1.0_wp) .and. .not. response%is_unsure(1.1_wp), 'twice the error reaches the limit')
+      response = response_type(edp=1.0_wp, collapsed=.true.)
+      call check(.not. response%is_unsure(1.0_wp), 'both runs collapse')
+      response%edp_error = 0.3_wp
+      call check(response%is_unsure(1.0_wp), 'one of them does not')
+   end subroutine test_doubt
 
 end program test_motion

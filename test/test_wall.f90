@@ -104,6 +104,11 @@ contains
       wall = made(strip(3.0_wp, 0.25_wp, 0.5_wp))
       call check_close(wall%mechanism%trigger_acceleration()/g, 1.0_wp/3.0_wp, tight, 'hinge 0.5: trigger')
       call check_two_block_restitution(wall, 0.945945945945946_wp, 0.8125_wp)
+      ! It grows with the height of the hinge (docs/theory.md, section 3).
+      wall = made(strip(3.0_wp, 0.25_wp, 0.3_wp))
+      call check_close(wall%mechanism%restitution, 0.899_wp, 0.0_wp, 'hinge 0.3: sorrentino', 5.0e-4_wp)
+      wall = made(strip(3.0_wp, 0.25_wp, 0.7_wp))
+      call check_close(wall%mechanism%restitution, 0.966_wp, 0.0_wp, 'hinge 0.7: sorrentino', 5.0e-4_wp)
       wall = made(strip(4.0_wp, 0.38_wp, 0.7_wp))
       call check_terms(wall, 0.5_wp*wall%alpha, &
          & [7420.00158382046_wp, -2070.03401639077_wp, 5059.50054100952_wp, 3856.72544168463_wp])

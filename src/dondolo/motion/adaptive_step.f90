@@ -111,7 +111,6 @@ contains
       if (event /= no_event) call land(mechanism, scene, motion, h, event, x, q, v, f)
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(dt, min(motion%time + h, dt), sample_reached)
-      if (event /= no_event) sample_reached = motion%time >= dt
       motion%q = q
       motion%v = v
       motion%f = f

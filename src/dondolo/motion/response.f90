@@ -10,6 +10,9 @@ module dondolo_response
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
 
+   !> Error that must be reckoned with / estimated error, where a collapse is at stake
+   real(wp), parameter :: safety = 2.0_wp
+
    !> Result of one history
    type :: response_type
       !> Engineering demand parameter: largest rotation / capacity, equation (6) of Nale et al.;
@@ -66,7 +69,7 @@ contains
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
 
-      is_unsure = self%edp_error > 0.0_wp .and. self%edp + self%edp_error >= edp_limit
+      is_unsure = self%edp_error > 0.0_wp .and. self%edp + safety*self%edp_error >= edp_limit
    end function is_unsure
 
    !> Add a row

@@ -77,7 +77,7 @@ contains
          if (ending /= at_rest) exit
          ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
          if (motion%interval == first .and. motion%time - start <= shortest_motion*record%dt) &
-            & call next_interval(scene, record, motion, trace)
+            & call leave_edge(scene, record, motion, trace)
       end do
 
       response%collapsed = ending == collapsed
@@ -177,14 +177,36 @@ contains
          if (sample_reached) then
             if (ending == collapsed) return
             call next_interval(scene, record, motion, trace)
-            ! The acceleration is continuous at a sample, save at the last, after which the ground is still.
-            if (motion%interval == size(record%acceleration)) &
-               & motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, motion%q, motion%v)
          end if
          if (ending /= 0) return
       end do
       ending = record_over
    end subroutine rock
+
+   !> Leave the edge of a threshold: nothing more starts on its side in this interval, so go on to where the
+   !> accelerogram changes its sign, or to the next sample
+   pure subroutine leave_edge(scene, record, motion, trace)
+      !> What stays the same
+      type(scene_type), intent(in) :: scene
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Where the motion is: at rest
+      type(motion_type), intent(inout) :: motion
+      !> Time history
+      type(trace_type), intent(inout), optional :: trace
+
+      real(wp) :: crossing
+
+      associate (here => record%acceleration(motion%interval), next => record%acceleration(motion%interval + 1))
+         crossing = 0.0_wp
+         if (here > 0.0_wp .neqv. next > 0.0_wp) crossing = record%dt*(here/(here - next))
+      end associate
+      if (crossing > motion%time) then
+         motion%time = crossing
+      else
+         call next_interval(scene, record, motion, trace)
+      end if
+   end subroutine leave_edge
 
    !> Go on to the next sample
    pure subroutine next_interval(scene, record, motion, trace)

@@ -46,6 +46,7 @@ contains
          turn = turning_rotation(mechanism, energy, mechanism%capacity, q)
          tail%collapsed = .true.
          tail%peak = limit
+         energy = mechanism%potential(turn)
          tail%delay = time_between(mechanism, energy, turn, q) + time_between(mechanism, energy, turn, limit)
       else
          ! It falls to q = 0, loses 1 - e^2 of its kinetic energy there, and rises once more.
@@ -81,7 +82,8 @@ contains
          if (limit > top) tail%delay = tail%delay + time_between(mechanism, energy, max(top, q), limit)
       else
          tail%peak = turning_rotation(mechanism, energy, top, q)
-         tail%delay = tail%delay + time_between(mechanism, energy, tail%peak, q)
+         ! V at the turning point, not E: their difference is rounding, and would be taken for speed there.
+         tail%delay = tail%delay + time_between(mechanism, mechanism%potential(tail%peak), tail%peak, q)
       end if
    end subroutine rise
 
