@@ -162,13 +162,14 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=30) :: name
-      character(len=10) :: theta, beta
+      character(len=12) :: theta
+      character(len=10) :: beta
       integer :: i, walls
 
       walls = size(case%population%walls)
       name = 'wall'
-      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', 'theta'//case%stripes%scaling%unit_after_blank(), 'beta', &
-         & 'status'
+      theta = 'theta'//case%stripes%scaling%unit_after_blank()
+      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', trim(theta), 'beta', 'status'
       do i = 1, min(walls, shown_rows)
          name = case%population%walls(i)%input%name
          theta = '-'
@@ -179,7 +180,7 @@ contains
                beta = rounded(curve%beta)
             end if
             write (output_unit, '(a, a15, 2a10, 2x, a)') name, case%population%walls(i)%input%mechanism, &
-               & adjustr(theta), adjustr(beta), trim(curve%status)
+               & trim(theta), adjustr(beta), trim(curve%status)
          end associate
       end do
       if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
@@ -211,7 +212,8 @@ contains
          associate (mechanism => results%typologies(i)%mechanism, fit => results%typologies(i)%fit)
             if (fit%has_fit()) then
                write (output_unit, '(a)') 'population, '//mechanism//': theta = '//rounded(fit%theta)// &
-                  & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(fit%beta)//', status '//trim(fit%status)
+                  & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(fit%beta)//', status '// &
+                  & trim(fit%status)
             else
                write (output_unit, '(a)') 'population, '//mechanism//': no fragility curve, status '//trim(fit%status)
             end if

@@ -1,4 +1,4 @@
-"""Draw the figures of the README into docs/figures, from the embedded synthetic accelerograms."""
+"""Draw the figures of the README and of the pages in docs into docs/figures, from the embedded synthetic accelerograms."""
 
 from pathlib import Path
 
@@ -25,6 +25,10 @@ def main() -> None:
     dd.plot_stripes(stripes, axes[0])
     dd.plot_fragility(stripes.fit(), stripes, axes[1])
     figure.savefig(root / "docs/figures/quick_start.png", dpi=100)
+
+    ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
+    axes = dd.plot_intensities(dd.compare_intensities(wall, records, ims))
+    axes[0].figure.savefig(root / "docs/figures/intensity_measures.png", dpi=100)
 
     walls = [
         (dd.OneSidedWall(height=1.5, thickness=0.25, name="one_sided"), 0.6),

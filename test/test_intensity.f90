@@ -62,6 +62,8 @@ contains
    subroutine test_shapes()
       type(record_type) :: record
       real(wp), parameter :: exact = 100*epsilon(1.0_wp)
+      real(wp), allocatable :: velocity(:), displacement(:)
+      real(wp) :: s
 
       call suite('shapes')
       record = record_of(spread(2.0_wp, 1, 101), 0.05_wp)
@@ -88,11 +90,15 @@ contains
       record = record_of([1.0_wp, -2.0_wp], 1.0_wp)
       call check_close(measured(record, 'pgd'), 2.0_wp/27.0_wp, exact, 'PGD within a step')
       call check_close(measured(record, 'cav'), 0.5_wp*5.0_wp/3.0_wp, exact, 'CAV of unequal triangles')
-      ! Two zeros of the velocity in one step: v = 1 - 6 t + 6 t**2 peaks the displacement at (3 - sqrt 3)/6
-      record = record_of([1.0_wp, 1.0_wp, -6.0_wp, 6.0_wp], 1.0_wp)
-      call check_close(maxval(ground_velocity(record)), 1.0_wp, exact, 'velocity at the samples')
-      call check_close(maxval(ground_displacement(record)), 0.5_wp + 1.0_wp + 0.5_wp - 7.0_wp/6.0_wp, exact, &
-         & 'displacement at the samples')
+      ! In the second step v = 0.3 - t + t**2/4 vanishes at s = 2 - 2 sqrt 0.7, the smaller of two zeros
+      record = record_of([1.6_wp, -1.0_wp, -0.5_wp], 1.0_wp)
+      s = 2.0_wp - 2.0_wp*sqrt(0.7_wp)
+      call check_close(measured(record, 'pgd'), 1.1_wp/3.0_wp + s*(0.3_wp + s*(-0.5_wp + s/12.0_wp)), exact, &
+         & 'PGD at the smaller zero')
+      velocity = ground_velocity(record)
+      displacement = ground_displacement(record)
+      call check_close(velocity(2), 0.3_wp, exact, 'velocity at a sample')
+      call check_close(displacement(2), 1.1_wp/3.0_wp, exact, 'displacement at a sample')
       record = record_of([0.0_wp, 0.0_wp, 0.0_wp], 0.01_wp)
       call check_close(measured(record, 'd5-95'), 0.0_wp, exact, 'duration of nothing')
       call check_close(measured(record, 'saavg(0.1:1)'), 0.0_wp, exact, 'average of nothing')
@@ -176,36 +182,32 @@ contains
       record = record_of([(amplitude*sin(2.0_wp*pi*real(i, wp)/samples), i=0, samples*cycles)], period/samples)
       call check_close(measured(record, 'pgv'), amplitude*period/pi, 1.0e-6_wp, 'PGV')
       call check_close(measured(record, 'pgd'), amplitude*period*period*cycles/(2.0_wp*pi), 1.0e-6_wp, 'PGD')
-      call check_close(measured(record, 'arias'), pi/(4.0_wp*g)*amplitude**2*period*cycles, 1.0e-6_wp, 'Arias intensity')
+      call check_close(measured(record, 'arias'), pi/(4.0_wp*g)*amplitude**2*period*cycles, 1.0e-6_wp, 'Arias')
       call check_close(measured(record, 'cav'), 2.0_wp/pi*amplitude*period*cycles, 1.0e-6_wp, 'CAV')
       ! Undamped resonance: u'' + omega**2 u = -a sin(omega t) has u = a n pi / omega**2 after n cycles
       sa = pseudo_acceleration(record, [period], 0.0_wp)
       call check_close(sa(1), amplitude*pi*cycles, 1.0e-6_wp, 'resonance')
    end subroutine test_sine
 
-   !> What must not change a value: a finer sampling of the same lines, the sign; and what changes it as it should: a scale
+   !> What must not change a value: a finer sampling of the same lines, the sign; what changes it in proportion: a scale
    subroutine test_invariance()
-      integer, parameter :: n = 401, parts = 7
+      integer, parameter :: n = 401
+      ! The velocity of an oscillator vanishes twice in one step of this record, and there lies its peak
+      real(wp), parameter :: twice(7) = [1.0_wp, -4.0_wp, 8.0_wp, -9.0_wp, 8.0_wp, -3.0_wp, 2.0_wp]
       type(random_type) :: random
       type(measure_type) :: measure
       type(record_type) :: record, fine, scaled
       type(error_type), allocatable :: error
-      real(wp) :: a(n), finer(parts*(n - 1) + 1), spectrum(40), periods(40), value
-      integer :: i, k
+      real(wp) :: a(n), spectrum(40), periods(40), value
+      integer :: i
 
       call suite('invariance')
       random = new_random(7, 0)
       do i = 1, n
          a(i) = (random%next() - 0.5_wp)*sin(pi*real(i, wp)/n)
       end do
-      do i = 1, n - 1
-         do k = 0, parts - 1
-            finer(parts*(i - 1) + k + 1) = (real(parts - k, wp)*a(i) + real(k, wp)*a(i + 1))/parts
-         end do
-      end do
-      finer(size(finer)) = a(n)
       record = record_of(a, 0.02_wp)
-      fine = record_of(finer, 0.02_wp/parts)
+      fine = refined(record)
       scaled = record_of(-2.5_wp*a, 0.02_wp)
       do i = 1, size(names)
          call new_measure(measure, trim(names(i)), error)
@@ -217,6 +219,15 @@ contains
             & names(i)//' of a scaled record')
       end do
       periods = [(0.01_wp*1.19_wp**(i - 1), i=1, size(periods))]
+      ! Without damping one peak hardly exceeds the one before: those within steps must not be missed
+      spectrum = spectral_displacement(fine, periods, 0.0_wp)/spectral_displacement(record, periods, 0.0_wp)
+      do i = 1, size(periods)
+         call check_close(spectrum(i), 1.0_wp, 1.0e-9_wp, 'undamped, of the same lines, T = '//to_text(periods(i)))
+      end do
+      record = record_of(twice, 0.1_wp)
+      call check_close(sum(spectral_displacement(record, [1.0_wp], 0.95_wp)), &
+         & sum(spectral_displacement(refined(record), [1.0_wp], 0.95_wp)), 1.0e-12_wp, 'two turning points in a step')
+      record = fine
       spectrum = spectral_displacement(record, periods, 0.05_wp)
       do i = 1, size(periods)
          call check(all(.not. abs(spectral_displacement(record, [periods(i)], 0.05_wp) - spectrum(i)) > 0.0_wp), &
@@ -224,10 +235,29 @@ contains
       end do
    end subroutine test_invariance
 
+   !> The same lines with seven steps for each
+   function refined(record) result(fine)
+      type(record_type), intent(in) :: record
+      type(record_type) :: fine
+      integer, parameter :: parts = 7
+      real(wp) :: a(parts*(size(record%acceleration) - 1) + 1)
+      integer :: i, k
+
+      do i = 1, size(record%acceleration) - 1
+         do k = 0, parts - 1
+            a(parts*(i - 1) + k + 1) = (real(parts - k, wp)*record%acceleration(i) &
+               & + real(k, wp)*record%acceleration(i + 1))/parts
+         end do
+      end do
+      a(size(a)) = record%acceleration(size(record%acceleration))
+      fine = record_of(a, record%dt/parts)
+   end function refined
+
    !> Names, units, and what is refused
    subroutine test_names()
       character(len=14), parameter :: refused(15) = [character(len=14) :: 'PGA', 'sa', 'sa(T)', 'sa()', 'sa(0)', &
-         & 'sa(-1)', 'sa(21)', 'sa(nan)', 'sa( 1)', 'sa(1', 'sa(1))', 'saavg(1)', 'saavg(2:1)', 'saavg(1:1)', 'saavg(:1)']
+         & 'sa(-1)', 'sa(21)', 'sa(nan)', 'sa( 1)', 'sa(1', 'sa(1))', 'saavg(1)', 'saavg(2:1)', &
+         & 'saavg(1:1)', 'saavg(:1)']
       type(measure_type) :: measure
       type(scaling_type) :: scaling
       type(error_type), allocatable :: error

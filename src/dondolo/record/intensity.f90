@@ -1,8 +1,8 @@
 !> Intensity measures of an accelerogram: their names, their values, and the units their levels are given in.
 !>
-!> Levels of accelerations are in g, all others in SI units. Where a measure needs the acceleration of gravity it is in
-!> the unit of its levels, not in its value: the value of 'arias' is pi/2 times the integral of a**2, and its levels count in
-!> units of g.
+!> Levels of accelerations are in g, all others in SI units. Where a measure needs the acceleration of gravity, that
+!> stands in the size of a level and not in the value: the value of 'arias' is pi/2 times the integral of a**2, and a
+!> level of 1 m/s is g of it.
 module dondolo_intensity
    use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration
    use dondolo_error, only : error_type, raise_input

@@ -1,10 +1,11 @@
 !> Elastic response spectrum: the largest displacements of damped oscillators under the piecewise linear accelerogram.
 !>
-!> Within a step the ground acceleration is linear, and the motion of an oscillator follows exactly from its state at the
-!> start (Nigam and Jennings 1969). Its power series in the time within the step gives the coefficients of the recursion
-!> without the cancellation of their closed form. Steps longer than a tenth of the period are divided, so the series is short.
-!> The peak is that of the continuous motion: where a bound says that the motion between two samples may exceed the largest
-!> so far, the turning point is found. After the record the oscillator swings freely; that counts too.
+!> Within a step the ground acceleration is linear, and the motion of an oscillator follows exactly from its state at
+!> the start (Nigam and Jennings 1969). Its power series in the time within the step gives the coefficients of the
+!> recursion without the cancellation of their closed form. Steps longer than a tenth of the period are divided, so that
+!> the series is short. The peak is that of the continuous motion: where a bound says that the motion between two
+!> samples may exceed the largest so far, the turning point is found. After the record the oscillator swings freely, and
+!> that counts too.
 module dondolo_response_spectrum
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
@@ -318,7 +319,8 @@ contains
       damped = sqrt(1.0_wp - damping**2)
       angle = atan2(velocity*damped, omega*u + damping*velocity)
       if (angle < 0.0_wp) angle = angle + pi
-      largest = exp(-damping/damped*angle)*sqrt(max(0.0_wp, u**2 + 2.0_wp*damping*u*velocity/omega + (velocity/omega)**2))
+      largest = exp(-damping/damped*angle) &
+         & *sqrt(max(0.0_wp, u**2 + 2.0_wp*damping*u*velocity/omega + (velocity/omega)**2))
    end function last_swing
 
 end module dondolo_response_spectrum
