@@ -1,4 +1,4 @@
-"""Draw the figures of the README and of the pages in docs into docs/figures, from the embedded synthetic accelerograms."""
+"""Draw the figures of the README and of docs into docs/figures, from the embedded synthetic accelerograms."""
 
 from pathlib import Path
 

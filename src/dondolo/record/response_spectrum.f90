@@ -27,8 +27,8 @@ module dondolo_response_spectrum
    !> Fewest steps in a period
    real(wp), parameter :: steps_in_period = 10.0_wp
 
-   !> Terms of the power series: the next is below the rounding of real64 or real128
-   integer, parameter :: terms = merge(22, 38, precision(1.0_wp) < 18)
+   !> Longest power series
+   integer, parameter :: terms = 40
 
    !> Oscillators that are stepped together
    integer, parameter :: lanes = 16
@@ -101,7 +101,7 @@ contains
       ! Coefficients of the new u and w: of u, of w, and of the start and the rise of the ground acceleration
       real(wp), dimension(lanes) :: uu, uw, us, ur, wu, ww, ws, wr, damper, spring, curb
       real(wp) :: h, start, finish, excess, c(0:terms)
-      integer :: i, j, k
+      integer :: i, j, k, order(lanes)
 
       h = record%dt/real(parts, wp)
       damper = 2.0_wp*damping*(2.0_wp*pi*h/periods)
@@ -110,18 +110,21 @@ contains
       ! chord by an eighth of it.
       curb = exp(0.5_wp*damper)/cos(pi*h/periods)/8.0_wp
       do k = 1, lanes
-         c = series(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k))
-         uu(k) = value(c, 1.0_wp)
-         wu(k) = slope(c, 1.0_wp)
-         c = series(0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k))
-         uw(k) = value(c, 1.0_wp)
-         ww(k) = slope(c, 1.0_wp)
-         c = series(0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, damper(k), spring(k))
-         us(k) = value(c, 1.0_wp)
-         ws(k) = slope(c, 1.0_wp)
-         c = series(0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, damper(k), spring(k))
-         ur(k) = value(c, 1.0_wp)
-         wr(k) = slope(c, 1.0_wp)
+         order(k) = order_of(spring(k))
+         associate (n => order(k))
+            c(:n) = series(1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k), n)
+            uu(k) = value(c(:n), 1.0_wp)
+            wu(k) = value(derivative(c(:n)), 1.0_wp)
+            c(:n) = series(0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, damper(k), spring(k), n)
+            uw(k) = value(c(:n), 1.0_wp)
+            ww(k) = value(derivative(c(:n)), 1.0_wp)
+            c(:n) = series(0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, damper(k), spring(k), n)
+            us(k) = value(c(:n), 1.0_wp)
+            ws(k) = value(derivative(c(:n)), 1.0_wp)
+            c(:n) = series(0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, damper(k), spring(k), n)
+            ur(k) = value(c(:n), 1.0_wp)
+            wr(k) = value(derivative(c(:n)), 1.0_wp)
+         end associate
       end do
       u = 0.0_wp
       w = 0.0_wp
@@ -148,7 +151,7 @@ contains
                   ! The velocity vanishes within the step if it changes sign, or if it turns towards zero and back
                   if (w(k)*w_new(k) < 0.0_wp .or. (q(k)*w(k) < 0.0_wp .and. q_new(k)*w_new(k) > 0.0_wp)) &
                      & peak(k) = max(peak(k), &
-                     & turn(series(u(k), w(k), start, finish - start, damper(k), spring(k))))
+                     & turn(series(u(k), w(k), start, finish - start, damper(k), spring(k), order(k))))
                end do
             end if
             u = u_new
@@ -160,8 +163,26 @@ contains
       peak = max(peak, last_swing(u, w/h, periods, damping))
    end subroutine swing
 
+   !> Order of a power series whose next terms are below rounding: they fall as (omega h)**n / n!
+   pure function order_of(spring) result(n)
+      !> (omega h)**2
+      real(wp), intent(in) :: spring
+      !> Order
+      integer :: n
+
+      real(wp) :: term
+
+      term = 1.0_wp
+      do n = 1, terms - 2
+         term = term*sqrt(spring)/real(n, wp)
+         if (term < 0.01_wp*epsilon(term)) exit
+      end do
+      ! Beside the critical damping the terms are up to n times as large
+      n = min(max(n, 2) + 2, terms)
+   end function order_of
+
    !> Power series of the displacement within a step: u'' + damper u' + spring u = -(start + rise s), s from 0 to 1
-   pure function series(u, w, start, rise, damper, spring) result(c)
+   pure function series(u, w, start, rise, damper, spring, n) result(c)
       !> Displacement at the start
       real(wp), intent(in) :: u
       !> Velocity at the start
@@ -174,8 +195,10 @@ contains
       real(wp), intent(in) :: damper
       !> (omega h)**2
       real(wp), intent(in) :: spring
+      !> Order, at least 3
+      integer, intent(in) :: n
       !> Coefficients
-      real(wp) :: c(0:terms)
+      real(wp) :: c(0:n)
 
       integer :: k
 
@@ -183,7 +206,7 @@ contains
       c(1) = w
       c(2) = -(damper*w + spring*u + start)/2.0_wp
       c(3) = -(2.0_wp*damper*c(2) + spring*w + rise)/6.0_wp
-      do k = 4, terms
+      do k = 4, n
          c(k) = -(real(k - 1, wp)*damper*c(k - 1) + spring*c(k - 2))/real(k*(k - 1), wp)
       end do
    end function series
@@ -191,7 +214,7 @@ contains
    !> Value of a power series
    pure function value(c, s)
       !> Coefficients
-      real(wp), intent(in) :: c(0:terms)
+      real(wp), intent(in) :: c(0:)
       !> Part of the step
       real(wp), intent(in) :: s
       !> Value
@@ -199,105 +222,81 @@ contains
 
       integer :: k
 
-      value = c(terms)
-      do k = terms - 1, 0, -1
+      value = c(ubound(c, 1))
+      do k = ubound(c, 1) - 1, 0, -1
          value = value*s + c(k)
       end do
    end function value
 
    !> Derivative of a power series
-   pure function slope(c, s)
+   pure function derivative(c) result(d)
       !> Coefficients
-      real(wp), intent(in) :: c(0:terms)
-      !> Part of the step
-      real(wp), intent(in) :: s
-      !> Derivative
-      real(wp) :: slope
+      real(wp), intent(in) :: c(0:)
+      !> Coefficients of the derivative
+      real(wp) :: d(0:ubound(c, 1) - 1)
 
       integer :: k
 
-      slope = real(terms, wp)*c(terms)
-      do k = terms - 1, 1, -1
-         slope = slope*s + real(k, wp)*c(k)
+      do k = 1, ubound(c, 1)
+         d(k - 1) = real(k, wp)*c(k)
       end do
-   end function slope
-
-   !> Second derivative of a power series
-   pure function curvature(c, s)
-      !> Coefficients
-      real(wp), intent(in) :: c(0:terms)
-      !> Part of the step
-      real(wp), intent(in) :: s
-      !> Second derivative
-      real(wp) :: curvature
-
-      integer :: k
-
-      curvature = real(terms*(terms - 1), wp)*c(terms)
-      do k = terms - 1, 2, -1
-         curvature = curvature*s + real(k*(k - 1), wp)*c(k)
-      end do
-   end function curvature
+   end function derivative
 
    !> Largest |u| where the velocity vanishes within a step
    pure function turn(c) result(largest)
       !> Power series of the displacement
-      real(wp), intent(in) :: c(0:terms)
+      real(wp), intent(in) :: c(0:)
       !> The largest; 0 if the velocity does not vanish
       real(wp) :: largest
 
-      real(wp) :: middle
+      real(wp) :: velocity(0:ubound(c, 1) - 1), middle, at_middle
 
-      if (slope(c, 0.0_wp)*slope(c, 1.0_wp) < 0.0_wp) then
-         largest = abs(value(c, zero(slope, c, 0.0_wp, 1.0_wp)))
+      velocity = derivative(c)
+      if (velocity(0)*value(velocity, 1.0_wp) < 0.0_wp) then
+         largest = abs(value(c, zero(velocity, 0.0_wp, 1.0_wp)))
          return
       end if
       ! The velocity is nearest to zero where the acceleration vanishes; its zeros lie on both sides
       largest = 0.0_wp
-      middle = zero(curvature, c, 0.0_wp, 1.0_wp)
-      if (slope(c, 0.0_wp)*slope(c, middle) < 0.0_wp) largest = max(abs(value(c, zero(slope, c, 0.0_wp, middle))), &
-         & abs(value(c, zero(slope, c, middle, 1.0_wp))))
+      middle = zero(derivative(velocity), 0.0_wp, 1.0_wp)
+      at_middle = value(velocity, middle)
+      if (velocity(0)*at_middle < 0.0_wp) largest = max(abs(value(c, zero(velocity, 0.0_wp, middle))), &
+         & abs(value(c, zero(velocity, middle, 1.0_wp))))
    end function turn
 
-   !> Where a derivative changes its sign, by halving
-   pure function zero(derivative, c, from, to) result(middle)
-      interface
-         !> The derivative
-         pure function derivative(c, s)
-            import :: terms, wp
-            !> Coefficients
-            real(wp), intent(in) :: c(0:terms)
-            !> Part of the step
-            real(wp), intent(in) :: s
-            !> Derivative
-            real(wp) :: derivative
-         end function derivative
-      end interface
+   !> Where a power series changes its sign: Newton's method within a bracket
+   pure function zero(c, from, to) result(s)
       !> Coefficients
-      real(wp), intent(in) :: c(0:terms)
+      real(wp), intent(in) :: c(0:)
       !> Begin of the interval
       real(wp), intent(in) :: from
-      !> End of the interval, where the derivative has the other sign
+      !> End of the interval, where the series has the other sign
       real(wp), intent(in) :: to
       !> The zero
-      real(wp) :: middle
+      real(wp) :: s
 
-      real(wp) :: low, high, sign_low
+      real(wp) :: low, high, at_low, at_high, at_s, next
       integer :: k
 
       low = from
       high = to
-      sign_low = derivative(c, from)
-      middle = 0.5_wp*(low + high)
-      ! A displacement is flat where its velocity vanishes: half of the digits of the time give all of its own.
-      do k = 1, (digits(low) + 9)/2
-         if (derivative(c, middle)*sign_low > 0.0_wp) then
-            low = middle
+      at_low = value(c, low)
+      at_high = value(c, high)
+      s = low + (high - low)*at_low/(at_low - at_high)
+      do k = 1, digits(s)
+         at_s = value(c, s)
+         if (at_s*at_low > 0.0_wp) then
+            low = s
          else
-            high = middle
+            high = s
          end if
-         middle = 0.5_wp*(low + high)
+         next = s - at_s/value(derivative(c), s)
+         if (.not. (next >= low .and. next <= high)) next = 0.5_wp*(low + high)
+         ! A displacement is flat where its velocity vanishes, and the step after this one would be the square of it
+         if (abs(next - s) < sqrt(epsilon(s))) exit
+         s = next
       end do
+      s = next
    end function zero
 
    !> First turning point of free oscillations, which is their largest displacement [m]
