@@ -5,7 +5,8 @@
 !> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_adaptive_step
    use dondolo_bernstein, only : first_descent, nowhere
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+      & is_beyond
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_rest, only : rest_type
@@ -102,6 +103,9 @@ contains
          ! The sum, since unlike the maximum it is never deaf to a value that is not a number.
          error = abs(q_error)/(scene%solver%atol*scene%q_unit + scene%solver%rtol*max(abs(motion%q), abs(q))) &
             & + abs(v_error)/(scene%solver%atol*scene%v_unit + scene%solver%rtol*max(abs(motion%v), abs(v)))
+         ! A step that left the geometry has no error to judge it by. The smallest step is accepted all the same, but
+         ! then it contains an event, on which it ends: the limit, since that lies within the geometry, or an impact.
+         if (is_beyond(mechanism, q)) error = huge(error)
          call control_step(error, h, smallest_step*dt, motion, accepted)
          if (accepted) exit
       end do
@@ -275,7 +279,10 @@ contains
       q = q + change*(v + 0.5_wp*change*f)
       v = v + change*f
       if (event == impact) q = 0.0_wp
-      if (event == turning) v = 0.0_wp
+      if (event == turning) then
+         v = 0.0_wp
+         if (q >= scene%limit) event = limit_reached
+      end if
       f = angular_acceleration(mechanism, motion%excitation, motion%time + h, q, v)
    end subroutine land
 

@@ -8,7 +8,7 @@ module dondolo_dormand_prince
    implicit none
    private
 
-   public :: excitation_type, angular_acceleration, dormand_prince_step, dense_rotation
+   public :: excitation_type, angular_acceleration, dormand_prince_step, dense_rotation, is_beyond
 
    !> What drives the motion between two samples: a ground acceleration linear in time, seen from one side
    type :: excitation_type
@@ -58,7 +58,18 @@ contains
       f = (load - g - excitation%side*l*(excitation%start + excitation%slope*time) - c*v**2)/j
    end function angular_acceleration
 
-   !> One step
+   !> Does a rotation lie where the terms of a mechanism are not defined?
+   pure logical function is_beyond(mechanism, q)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      is_beyond = q <= mechanism%lowest .or. q >= mechanism%highest
+   end function is_beyond
+
+   !> One step. If one of its stages goes beyond the geometry it ends there, with a rotation that `is_beyond`, the
+   !> velocity and the acceleration of the start, and no errors: a step to be rejected
    pure subroutine dormand_prince_step(mechanism, excitation, time, h, q, v, f, q_new, v_new, f_new, q_error, v_error)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
@@ -87,19 +98,33 @@ contains
 
       real(wp) :: v2, v3, v4, v5, v6, f2, f3, f4, f5, f6
 
+      v_new = v
+      f_new = f
+      q_error = 0.0_wp
+      v_error = 0.0_wp
       v2 = v + h*a21*f
-      f2 = angular_acceleration(mechanism, excitation, time + c2*h, q + h*a21*v, v2)
+      q_new = q + h*a21*v
+      if (is_beyond(mechanism, q_new)) return
+      f2 = angular_acceleration(mechanism, excitation, time + c2*h, q_new, v2)
       v3 = v + h*(a31*f + a32*f2)
-      f3 = angular_acceleration(mechanism, excitation, time + c3*h, q + h*(a31*v + a32*v2), v3)
+      q_new = q + h*(a31*v + a32*v2)
+      if (is_beyond(mechanism, q_new)) return
+      f3 = angular_acceleration(mechanism, excitation, time + c3*h, q_new, v3)
       v4 = v + h*(a41*f + a42*f2 + a43*f3)
-      f4 = angular_acceleration(mechanism, excitation, time + c4*h, q + h*(a41*v + a42*v2 + a43*v3), v4)
+      q_new = q + h*(a41*v + a42*v2 + a43*v3)
+      if (is_beyond(mechanism, q_new)) return
+      f4 = angular_acceleration(mechanism, excitation, time + c4*h, q_new, v4)
       v5 = v + h*(a51*f + a52*f2 + a53*f3 + a54*f4)
-      f5 = angular_acceleration(mechanism, excitation, time + c5*h, q + h*(a51*v + a52*v2 + a53*v3 + a54*v4), v5)
+      q_new = q + h*(a51*v + a52*v2 + a53*v3 + a54*v4)
+      if (is_beyond(mechanism, q_new)) return
+      f5 = angular_acceleration(mechanism, excitation, time + c5*h, q_new, v5)
       v6 = v + h*(a61*f + a62*f2 + a63*f3 + a64*f4 + a65*f5)
-      f6 = angular_acceleration(mechanism, excitation, time + h, &
-         & q + h*(a61*v + a62*v2 + a63*v3 + a64*v4 + a65*v5), v6)
-      v_new = v + h*(b1*f + b3*f3 + b4*f4 + b5*f5 + b6*f6)
+      q_new = q + h*(a61*v + a62*v2 + a63*v3 + a64*v4 + a65*v5)
+      if (is_beyond(mechanism, q_new)) return
+      f6 = angular_acceleration(mechanism, excitation, time + h, q_new, v6)
       q_new = q + h*(b1*v + b3*v3 + b4*v4 + b5*v5 + b6*v6)
+      if (is_beyond(mechanism, q_new)) return
+      v_new = v + h*(b1*f + b3*f3 + b4*f4 + b5*f5 + b6*f6)
       f_new = angular_acceleration(mechanism, excitation, time + h, q_new, v_new)
       v_error = h*(e1*f + e3*f3 + e4*f4 + e5*f5 + e6*f6 + e7*f_new)
       q_error = h*(e1*v + e3*v3 + e4*v4 + e5*v5 + e6*v6 + e7*v_new)

@@ -27,6 +27,8 @@ module dondolo_rest
       real(wp) :: height
       !> Relative change of the terms up to that rotation
       real(wp) :: slack
+      !> Impacts after which a chain of bounces is looked at again: 1, more where e is next to 1
+      integer :: bounces_per_look
    contains
       !> When rocking begins
       procedure :: next_start
@@ -45,6 +47,9 @@ module dondolo_rest
    !> that rise up to tenfold
    real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
 
+   !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
+   real(wp), parameter :: speed_per_look = 3.0e-3_wp, most_bounces = 1.0e3_wp
+
 contains
 
    !> What a mechanism is like near rest
@@ -62,6 +67,7 @@ contains
       rest%moment = g0 - load0
       rest%lever = l0
       rest%inertia = j0
+      rest%bounces_per_look = max(1, int(min(most_bounces, speed_per_look/(1.0_wp - rest%restitution))))
       rest%height = 1.0e-3_wp*mechanism%capacity
       do
          call mechanism%terms(rest%height, j, c, g, l, load)

@@ -25,8 +25,8 @@ module dondolo_rk45
    real(wp), parameter :: tiny_height = 1.0e-12_wp
    integer, parameter :: most_tiny_bounces = 1000
 
-   !> Time after the record for which a trace goes on [s]
-   real(wp), parameter :: trace_after = 10.0_wp
+   !> Time after the record for which a trace goes on [s], and most sample intervals of it, since a time step may be tiny
+   real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
 
 contains
 
@@ -90,13 +90,15 @@ contains
          end if
       end if
       response%edp = motion%peak/mechanism%capacity
+      ! A peak that only rounding tells from the limit is a collapse too.
+      response%collapsed = response%collapsed .or. response%edp >= solver%edp_limit
       if (response%collapsed) response%edp = solver%edp_limit
       response%impacts = motion%impacts
       response%time_of_peak = motion%time_of_peak
 
       if (present(trace)) then
          if (ending == record_over) then
-            last = last + ceiling(trace_after/record%dt)
+            last = last + ceiling(min(trace_after/record%dt, most_after))
             call rock(mechanism, scene, record, last, motion, ending, trace)
          end if
          call trace%trim_rows()
@@ -278,8 +280,11 @@ contains
          else if (moment > 0.0_wp) then
             flight = 2.0_wp*motion%v*rest%inertia/moment
             if (flight <= shortest_motion*record%dt) ending = at_rest
-            if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
-               & motion%peak)) ending = at_rest
+            ! Only now and then where bounces have no number: each look may go through the whole record.
+            if (modulo(motion%impacts, rest%bounces_per_look) == 0) then
+               if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
+                  & motion%peak)) ending = at_rest
+            end if
          end if
       end associate
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)

@@ -196,7 +196,8 @@ contains
       else
          drop = mechanism%potential(slow) - mechanism%potential(slow + distance)
       end if
-      inverse_speed = sqrt(0.5_wp*inertia(mechanism, slow + distance)/max(excess + drop, tiny(drop)))
+      ! The root of the smallest number, so that the quotient stays finite.
+      inverse_speed = sqrt(0.5_wp*inertia(mechanism, slow + distance)/max(excess + drop, sqrt(tiny(drop))))
    end function slowness
 
    !> Inertia J at a rotation

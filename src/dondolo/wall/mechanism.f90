@@ -20,6 +20,8 @@ module dondolo_mechanism
       real(wp) :: capacity = 0.0_wp
       !> Speed after an impact / speed before it, 0 <= e < 1
       real(wp) :: restitution = 0.0_wp
+      !> Rotations between which the terms are defined; no step goes to them or beyond [rad]
+      real(wp) :: lowest = -huge(1.0_wp), highest = huge(1.0_wp)
    contains
       !> J, C, G, L and Q at a rotation
       procedure(terms_interface), deferred :: terms

@@ -15,8 +15,8 @@ module dondolo_two_block
    public :: two_block_type, new_two_block
    public :: two_block_sorrentino, two_block_impulse
 
-   !> Smallest cos(beta2)^2 that the terms are evaluated with: trial points of an integrator may leave
-   !> the geometry, where the terms must stay finite for the step to be rejected by its error
+   !> Smallest cos(beta2)^2 that the terms are evaluated with: it vanishes at the geometric end, next to which
+   !> the terms must stay finite
    real(wp), parameter :: smallest_square = 1.0e-9_wp
 
    !> Two blocks hinged to each other
@@ -65,6 +65,11 @@ contains
       mechanism%overburden = overburden
       mechanism%load_lever = lower%b - eccentricity
       mechanism%capacity = moment_root(mechanism)
+      ! A longer upper block never lies flat; else beta1 has the same bound to both sides.
+      if (upper%radius <= lower%radius) then
+         mechanism%highest = mechanism%geometric_end()
+         mechanism%lowest = 2.0_wp*lower%alpha - mechanism%highest
+      end if
       call restitution%speed_ratio(mechanism%restitution, error, &
          & sorrentino=two_block_sorrentino(lower, upper), impulse=two_block_impulse(lower, upper))
    end subroutine new_two_block

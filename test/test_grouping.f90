@@ -1,0 +1,78 @@
+!> Histories are independent: any number of threads and any grouping give the same responses to the bit.
+!>
+!> Arguments: number of random walls, and number of the first
+program test_grouping
+   use checks, only : check, check_ok, finish, suite
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_random, only : new_random, random_type
+   use dondolo_record, only : record_type
+   use dondolo_solver, only : solver_type
+   use dondolo_stripes, only : multiple_stripe, plan_stripes, run_histories, stripes_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   use random_history, only : across, argument, between, choice, random_record, random_solver, random_wall
+   use same_response, only : is_same
+   implicit none
+
+   integer :: i, walls, first
+
+   walls = argument(1, 25)
+   first = argument(2, 1)
+   call suite('threads and grouping')
+   do i = first, first + walls - 1
+      call test_wall(i)
+   end do
+   call finish()
+
+contains
+
+   !> Stripes of one random wall under random records
+   subroutine test_wall(number)
+      integer, intent(in) :: number
+      type(random_type) :: random
+      type(wall_type) :: wall
+      type(record_type) :: records(5)
+      type(solver_type) :: solver
+      type(stripes_type) :: one, other
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: what
+      integer, parameter :: threads(3) = [2, 3, 8]
+      real(wp) :: trigger, levels(6)
+      integer :: j, first, last, total
+
+      what = 'wall '//to_text(number)
+      random = new_random(10000 + number, 0)
+      do j = 1, 10
+         trigger = random%next()
+      end do
+      wall = random_wall(random)
+      trigger = min(wall%mechanism%trigger_acceleration(), 500.0_wp)
+      do j = 1, size(records)
+         records(j) = random_record(random, trigger, 1 + choice(random, 300))
+      end do
+      solver = random_solver(random, wall)
+      levels(1) = trigger/wall%gravity*across(random, 0.5_wp, 2.0_wp)
+      do j = 2, size(levels)
+         levels(j) = levels(j - 1)*between(random, 1.01_wp, 1.6_wp)
+      end do
+      call multiple_stripe(one, wall, records, levels, 'pga', 'both', solver, 1, error)
+      call check_ok(error, what)
+      do j = 1, size(threads)
+         call multiple_stripe(other, wall, records, levels, 'pga', 'both', solver, threads(j), error)
+         call check_ok(error, what)
+         call check(all(is_same(one%response, other%response)), what//' with '//to_text(threads(j))//' threads')
+      end do
+      call plan_stripes(other, wall, records, levels, 'pga', 'both', solver, error)
+      call check_ok(error, what)
+      total = size(other%response)
+      first = 1
+      do while (first <= total)
+         last = min(total, first + choice(random, total/2) - 1)
+         call run_histories(other, wall, records, solver, first, last, choice(random, 3))
+         first = last + 1
+      end do
+      call check(all(is_same(one%response, other%response)), what//' in pieces')
+   end subroutine test_wall
+
+end program test_grouping
