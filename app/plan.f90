@@ -77,22 +77,45 @@ contains
       !> The case
       type(case_type), intent(in) :: case
 
+      character(len=:), allocatable :: head
       integer :: i, width
 
+      head = ''
+      associate (measure => case%stripes%scaling%measure)
+         ! The PGA stands there anyway
+         if (allocated(case%values) .and. measure%kind /= 'pga') head = '  '//measure%name//' ['//measure%unit()//']'
+      end associate
       width = 6
       do i = 1, size(case%records)
          width = max(width, len(case%records(i)%name))
       end do
-      write (output_unit, '(a5, 2x, a, 4a11)') 'no.', left('record', width), 'samples', 'dt [s]', 'PGA [g]', &
-         & 'length [s]'
+      write (output_unit, '(a5, 2x, a, 4a11, a)') 'no.', left('record', width), 'samples', 'dt [s]', 'PGA [g]', &
+         & 'length [s]', head
       do i = 1, size(case%records)
          associate (record => case%records(i))
-            write (output_unit, '(i5, 2x, a, i11, f11.5, f11.4, f11.2)') i, left(record%name, width), &
-               & size(record%acceleration), record%dt, record%pga()/case%solver%gravity, record%duration()
+            write (output_unit, '(i5, 2x, a, i11, f11.5, f11.4, f11.2, a)') i, left(record%name, width), &
+               & size(record%acceleration), record%dt, record%pga()/case%solver%gravity, record%duration(), &
+               & intensity(case, i, len(head))
          end associate
       end do
       write (output_unit, '(a)') ''
    end subroutine print_records
+
+   !> Intensity of a record in the unit of the levels, at the right of a column
+   pure function intensity(case, record, width) result(text)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Width of the column; 0: there is none
+      integer, intent(in) :: width
+      !> Its text
+      character(len=width) :: text
+
+      text = ''
+      if (width > 0) text = rounded(case%values(record)/case%stripes%scaling%measure%level_size(case%solver%gravity))
+      text = adjustr(text)
+   end function intensity
 
    !> Print the largest scale factor
    subroutine print_largest_scale(case)

@@ -20,6 +20,8 @@ FloatArray = _binding.FloatArray
 
 # Levels of an analysis reach so many dispersions from the median, where 0.6 % and 99.4 % collapse
 _REACH = 2.5
+# A level of any measure that takes no record beyond all bounds
+_SMALL_LEVEL = 1e-6
 # A search for levels ends after so many stripes; from one to the next accelerations change by the square root of 2
 _LONGEST_SEARCH = 40
 
@@ -188,12 +190,13 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
         return int(outcome.collapsed.sum()), len(outcome.collapsed)
 
     # The search begins where half of the records reach the trigger acceleration.
-    _, plan = plan_at([1.0])
+    _, plan = plan_at([_SMALL_LEVEL])
     moving = plan.scale[0] > 0.0
     if not moving.any():
         raise InputError("records: all are without motion")
     power = _binding.describe_measure(im).power
-    start = float((wall.trigger_acceleration / np.median((plan.scale[0] * pga[plan.record])[moving])) ** power)
+    peaks = (plan.scale[0] * pga[plan.record])[moving]
+    start = _SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)
     tried = {start: collapses_at(start)}
     for step, is_end in ((1.0 / factor, lambda z, n: z == 0), (factor, lambda z, n: z >= moving.sum())):

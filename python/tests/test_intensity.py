@@ -190,6 +190,18 @@ def test_units_everywhere(records, wall, tmp_path):
     assert dd.plot_stripes(dd.multiple_stripe(wall, records[0], [2.0], "pga/a0")).get_xlabel().endswith("[-]")
 
 
+def test_files_of_the_executable(run, root, tmp_path):
+    text = (root / "data/cases/parapet.nml").read_text()
+    text = text.replace("im = 'pga'", "im = 'saavg(0.20:2.0)'").replace("../records", str(root / "data/records"))
+    (tmp_path / "case.nml").write_text(text)
+    assert run("--check", "case.nml").stdout.count(" saavg(0.2:2) [g]\n") == 1
+    assert run("case.nml").returncode == 0
+    prefix = tmp_path / dd.read_case(tmp_path / "case.nml").output
+    stored = dd.read_results(prefix)
+    assert stored.stripes.im == stored.fragility.im == dd.read_case(tmp_path / "case.nml").im == "saavg(0.2:2)"
+    assert dd.plot_stripes(stored.stripes).get_xlabel() == "average spectral acceleration, 0.2 to 2 s [g]"
+
+
 @pytest.fixture(scope="module")
 def comparison(wall, records):
     """Two names of one measure, an energy and a poor measure."""
