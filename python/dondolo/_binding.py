@@ -335,10 +335,14 @@ def read_walls(path: str | os.PathLike[str], gravity: float | None) -> tuple[lis
     return unpack_walls(parcel, count), parcel.reals[count * _WALL_REALS :]
 
 
-@functools.cache
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:
     """A measure that records can be scaled by, or one that they have of themselves."""
-    parcel = receive(*_core.describe_measure(as_text("im", im), int(of_record)))
+    return _describe_measure(as_text("im", im), of_record)
+
+
+@functools.cache
+def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
+    parcel = receive(*_core.describe_measure(im, int(of_record)))
     return MeasureData(*parcel.lines, power=int(parcel.integers[0]))
 
 
