@@ -25,13 +25,17 @@ def table(executable, wall, motions):
     )
     yield f"# {WALLS[wall]}"
     yield f"# {motions.catalogue.name}, PGA in g: {motions.stripes}"
-    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0}; edp_change: EDP at 100 times that less this EDP"
+    yield f"# dondolo in real128, rtol = {rtol}, atol = {rtol / 100.0:.0e}; edp_change: EDP at 100 times that less this"
     yield COLUMNS
     for row, other in zip(exact, wider, strict=True):
         change = Decimal(other["edp"]) - Decimal(row["edp"])
+        numbers = {"level": (row["im_level"], 4), "edp": (row["edp"], 20), "time": (row["time_of_peak_s"], 16)}
+        text = {
+            what: f"{Decimal(value):.{digits}g}" if float(value) else "0" for what, (value, digits) in numbers.items()
+        }
         yield (
-            f"{row['record']},{Decimal(row['im_level']):.4g},{Decimal(row['edp']):.20g},{row['collapsed']},"
-            f"{row['impacts']},{Decimal(row['time_of_peak_s']):.16g},{change:.1e}"
+            f"{row['record']},{text['level']},{text['edp']},{row['collapsed']},{row['impacts']},{text['time']},"
+            f"{float(change):.1e}"
         )
 
 

@@ -1,0 +1,186 @@
+!> Multiple stripes against the tables of test/reference: the same histories computed in 33 digits (./run reference).
+!>
+!> Recorded accelerograms are not part of dondolo: DONDOLO_RECORDS names their folder, ../shared/records if it is
+!> not set.
+program test_reference
+   use checks, only : check, check_close, check_ok, check_text, finish, skip, suite
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : record_type
+   use dondolo_simulate, only : simulate
+   use dondolo_response, only : response_type
+   use dondolo_solver, only : solver_type
+   use dondolo_stripes, only : multiple_stripe, stripes_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   implicit none
+
+   !> An EDP is wrong that is further off than this
+   real(wp), parameter :: largest_error = 1.0e-6_wp
+
+   integer :: i
+   real(wp), parameter :: recorded_levels(20) = [(0.05_wp*i, i=1, 20)], synthetic_levels(10) = [(0.1_wp*i, i=1, 10)]
+   type(record_type), allocatable :: records(:)
+   type(error_type), allocatable :: error
+   character(len=4096) :: folder
+   logical :: there
+
+   call read_catalogue('data/records/synthetic44.csv', records, error)
+   call check_ok(error, 'synthetic accelerograms')
+   call test_walls('synthetic', synthetic_levels)
+   call test_threads()
+
+   call suite('recorded accelerograms')
+   call get_environment_variable('DONDOLO_RECORDS', folder)
+   if (folder == '') folder = '../shared/records'
+   inquire (file=trim(folder)//'/italy44.csv', exist=there)
+   if (there) then
+      call read_catalogue(trim(folder)//'/italy44.csv', records, error)
+      call check_ok(error, 'recorded accelerograms')
+      call test_walls('recorded', recorded_levels)
+   else
+      call skip('no recorded accelerograms in '//trim(folder))
+   end if
+   call finish()
+
+contains
+
+   !> The walls that accuracy is judged on
+   function made(mechanism) result(wall)
+      character(len=*), intent(in) :: mechanism
+      type(wall_type) :: wall
+      type(wall_input_type) :: input
+
+      input%mechanism = mechanism
+      input%height = 3.0_wp
+      input%thickness = 0.25_wp
+      select case (mechanism)
+      case ('two_block')
+         input%hinge = 0.6_wp
+         input%restitution_factor = 0.87_wp
+      case ('free_standing')
+         input%height = 2.0_wp
+         input%thickness = 0.5_wp
+      end select
+      call new_wall(wall, input, error)
+      call check_ok(error, mechanism)
+   end function made
+
+   !> All tables of one set of accelerograms
+   subroutine test_walls(set, levels)
+      character(len=*), intent(in) :: set
+      real(wp), intent(in) :: levels(:)
+      character(len=13), parameter :: names(3) = [character(len=13) :: 'one_sided', 'two_block', 'free_standing']
+      integer :: j
+
+      do j = 1, 3
+         call suite(trim(names(j))//', '//set)
+         call test_table('test/reference/'//trim(names(j))//'_'//set//'.csv', made(trim(names(j))), levels)
+      end do
+   end subroutine test_walls
+
+   !> Read a table: EDP, flag and time of the peak of every history
+   subroutine read_table(path, levels, exact)
+      character(len=*), intent(in) :: path
+      real(wp), intent(in) :: levels(:)
+      type(response_type), allocatable, intent(out) :: exact(:, :)
+      type(csv_table_type) :: table
+      integer :: j, k, row
+
+      call read_csv(path, table, error)
+      call check_ok(error, path)
+      allocate(exact(size(records), size(levels)))
+      call check(.not. allocated(error) .and. table%rows() == size(exact), 'rows of '//path)
+      if (table%rows() /= size(exact)) call finish()
+      do k = 1, size(levels)
+         do j = 1, size(records)
+            row = (k - 1)*size(records) + j
+            exact(j, k)%edp = number(table, row, 'edp')
+            exact(j, k)%collapsed = number(table, row, 'collapsed') > 0.5_wp
+            exact(j, k)%time_of_peak = number(table, row, 'time_of_peak_s')
+            call check_text(table%get_text(row, table%column('record')), records(j)%name, 'record')
+            call check_close(number(table, row, 'im_level'), levels(k), 1.0e-12_wp, 'level')
+         end do
+      end do
+   end subroutine read_table
+
+   !> A number in a table
+   real(wp) function number(table, row, column)
+      type(csv_table_type), intent(in) :: table
+      integer, intent(in) :: row
+      character(len=*), intent(in) :: column
+
+      call table%get_real(row, table%column(column), number, error)
+      call check_ok(error, column)
+   end function number
+
+   !> One table, at default and at tight tolerances
+   subroutine test_table(path, wall, levels)
+      character(len=*), intent(in) :: path
+      type(wall_type), intent(in) :: wall
+      real(wp), intent(in) :: levels(:)
+      type(response_type), allocatable :: exact(:, :)
+      type(response_type) :: again
+      type(solver_type) :: solver
+      type(stripes_type) :: stripes
+      logical, allocatable :: wrong(:, :)
+      integer :: j, k
+
+      call read_table(path, levels, exact)
+
+      solver%estimate_error = .true.
+      call multiple_stripe(stripes, wall, records, levels, 'pga', 'as_recorded', solver, 2, error)
+      call check_ok(error, 'default tolerances')
+      associate (response => stripes%response)
+         call check(all(response%collapsed .eqv. exact%collapsed), 'every flag is right')
+         wrong = abs(response%edp - exact%edp) > largest_error
+         call check(100*count(wrong) <= size(wrong), to_text(count(wrong))//' of '//to_text(size(wrong))// &
+            & ' EDPs are off by more than 1e-6, one in a hundred may be')
+         call check(all(response%is_ill_conditioned() .or. .not. wrong), 'the estimate marks every one of them')
+         call check(.not. any(response%is_ill_conditioned() .and. abs(response%edp - exact%edp) < 0.1_wp*largest_error), &
+            & 'it does not cry wolf')
+         call check(all(abs(response%edp - exact%edp) <= 2.0_wp*response%edp_error + 1.0e-10_wp), &
+            & 'no error is more than twice its estimate')
+         ! A collapse in slow motion, or a wall that hardly moves, says little of the time.
+         call check(all(abs(response%time_of_peak - exact%time_of_peak) < 1.0e-5_wp .or. wrong .or. exact%collapsed &
+            & .or. exact%edp < largest_error), 'times of the peaks')
+      end associate
+
+      solver%rtol = 1.0e-12_wp
+      solver%atol = 1.0e-14_wp
+      solver%estimate_error = .false.
+      call multiple_stripe(stripes, wall, records, levels, 'pga', 'as_recorded', solver, 2, error)
+      call check_ok(error, 'tight tolerances')
+      call check(all(stripes%response%collapsed .eqv. exact%collapsed), 'every flag is right at rtol = 1e-12')
+      wrong = abs(stripes%response%edp - exact%edp) > largest_error
+      call check(count(wrong) <= 2, to_text(count(wrong))//' EDPs are off by more than 1e-6 at rtol = 1e-12, two may be')
+      solver%estimate_error = .true.
+      do k = 1, size(levels)
+         do j = 1, size(records)
+            if (.not. wrong(j, k)) cycle
+            call simulate(wall%mechanism, records(j), stripes%scale(j, k), solver, again)
+            call check(again%is_ill_conditioned(), 'the estimate marks them')
+         end do
+      end do
+   end subroutine test_table
+
+   !> One thread and several give the same to the bit
+   subroutine test_threads()
+      type(stripes_type) :: one, several
+      type(wall_type) :: wall
+      integer :: threads
+
+      call suite('threads')
+      wall = made('one_sided')
+      call multiple_stripe(one, wall, records, synthetic_levels, 'pga', 'both', solver_type(), 1, error)
+      do threads = 2, 5
+         call multiple_stripe(several, wall, records, synthetic_levels, 'pga', 'both', solver_type(), threads, error)
+         call check(all(one%response%edp == several%response%edp) .and. &
+            & all(one%response%time_of_peak == several%response%time_of_peak) .and. &
+            & all(one%response%impacts == several%response%impacts), to_text(threads)//' threads')
+      end do
+   end subroutine test_threads
+
+end program test_reference
