@@ -235,7 +235,7 @@ def test_wrong_comparisons(wall, few):
         dd.compare_intensities(wall, few, ["sa(0.5)", "sa(0.50)"])
     with pytest.raises(dd.InputError, match="im = 'x': must be one of"):
         dd.compare_intensities(wall, few, ["x"])
-    with pytest.raises(dd.InputError, match="im: must be a text"):
+    with pytest.raises(dd.InputError, match="must be a text"):
         dd.compare_intensities(wall, few, [["pga"]])
     with pytest.raises(dd.InputError, match="levels = 1: must be"):
         dd.compare_intensities(wall, few, ["pga"], levels=1)
