@@ -5,7 +5,7 @@ module kept_histories
    use dondolo_kinds, only : wp
    use dondolo_record, only : largest_acceleration, new_record
    use dondolo_wall, only : new_wall, wall_input_type
-   use random_history, only : history_type
+   use random_history, only : history_type, new_history
    implicit none
    private
 
@@ -28,14 +28,13 @@ contains
 
       select case (number)
       case (1)
-         what = 'a trial step beyond the geometry overflowed'
+         what = 'a trial step went beyond the geometry and overflowed'
          call wall('two_block', hinge=0.9_wp)
          call record(98.1_wp*wave, 0.05_wp)
       case (2)
          what = 'the same with the largest acceleration'
          call wall('two_block', hinge=0.95_wp)
          call record(largest_acceleration*spike, 0.05_wp)
-         history%solver%edp_limit = 1.0_wp
       case (3)
          what = 'a limit one bit below the geometric end'
          call wall('two_block', hinge=0.7_wp)
@@ -45,16 +44,14 @@ contains
       case (4)
          what = 'every bounce went through the whole record, 24 s'
          call wall('one_sided', restitution=0.9999_wp)
-         call record([-0.82_wp, -0.9176_wp, (-0.8_wp, i=1, 50000), 3.0_wp], 0.01_wp)
+         call record([-0.82_wp, -0.9176_wp, (-0.8_wp, i=1, 70000), 3.0_wp], 0.01_wp)
       case (5)
          what = 'bounces without number'
          call wall('free_standing', restitution=1.0_wp - 1.0e-6_wp)
          call record([-0.82_wp, -0.9176_wp, (0.0_wp, i=1, 1000), 3.0_wp], 0.01_wp)
       case (6)
-         what = 'a motion without size: the time of its late peak overflowed'
-         call wall('free_standing')
-         trigger = history%wall%mechanism%trigger_acceleration()
-         call record([trigger, (1.0_wp + epsilon(trigger))*trigger], 1.0e-6_wp)
+         what = 'the time of a late peak overflowed, with the limit at the peak'
+         history = new_history(808)
       case (7)
          what = 'a limit that is next to nothing'
          call wall('free_standing')

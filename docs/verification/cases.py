@@ -33,18 +33,24 @@ def motions(records):
     return sets
 
 
+def write_case(folder, wall, motions, rtol, threads=1, solver=""):
+    """Write the case of all histories of a wall into a folder; its path."""
+    path = Path(folder) / "case.nml"
+    path.write_text(
+        f"&job task = 'stripes' output = '{folder}/result' threads = {threads} /\n"
+        f"&wall {WALLS[wall]} /\n"
+        f"&records catalogue = '{motions.catalogue}' /\n"
+        f"&stripes {motions.stripes} /\n"
+        f"&solver rtol = {rtol} atol = {rtol / 100.0} {solver} /\n",
+        encoding="utf-8",
+    )
+    return path
+
+
 def run(executable, wall, motions, rtol, threads=1, solver=""):
     """Run all histories of a wall; the rows of the tables of histories, stripes and fit, and what was printed."""
     with tempfile.TemporaryDirectory() as folder:
-        case = Path(folder) / "case.nml"
-        case.write_text(
-            f"&job task = 'stripes' output = '{folder}/result' threads = {threads} /\n"
-            f"&wall {WALLS[wall]} /\n"
-            f"&records catalogue = '{motions.catalogue}' /\n"
-            f"&stripes {motions.stripes} /\n"
-            f"&solver rtol = {rtol} atol = {rtol / 100.0} {solver} /\n",
-            encoding="utf-8",
-        )
+        case = write_case(folder, wall, motions, rtol, threads, solver)
         printed = subprocess.run([executable, case], check=True, capture_output=True, text=True).stdout
         names = ("histories", "stripes", "fragility")
         return {name: read_table(f"{folder}/result_{name}.csv") for name in names} | {"printed": printed}

@@ -1,0 +1,198 @@
+"""What shortcuts do to the results, and which tests verify the rest."""
+
+import figures
+from cases import ROOT
+from histories import Errors
+from markdown import bullets, paragraph, small, table
+from sections_accuracy import LARGE, SHARE, demand
+from sections_flags import shifts, signed
+from study import DEFAULT
+
+NONE, ALL = "none", "all of these"
+
+MEANINGS = [
+    "*none*: a check of the study itself, which must be as close to the reference as dondolo is.",
+    "*rest below 1e-3 of the capacity*: a rebound that would rise less than that in still ground is rest. dondolo "
+    "sets a "
+    "wall to rest only where its chain of bounces provably ends there.",
+    "*rocking starts at the next sample* instead of inside the interval.",
+    "*impact at the end of its step*: q = 0 and the restitution are applied where a step ends with q < 0.",
+    "*peak of the samples*, or of every 0.01 s, which is every second sample here: peak and collapse are not located.",
+    "*steps across samples*: the step follows the error only, and interpolates the accelerogram.",
+    "*nothing after the record*: the EDP is that at the last sample.",
+    "*all of these*, with rest below 1e-4 of the capacity and the peak of every 0.01 s.",
+]
+
+TESTS = [
+    (
+        "Free fall and free rocking of a block, linear and nonlinear; Housner's amplitudes; a one-sided chain of "
+        "bounces",
+        "Housner 1963; closed forms",
+        "test_motion",
+        ("free fall", "free rocking"),
+    ),
+    (
+        "Rectangular, half-sine, one-sine and one-cosine pulses that overturn without impact",
+        "closed forms after Makris and Roussos 2000, Zhang and Makris 2001",
+        "test_pulses",
+        ("rectangular pulses", "pulses without impact"),
+    ),
+    (
+        "Overturning with impacts, the safe window above it, overturning without impact",
+        "Zhang and Makris 2001, figures 7 and 8",
+        "test_pulses",
+        ("one-sine pulse with impacts",),
+    ),
+    (
+        "Published overturning accelerations, the strongest case to 1e-8",
+        "Makris and Roussos 2000, figures 2 and 11; a public code",
+        "test_pulses",
+        ("published overturning",),
+    ),
+    (
+        "Orders of convergence: steps, embedded error, dense output, instants of impacts, whole histories",
+        "theory of the method",
+        "test_convergence",
+        ("equal steps", "one step", "dense output", "instant of impact", "whole histories"),
+    ),
+    (
+        "Energy between and across impacts, work of the ground",
+        "balance of energy",
+        "test_energy",
+        ("free rocking", "energy at impacts", "work of the ground"),
+    ),
+    (
+        "Dips and peaks inside a step, events exactly on a sample, starts and ends at the edge, grazing",
+        "closed forms, continuity",
+        "test_events",
+        ("a dip inside a step", "an impact on a sample", "a touch of the threshold", "a grazing impact"),
+    ),
+    (
+        "Chains of bounces: sums, time to rest, the rule that ends them",
+        "closed sums; every bounce integrated",
+        "test_chains",
+        ("time to rest", "sums of bounces", "the rule that ends chains", "the worst chain"),
+    ),
+    ("The motion after the record", "stepping on", "test_tail", ("after the record", "free motion")),
+    (
+        "Coefficients of every mechanism, restitutions",
+        "computed independently, 15 digits",
+        "test_wall",
+        ("one block, H = 3, t = 0.25", "two blocks, H = 3, t = 0.25, hinge 0.6", "models of restitution"),
+    ),
+    (
+        "Two blocks hinged at mid height: trigger, inertia, capacity, impulse restitution",
+        "closed forms, published values",
+        "test_wall",
+        ("two blocks hinged at mid height",),
+    ),
+    ("C = J'/2 and G - Q = V'", "energy", "test_wall", ("C = J''/2 and G - Q = V''",)),
+    (
+        "Fits of fragility curves, their standard errors and likelihood",
+        "closed form; two public data sets",
+        "test_fragility",
+        ("two stripes", "published data"),
+    ),
+    (
+        "Random walls, accelerograms, scales, tolerances and limits; every history that once failed",
+        "properties",
+        "test_stress",
+        ("exact thresholds", "kept histories", "random histories", "long records"),
+    ),
+    (
+        "Any number of threads, any grouping of histories",
+        "equality to the bit",
+        "test_grouping",
+        ("threads and grouping",),
+    ),
+    ("The tables of section 1", "the same sources in 33 digits", "test_reference", ("recorded accelerograms",)),
+]
+
+
+def shortcut_errors(study):
+    """{wall: {shortcut: errors}}, the study's own motion checked first."""
+    found = {
+        wall: {name: Errors(run, study.exact[wall, "recorded"]) for name, run in runs.items()}
+        for wall, runs in study.shortcuts.items()
+    }
+    for wall, each in found.items():
+        exact = each[NONE]
+        demand(
+            exact.flags() == 0 and exact.above(LARGE) <= SHARE * len(exact.edp),
+            f"{wall}: without shortcuts the study has dondolo's results",
+        )
+    return found
+
+
+def shortcuts(study):
+    """Section 6."""
+    found = shortcut_errors(study)
+    figures.shortcuts(found)
+    lines = [
+        "## 6. What shortcuts cost",
+        "",
+        *paragraph(
+            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion by a loop of "
+            "its own, "
+            "and takes the shortcuts that programs of this kind take, one at a time, at the default tolerances on the "
+            "recorded set."
+        ),
+        *bullets(MEANINGS),
+        "![wrong flags and EDPs of each shortcut](figures/verification_shortcuts.png)",
+        "",
+    ]
+    for wall, each in found.items():
+        exact = study.exact[wall, "recorded"].fit()
+        rows = []
+        for name, errors in [("dondolo", study.errors(wall, "recorded", DEFAULT)), *each.items()]:
+            run = study.runs[wall, "recorded", DEFAULT] if name == "dondolo" else study.shortcuts[wall][name]
+            fit = run.fit()
+            by_theta, by_beta = shifts(fit, exact)
+            rows.append(
+                [
+                    name,
+                    errors.flags(),
+                    errors.above(1e-6),
+                    errors.above(1e-3),
+                    small(errors.worst()),
+                    small(errors.quantile(0.5)),
+                    f"{fit.theta:.4f} ({signed(by_theta)})",
+                    f"{fit.beta:.4f} ({signed(by_beta)})",
+                ]
+            )
+        lines += paragraph(f"`{wall}`, {len(errors.edp)} histories; in brackets the shift in standard errors")
+        lines += table(["shortcut", "wrong flags", "> 1e-6", "> 1e-3", "worst", "median", "θ, g", "β"], rows)
+    harmless = [name for name in next(iter(found.values())) if not any(each[name].flags() for each in found.values())]
+    harmless = ", ".join(f"*{name}*" for name in harmless if name != NONE)
+    return lines + paragraph(
+        f"Without a wrong flag here: {harmless or 'none of them'}. These recordings go on until the walls are still; "
+        f"what "
+        "happens after the record matters where one was cut short. A curve hides much of what is lost: wrong flags "
+        "of both "
+        "kinds cancel in θ."
+    )
+
+
+def tests():
+    """Section 7; the tests that it names must be there."""
+    rows = []
+    for what, source, program, suites in TESTS:
+        text = (ROOT / "test" / f"{program}.f90").read_text(encoding="utf-8")
+        for suite in suites:
+            demand(f"call suite('{suite}')" in text, f"{program} has a suite '{suite}'")
+        rows.append([what, source, f"[{program}](../test/{program}.f90)"])
+    path = "python/tests/test_independent.py"
+    demand((ROOT / path).is_file(), f"{path} is there")
+    rows.append(
+        [
+            "Coefficients, accelerations, restitutions, whole histories",
+            "rigid bodies with hinges, solved by SciPy",
+            f"[test_independent](../{path})",
+        ]
+    )
+    return [
+        "## 7. Verified by tests",
+        "",
+        *paragraph("`./run test` runs them all."),
+        *table(["what", "against", "where"], rows),
+    ]

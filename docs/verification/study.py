@@ -1,0 +1,97 @@
+"""Every run that docs/verification.md reports."""
+
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from cases import TABLES, WALLS, motions, read_table, run, write_case
+from histories import Errors, Histories
+
+TOLERANCES = [10.0**-digits for digits in range(3, 14)]
+DEFAULT, TIGHT = 1e-8, 1e-12
+REPEATS = 3
+
+
+@dataclass
+class Study:
+    """Results by (wall, set) and by what was varied."""
+
+    exact: dict = field(default_factory=dict)  # (wall, set): histories of the reference
+    made_with: dict = field(default_factory=dict)  # (wall, set): the line of the reference that says how it was made
+    runs: dict = field(default_factory=dict)  # (wall, set, rtol): histories
+    milliseconds: dict = field(default_factory=dict)  # (wall, set, rtol): time per history
+    estimated: dict = field(default_factory=dict)  # (wall, set, rtol): histories with estimated errors
+    shortcuts: dict = field(default_factory=dict)  # wall: {shortcut: histories}
+
+    def errors(self, wall, name, rtol):
+        """Errors of a run."""
+        return Errors(self.runs[wall, name, rtol], self.exact[wall, name])
+
+    def pairs(self):
+        """Walls and sets, the recorded set first."""
+        return list(self.exact)
+
+    def recorded(self):
+        """The same, recorded set only."""
+        return [pair for pair in self.pairs() if pair[1] == "recorded"]
+
+    def estimate_errors(self, wall, name, rtol):
+        """Errors of a run with estimated errors."""
+        return Errors(self.estimated[wall, name, rtol], self.exact[wall, name])
+
+
+def collect(executable, shortcuts, records):
+    """Run everything."""
+    sets = motions(records)
+    if "recorded" not in sets:
+        sys.exit(f"verification: {Path(records) / 'italy44.csv'} is not there; DONDOLO_RECORDS names its folder")
+    study = Study()
+    for name in sets:
+        for wall in WALLS:
+            read_reference(study, wall, name)
+    # Tolerance by tolerance and again from the start, so that a disturbance does not fall on one of them.
+    seconds = {}
+    for repeat in range(REPEATS):
+        for wall, name in study.pairs():
+            for rtol in TOLERANCES:
+                result = run(executable, wall, sets[name], rtol)
+                study.runs[wall, name, rtol] = Histories.of(result["histories"])
+                found = re.search(r"histories in +(\S+) s", result["printed"]).group(1)
+                seconds.setdefault((wall, name, rtol), []).append(float(found))
+            print(f"round {repeat + 1} of {REPEATS}: {wall}, {name}", file=sys.stderr)
+    for key, values in seconds.items():
+        study.milliseconds[key] = 1e3 * statistics.median(values) / len(study.runs[key])
+    for key in study.runs:
+        if key[2] == DEFAULT or study.errors(*key).flags():
+            result = run(executable, key[0], sets[key[1]], key[2], solver="estimate_error = .true.")
+            study.estimated[key] = Histories.of(result["histories"])
+    for wall in WALLS:
+        study.shortcuts[wall] = run_shortcuts(shortcuts, wall, sets["recorded"])
+        print(f"shortcuts: {wall}", file=sys.stderr)
+    return study
+
+
+def read_reference(study, wall, name):
+    """Read a table of test/reference."""
+    path = TABLES / f"{wall}_{name}.csv"
+    if not path.is_file():
+        sys.exit(f"verification: {path} is not there; ./run reference makes it")
+    study.exact[wall, name] = Histories.of(read_table(path))
+    with open(path, encoding="utf-8") as file:
+        study.made_with[wall, name] = next(line for line in file if "real128" in line)
+
+
+def run_shortcuts(executable, wall, motions):
+    """Histories of every shortcut at the default tolerances."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = Path(folder) / "shortcuts.csv"
+        with open(table, "w", encoding="utf-8") as file:
+            subprocess.run([executable, write_case(folder, wall, motions, DEFAULT)], check=True, stdout=file)
+        rows = {}
+        for row in read_table(table):
+            rows.setdefault(row["shortcut"], []).append(row)
+    return {name: Histories.of(each) for name, each in rows.items()}
