@@ -36,7 +36,8 @@ contains
          return
       end if
       levels = size(case%stripes%levels)
-      write (output_unit, '(a)') to_text(levels)//' levels of '//case%stripes%im//':'//list(case%stripes%levels)
+      write (output_unit, '(a)') to_text(levels)//' levels of '//case%stripes%scaling%name//':'// &
+         & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
       total = 0
       do i = 1, size(case%population%walls)
          total = total + levels*case%histories(i)
@@ -81,7 +82,15 @@ contains
       type(lines_type) :: table
       integer :: i
 
-      table = record_table(case%records, case%solver%gravity)
+      associate (scaling => case%stripes%scaling)
+         ! The PGA stands there anyway
+         if (allocated(case%values) .and. scaling%measure%kind /= 'pga') then
+            table = record_table(case%records, case%solver%gravity, scaling%measure%name, scaling%measure%unit(), &
+               & case%values/scaling%measure%level_size(case%solver%gravity))
+         else
+            table = record_table(case%records, case%solver%gravity)
+         end if
+      end associate
       do i = 1, table%count
          write (output_unit, '(a)') table%line(i)%text
       end do
@@ -94,15 +103,17 @@ contains
       type(case_type), intent(in) :: case
 
       real(wp) :: scale, largest
-      integer :: i, at
+      integer :: i, j, at
 
       largest = 0.0_wp
       at = 1
       do i = 1, size(case%records)
-         scale = case%scale_to(i, case%stripes%levels(size(case%stripes%levels)))
-         if (scale <= largest) cycle
-         largest = scale
-         at = i
+         do j = 1, size(case%population%walls)
+            scale = case%scale_to(j, i, case%stripes%levels(size(case%stripes%levels)))
+            if (scale <= largest) cycle
+            largest = scale
+            at = i
+         end do
       end do
       write (output_unit, '(a)') 'largest scale factor: '//rounded(largest)//' (record '''//case%records(at)%name// &
          & ''' at the highest level)'

@@ -117,22 +117,23 @@ contains
       !> Its results
       type(results_type), intent(in) :: results
 
-      character(len=12) :: level
+      character(len=:), allocatable :: head
       character(len=120) :: line
       character(len=24) :: counts
       real(wp) :: fraction
       integer :: j
 
-      write (output_unit, '(2a12, a10)') case%stripes%im//unit_of(case%stripes%im), 'collapses', 'fraction'
+      head = head_of_levels(case)
+      write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
-         level = rounded(case%stripes%levels(j))
          counts = to_text(results%collapses(j, 1))//'/'//to_text(results%histories(1))
          fraction = real(results%collapses(j, 1), wp)/real(results%histories(1), wp)
-         write (line, '(2a12, f10.3, 2x, a)') adjustr(level), trim(adjustl(counts)), fraction, bar(fraction)
+         write (line, '(a, a12, f10.3, 2x, a)') right(rounded(case%stripes%levels(j)), len(head)), &
+            & trim(adjustl(counts)), fraction, bar(fraction)
          write (output_unit, '(a)') trim(line)
       end do
       write (output_unit, '(a)') ''
-      call print_fit(results%fragility(1), unit_of(case%stripes%im))
+      call print_fit(results%fragility(1), case%stripes%scaling%unit_after_blank())
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%stripes%response%edp_error))
    end subroutine print_stripes
@@ -141,7 +142,7 @@ contains
    subroutine print_fit(curve, unit)
       !> The curve
       type(fragility_type), intent(in) :: curve
-      !> Unit of the levels
+      !> Unit of the levels with a blank before it
       character(len=*), intent(in) :: unit
 
       if (curve%has_fit()) then
@@ -161,13 +162,14 @@ contains
       type(results_type), intent(in) :: results
 
       character(len=30) :: name
-      character(len=10) :: theta, beta
+      character(len=12) :: theta
+      character(len=10) :: beta
       integer :: i, walls
 
       walls = size(case%population%walls)
       name = 'wall'
-      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', 'theta'//unit_of(case%stripes%im), 'beta', &
-         & 'status'
+      theta = 'theta'//case%stripes%scaling%unit_after_blank()
+      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', trim(theta), 'beta', 'status'
       do i = 1, min(walls, shown_rows)
          name = case%population%walls(i)%input%name
          theta = '-'
@@ -178,7 +180,7 @@ contains
                beta = rounded(curve%beta)
             end if
             write (output_unit, '(a, a15, 2a10, 2x, a)') name, case%population%walls(i)%input%mechanism, &
-               & adjustr(theta), adjustr(beta), trim(curve%status)
+               & trim(theta), adjustr(beta), trim(curve%status)
          end associate
       end do
       if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
@@ -192,16 +194,16 @@ contains
       !> Its results
       type(results_type), intent(in) :: results
 
-      character(len=12) :: level
+      character(len=:), allocatable :: head
       character(len=120) :: line
       integer :: i, j
 
+      head = head_of_levels(case)
       associate (typology => results%typologies(size(results%typologies)))
-         write (output_unit, '(a12, a15, a12)') case%stripes%im//unit_of(case%stripes%im), 'mean fraction', 'mean curve'
+         write (output_unit, '(a, a15, a12)') head, 'mean fraction', 'mean curve'
          do j = 1, size(typology%levels)
-            level = rounded(typology%levels(j))
-            write (line, '(a12, f15.3, f12.3, 2x, a)') adjustr(level), typology%mean_fraction(j), &
-               & typology%mean_curve(j), bar(typology%mean_curve(j))
+            write (line, '(a, f15.3, f12.3, 2x, a)') right(rounded(typology%levels(j)), len(head)), &
+               & typology%mean_fraction(j), typology%mean_curve(j), bar(typology%mean_curve(j))
             write (output_unit, '(a)') trim(line)
          end do
          write (output_unit, '(a)') ''
@@ -210,7 +212,8 @@ contains
          associate (mechanism => results%typologies(i)%mechanism, fit => results%typologies(i)%fit)
             if (fit%has_fit()) then
                write (output_unit, '(a)') 'population, '//mechanism//': theta = '//rounded(fit%theta)// &
-                  & unit_of(case%stripes%im)//', beta = '//rounded(fit%beta)//', status '//trim(fit%status)
+                  & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(fit%beta)//', status '// &
+                  & trim(fit%status)
             else
                write (output_unit, '(a)') 'population, '//mechanism//': no fragility curve, status '//trim(fit%status)
             end if
@@ -228,15 +231,27 @@ contains
       bar = repeat('#', nint(fraction*real(bar_width, wp)))
    end function bar
 
-   !> Unit of the levels of an intensity measure
-   pure function unit_of(im) result(unit)
-      !> Intensity measure
-      character(len=*), intent(in) :: im
-      !> ' g', or empty where levels are in SI units
-      character(len=:), allocatable :: unit
+   !> Head of a column of levels: the measure and its unit
+   pure function head_of_levels(case) result(head)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Head, at least as wide as a number
+      character(len=:), allocatable :: head
 
-      unit = ''
-      if (im == 'pga') unit = ' g'
-   end function unit_of
+      head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
+      head = right(head, max(12, len(head) + 1))
+   end function head_of_levels
+
+   !> A text at the right of a column
+   pure function right(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width
+      integer, intent(in) :: width
+      !> Blanks and the text
+      character(len=width) :: right
+
+      right = repeat(' ', max(0, width - len(text)))//text
+   end function right
 
 end module dondolo_summary

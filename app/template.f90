@@ -47,8 +47,10 @@ module dondolo_template
    !> The stripes
    character(len=*), parameter :: stripes_lines(*) = [character(len=118) :: &
       & '&stripes', &
-      & '   im = ''pga''                                    ! intensity measure', &
-      & '   levels = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8    ! required: increasing, g for pga', &
+      & '   im = ''pga''                                    ! intensity measure; also ''sa(0.5)'', ''saavg(0.2:2)''', &
+      & '                                                 ! (periods in s; levels in g), ''pgv'', ''arias'', ''cav''', &
+      & '                                                 ! (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)', &
+      & '   levels = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8    ! required: increasing, in the unit of im', &
       & '   ! first = 0.1, last = 0.8, count = 8          ! or instead: equally spaced, both ends included', &
       & '/']
 

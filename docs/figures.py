@@ -1,4 +1,4 @@
-"""Draw the figures of the README and of docs/processing.md into docs/figures.
+"""Draw the figures of the README and of docs into docs/figures.
 
 The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only where
 those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set.
@@ -32,6 +32,7 @@ from sabetta_pugliese import Model, mean_frequency  # noqa: E402
 def main() -> None:
     """Draw all figures."""
     quick_start()
+    intensities()
     mechanisms()
     processing()
     pulses()
@@ -54,6 +55,14 @@ def quick_start():
     dd.plot_stripes(stripes, axes[0])
     dd.plot_fragility(stripes.fit(), stripes, axes[1])
     figure.savefig(figures / "quick_start.png", dpi=100)
+
+
+def intensities():
+    """How well each intensity measure predicts collapse."""
+    wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+    ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
+    axes = dd.plot_intensities(dd.compare_intensities(wall, records, ims))
+    axes[0].figure.savefig(figures / "intensity_measures.png", dpi=100)
 
 
 def mechanisms():

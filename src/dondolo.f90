@@ -18,7 +18,8 @@ module dondolo
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_intensity, only : im_names, intensity, level_unit
+   use dondolo_ground_motion, only : ground_displacement, ground_velocity
+   use dondolo_intensity, only : im_names, measure_type, new_measure
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_metadata, only : entry_type, metadata_type
@@ -27,7 +28,9 @@ module dondolo
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_response, only : response_type, trace_type
+   use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_run_case, only : results_type, run_case
+   use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
    use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
    use dondolo_stripes, only : multiple_stripe, polarity_names, progress_interface, stripes_type
@@ -42,7 +45,8 @@ module dondolo
    ! Accelerograms
    public :: record_type, new_record, read_record, read_records, read_catalogue, synthetic_record
    public :: metadata_type, entry_type
-   public :: im_names, intensity, level_unit
+   public :: im_names, measure_type, new_measure, ground_velocity, ground_displacement
+   public :: spectral_displacement, pseudo_acceleration
    ! Walls
    public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type
    ! Motion
@@ -50,6 +54,7 @@ module dondolo
    public :: simulate, response_type, trace_type
    ! Fragility
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface
+   public :: scaling_type, new_scaling, scaling_names
    public :: fragility_type, fit_fragility, typology_type, combine_population
    ! Cases
    public :: case_type, read_case, results_type, run_case, check_reports, write_reports

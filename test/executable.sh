@@ -172,6 +172,35 @@ run grid.nml
 check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1 /'
 rm -rf out
 
+# Every intensity measure, with its unit in the files and in the summary
+for pair in pga:g 'sa(0.5):g' 'saavg(0.2,2):g' pgv:m/s arias:m/s cav:m/s pgd:m hi:m pga/a0:1 'p*pgv/a0:1'; do
+   im=${pair%:*} unit=${pair##*:}
+   im=${im/,/:}
+   sed "s|'pga'|'$im'|; s/'both'/'reversed'/" good.nml >im.nml
+   run im.nml
+   check "$im: exit code" equal "$rc" 0
+   check "$im: name in the rows" equal "$(grep -v '^#' out/deep/wall_stripes.csv | awk -F, 'NR == 2 { print $4 }')" "$im"
+   check "$im: unit in the head" contains out/deep/wall_fragility.csv "# unit of im_level and theta: $unit"
+   [ "$unit" = 1 ] || check "$im: unit in the summary" contains stdout " $im $unit "
+   run --check im.nml
+   [ "$im" = arias ] && check "$im: intensity of the records in the plan" contains stdout 'length [s]  arias [m/s]'
+   check "$im: unit in the plan" contains stdout "5 levels of $im: 0.1 0.2 0.4 0.6 1"
+   rm -rf out
+done
+{ good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/; s/'pga'/'arias'/"; echo "&history record = 3, im_level = 0.4 /"; } \
+   >arias.nml
+run arias.nml
+check "Arias intensity of the history" equal \
+   "$(grep -v '^#' out/deep/wall_history.csv | awk -F, 'NR > 1 && $1 <= 3.9900001 { s += (($1 - t) * (a * a + a * $2 + $2 * $2)) / 3; t = $1; a = $2 }
+      END { printf "%.4f", s * 3.14159265 / 2 / 9.81 }')" 0.4000
+rm -rf out
+population_case | sed "s|levels = .*|im = 'pga/a0', levels = 1.2, 2, 4, 8 /|" >people.nml
+population >walls.csv
+run people.nml
+check "population by pga/a0: exit code" equal "$rc" 0
+check "population by pga/a0: summary" contains stdout '      pga/a0  mean fraction'
+rm -rf out
+
 population_case >people.nml
 population >walls.csv
 run people.nml
@@ -417,7 +446,11 @@ s/'records.records.csv'/''/|bad.nml: &records: catalogue = '': must name a CSV t
 s/^ *catalogue.*//|bad.nml: &records: catalogue: must be given
 s/'both'/'backwards'/|bad.nml: &records: polarity = 'backwards': must be one of 'as_recorded', 'reversed', 'both'
 s/'records.records.csv'/'good.nml'/|good.nml: 
-s/'pga'/'pgx'/|bad.nml: &stripes: im = 'pgx': must be one of 'pga'
+s/'pga'/'pgx'/|bad.nml: &stripes: im = 'pgx': must be one of 'pga', 'pgv', 'pgd', 'arias', 'cav', 'hi', 'sa(T)', 'saavg(T1:T2)', 'pga/a0', 'p*pgv/a0'; T in s
+s/'pga'/'sa(0,5)'/|bad.nml: &stripes: im = 'sa(0,5)': must be one of 'pga'
+s/'pga'/'sa(30)'/|bad.nml: &stripes: im = 'sa(30)': must be one of 'pga'
+s/'pga'/'d5-95'/|bad.nml: &stripes: im = 'd5-95': a duration stays as it is when a record is scaled
+s/'pga'/'arias'/;s/0.6, 1.0/0.6, 1e9/|bad.nml: &stripes: levels = 1000000000: scales record
 s/0.1, 0.2/0.2, 0.1/|bad.nml: &stripes: levels = 0.2, 0.1: must increase strictly
 s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly
 s/0.1, 0.2/-0.1, 0.2/|bad.nml: &stripes: levels = -0.1: must be positive

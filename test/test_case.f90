@@ -139,7 +139,7 @@ contains
       call check_text(case%job%title, '', 'title')
       call check(case%job%threads == 0, 'threads')
       call check_text(case%records_input%polarity, 'as_recorded', 'polarity')
-      call check_text(case%stripes%im, 'pga', 'im')
+      call check_text(case%stripes%scaling%name, 'pga', 'im')
       call check_text(trim(case%solver%solver%engine), 'auto', 'engine')
       call check_close(case%solver%gravity, 9.81_wp, 0.0_wp, 'gravity')
       call check_close(case%solver%solver%edp_limit, 1.0_wp, 0.0_wp, 'edp_limit')
@@ -152,7 +152,7 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
          & 'gravity enters the wall')
-      call check_close(case%scale_to(1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
+      call check_close(case%scale_to(1, 1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
    end subroutine test_defaults
 
    !> Levels from a grid

@@ -7,8 +7,9 @@ program test_grouping
    use dondolo_kinds, only : wp
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
+   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : multiple_stripe, plan_stripes, run_histories, stripes_type
+   use dondolo_stripes, only : measure_records, multiple_stripe, plan_stripes, run_histories, stripes_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    use random_history, only : across, argument, between, choice, random_record, random_solver, random_wall
@@ -34,6 +35,7 @@ contains
       type(wall_type) :: wall
       type(record_type) :: records(5)
       type(solver_type) :: solver
+      type(scaling_type) :: scaling
       type(stripes_type) :: one, other
       type(error_type), allocatable :: error
       character(len=:), allocatable :: what
@@ -63,7 +65,10 @@ contains
          call check_ok(error, what)
          call check(all(is_same(one%response, other%response)), what//' with '//to_text(threads(j))//' threads')
       end do
-      call plan_stripes(other, wall, records, levels, 'pga', 'both', solver, error)
+      call new_scaling(scaling, 'pga', error)
+      call check_ok(error, what)
+      call plan_stripes(other, wall, records, levels, scaling, measure_records(scaling%measure, records, 1), 'both', &
+         & solver, error)
       call check_ok(error, what)
       total = size(other%response)
       first = 1

@@ -11,11 +11,20 @@ from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
+from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.motion import Response, simulate
 from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
-from dondolo.plots import plot_fragility, plot_history, plot_overturning_spectrum, plot_stripes, plot_typology
+from dondolo.plots import (
+    plot_fragility,
+    plot_history,
+    plot_intensities,
+    plot_overturning_spectrum,
+    plot_stripes,
+    plot_typology,
+)
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
@@ -38,6 +47,7 @@ __all__ = [
     "FreeStandingWall",
     "Group",
     "InputError",
+    "IntensityComparison",
     "Interrupted",
     "OneSidedWall",
     "OverturningSpectrum",
@@ -46,6 +56,7 @@ __all__ = [
     "Response",
     "Results",
     "RotD",
+    "Spectrum",
     "State",
     "StoredResults",
     "Stripes",
@@ -58,8 +69,10 @@ __all__ = [
     "animate_history",
     "band_pass",
     "compare",
+    "compare_intensities",
     "correct_baseline",
     "fit_fragility",
+    "intensity_table",
     "mavroeidis_papageorgiou",
     "multiple_stripe",
     "one_cosine",
@@ -67,6 +80,7 @@ __all__ = [
     "overturning_spectrum",
     "plot_fragility",
     "plot_history",
+    "plot_intensities",
     "plot_overturning_spectrum",
     "plot_stripes",
     "plot_typology",
@@ -78,6 +92,7 @@ __all__ = [
     "read_records",
     "read_results",
     "resample",
+    "response_spectrum",
     "reverse",
     "ricker",
     "rotate",

@@ -88,6 +88,27 @@ class RecordData(NamedTuple):
     metadata: dict[str, str]
 
 
+class MeasureData(NamedTuple):
+    """An intensity measure.
+
+    Attributes
+    ----------
+    name : str
+        As dondolo writes it.
+    unit : str
+        Of its levels; '' for a number.
+    title : str
+        What it is, in words.
+    power : int
+        Power of a record's scale that it grows by.
+    """
+
+    name: str
+    unit: str
+    title: str
+    power: int
+
+
 class CurveData(NamedTuple):
     """A fitted curve, or why there is none."""
 
@@ -334,6 +355,39 @@ def read_walls(path: str | os.PathLike[str], gravity: float | None) -> tuple[lis
     parcel = receive(*_core.read_walls(as_path(path), pull))
     count = len(parcel.lines) // 3
     return unpack_walls(parcel, count), parcel.reals[count * _WALL_REALS :]
+
+
+def describe_measure(im: str, of_record: bool = False) -> MeasureData:
+    """A measure that records can be scaled by, or one that they have of themselves."""
+    return _describe_measure(as_text("im", im), of_record)
+
+
+@functools.cache
+def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
+    parcel = receive(*_core.describe_measure(im, int(of_record)))
+    return MeasureData(*parcel.lines, power=int(parcel.integers[0]))
+
+
+def unit_of(im: str) -> str:
+    """The unit of the levels of a measure; '' for a number, and for a name that dondolo does not know."""
+    try:
+        return describe_measure(im).unit
+    except InputError:
+        return ""
+
+
+def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0) -> FloatArray:
+    """Intensities of records, in the unit of the levels."""
+    values, stat, message = _core.intensities(as_text("im", im), *records, gravity, threads)
+    check(stat, message)
+    return values
+
+
+def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
+    """The values that records are scaled by."""
+    values, stat, message = _core.scaling_values(as_text("im", im), *records, threads)
+    check(stat, message)
+    return values
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:

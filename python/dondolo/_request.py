@@ -62,6 +62,7 @@ class Request:
 
     walls: tuple[Wall, ...]
     records: _binding.FlatRecords
+    values: _binding.FloatArray
     levels: _binding.FloatArray
     im: str
     polarity: str
@@ -71,7 +72,7 @@ class Request:
 
     def _arguments(self) -> tuple[Any, ...]:
         words = (_binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        return (*self.records, self.levels, *words, self.settings, self.threads)
+        return (*self.records, self.values, self.levels, *words, self.settings, self.threads)
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
@@ -150,7 +151,11 @@ def new_request(
     levels = _binding.as_array("levels", levels).copy()
     levels.flags.writeable = False
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
-    return Request(tuple(walls), flatten(tuple(records)), levels, im, polarity, engine, settings, team)
+    flat = flatten(tuple(records))
+    # What the records are scaled by does not depend on walls or levels: it is computed once.
+    values = _binding.scaling_values(im, flat, team)
+    name = _binding.describe_measure(im).name
+    return Request(tuple(walls), flat, values, levels, name, polarity, engine, settings, team)
 
 
 def check_threads(threads: int) -> int:

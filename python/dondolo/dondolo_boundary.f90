@@ -10,6 +10,7 @@ module dondolo_boundary
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
+   use dondolo_response_spectrum, only : largest_period, smallest_period
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
@@ -17,7 +18,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations
+   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
    public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -160,6 +161,29 @@ contains
       if (threads < 0 .or. threads > 4096) &
          & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
    end subroutine check_threads
+
+   !> Check the oscillators of a response spectrum
+   subroutine check_spectrum(periods, damping, error)
+      !> Periods [s]
+      real(c_double), intent(in) :: periods(:)
+      !> Damping ratio
+      real(c_double), intent(in) :: damping
+      !> The first that cannot be
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. (damping >= 0.0_c_double .and. damping < 1.0_c_double)) then
+         call raise_input(error, 'damping = '//to_text(damping)//': must be at least 0 and below 1')
+         return
+      end if
+      do i = 1, size(periods)
+         if (periods(i) >= smallest_period .and. periods(i) <= largest_period) cycle
+         call raise_input(error, 'periods = '//to_text(periods(i))//': must lie between '//to_text(smallest_period)// &
+            & ' and '//to_text(largest_period)//' s')
+         return
+      end do
+   end subroutine check_spectrum
 
    !> Check that a mechanism can have rotations
    subroutine check_rotations(mechanism, rotation, error)

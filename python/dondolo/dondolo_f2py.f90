@@ -125,6 +125,141 @@ subroutine check_record(acceleration, n, dt, pga, stat, message)
    call report(error, stat, message)
 end subroutine check_record
 
+! Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
+! record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;
+! else those that records can be scaled by
+subroutine describe_measure(im, of_record, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_intensity, only : measure_type, new_measure
+   use dondolo_lines, only : lines_type
+   use dondolo_scaling, only : new_scaling, scaling_type
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: im
+   integer(c_int), intent(in) :: of_record
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(measure_type) :: measure
+   type(scaling_type) :: scaling
+   type(lines_type) :: lines
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   if (of_record == 1) then
+      call new_measure(measure, im, error)
+   else
+      call new_scaling(scaling, im, error)
+   end if
+   if (.not. allocated(error)) then
+      if (of_record == 1) then
+         call lines%add(measure%name)
+         call lines%add(measure%unit())
+         call lines%add(measure%title())
+         parcel%integers = [measure%power()]
+      else
+         call lines%add(scaling%name)
+         call lines%add(scaling%unit())
+         call lines%add(scaling%title())
+         parcel%integers = [scaling%measure%power()]
+      end if
+      parcel%text = pack_lines(lines)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine describe_measure
+
+! Intensities of records, in the unit of the levels
+subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, threads, values, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_threads, report, set_records
+   use dondolo_error, only : error_type
+   use dondolo_intensity, only : measure_type, new_measure
+   use dondolo_record, only : record_type
+   use dondolo_stripes, only : measure_records
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: im, names
+   integer(c_int), intent(in) :: r, n, threads, lengths(r)
+   real(c_double), intent(in) :: dt(r), acceleration(n), gravity
+   real(c_double), intent(out) :: values(r)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(measure_type) :: measure
+   type(record_type), allocatable :: records(:)
+   type(error_type), allocatable :: error
+
+   values = 0
+   call check_threads(threads, error)
+   if (.not. allocated(error)) call new_measure(measure, im, error)
+   if (.not. allocated(error)) then
+      call set_records(records, names, lengths, dt, acceleration)
+      values = measure_records(measure, records, threads)/measure%level_size(gravity)
+   end if
+   call report(error, stat, message)
+end subroutine intensities
+
+! Values that plan and run_block scale records by
+subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, values, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_threads, report, set_records
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_scaling, only : new_scaling, scaling_type
+   use dondolo_stripes, only : measure_records
+   implicit none
+   !f2py threadsafe
+   character(len=*), intent(in) :: im, names
+   integer(c_int), intent(in) :: r, n, threads, lengths(r)
+   real(c_double), intent(in) :: dt(r), acceleration(n)
+   real(c_double), intent(out) :: values(r)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(scaling_type) :: scaling
+   type(record_type), allocatable :: records(:)
+   type(error_type), allocatable :: error
+
+   values = 0
+   call check_threads(threads, error)
+   if (.not. allocated(error)) call new_scaling(scaling, im, error)
+   if (.not. allocated(error)) then
+      call set_records(records, names, lengths, dt, acceleration)
+      values = measure_records(scaling%measure, records, threads)
+   end if
+   call report(error, stat, message)
+end subroutine scaling_values
+
+! Spectral displacements of a record
+subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_spectrum, report
+   use dondolo_error, only : error_type
+   use dondolo_record, only : record_type
+   use dondolo_response_spectrum, only : spectral_displacement
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n, m
+   real(c_double), intent(in) :: acceleration(n), dt, periods(m), damping
+   real(c_double), intent(out) :: displacement(m)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(record_type) :: record
+   type(error_type), allocatable :: error
+
+   displacement = 0
+   call check_spectrum(periods, damping, error)
+   if (.not. allocated(error)) then
+      record%dt = dt
+      record%acceleration = acceleration
+      displacement = spectral_displacement(record, periods, damping)
+   end if
+   call report(error, stat, message)
+end subroutine spectrum
+
 ! Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
 ! where they are not given
 subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)
@@ -280,13 +415,14 @@ end subroutine simulate
 
 ! Check what stripes of some walls would be, without running them. Integers: histories of a stripe of each wall, then
 ! record and polarity of each history of the last wall; reals: its scales (histories, levels); text: warnings
-subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, polarity, &
-      & engine, settings, threads, handle, sizes, stat, message)
+subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
+      & polarity, engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : as_solver, check_threads, pack_lines, parcel_type, report, send, set_records, set_walls
    use dondolo_error, only : add_place, error_type
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
+   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
@@ -295,12 +431,13 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), settings(4)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(4)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
+   type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
    type(lines_type) :: warnings
@@ -315,15 +452,17 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    allocate (walls(w), histories(w))
    call check_threads(threads, error)
    if (.not. allocated(error)) call set_walls(walls, texts, numbers, given, gravity, error)
+   if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
       do i = 1, w
-         ! Of a wall, sides and gravity alone count in a plan: most walls of a population share one.
-         fresh = i == 1
-         if (i > 1) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
+         ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
+         fresh = i == 1 .or. scaling%needs_wall()
+         if (.not. fresh) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
             & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
          if (fresh) then
-            call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, settings), error)
+            call plan_stripes(stripes, walls(i), records, levels, scaling, values, polarity, &
+               & as_solver(engine, settings), error)
          else
             call check_limit(as_solver(engine, settings), walls(i)%mechanism, error)
          end if
@@ -347,25 +486,27 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
 end subroutine plan
 
 ! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe
-subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, levels, m, im, &
+subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, stat, &
       & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
+   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_wall, only : wall_type
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), levels(m), settings(4)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(4)
    real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
+   type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(error_type), allocatable :: error
    integer :: i, j, k, before, from, to, done
@@ -377,12 +518,13 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    edp_error = 0
    allocate (walls(w))
    call set_walls(walls, texts, numbers, given, gravity, error)
+   if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
    before = 0
    done = 0
    do i = 1, w
       if (allocated(error) .or. done == count) exit
-      call plan_stripes(stripes, walls(i), records, levels, im, polarity, as_solver(engine, settings), error)
+      call plan_stripes(stripes, walls(i), records, levels, scaling, values, polarity, as_solver(engine, settings), error)
       if (allocated(error)) exit
       from = max(first - before, 1)
       to = min(first + count - 1 - before, size(stripes%response))
@@ -711,8 +853,8 @@ subroutine read_case(path, handle, sizes, stat, message)
          & case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
          & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, case%population%weight]
-      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line//case%stripes%im//line// &
-         & case%records_input%polarity//line//trim(case%solver%solver%engine)//line
+      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line// &
+         & case%stripes%scaling%name//line//case%records_input%polarity//line//trim(case%solver%solver%engine)//line
       call pack_walls(case%population%walls, parcel)
       call pack_records(case%records, parcel)
       call send(parcel, handle, sizes)

@@ -194,7 +194,8 @@ class Fragility:
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as the executable's ``_fragility.csv``."""
-        tables.write_csv(path, tables.fragility_table([self.wall], [self]))
+        comments = [f"unit of theta: {_binding.unit_of(self.im) or '1'}"] if self.im else []
+        tables.write_csv(path, tables.fragility_table([self.wall], [self]), comments)
 
     def _need_fit(self) -> None:
         if not self.has_fit:
@@ -209,11 +210,12 @@ class Fragility:
         return Likelihood(self.levels, self.collapses, self.histories, self.theta, self.beta)
 
     def _facts(self) -> list[tuple[str, str]]:
+        unit = f" {_binding.unit_of(self.im)}".rstrip()
         if not self.has_fit:
             low, high = self.bracket
-            return [("status", self.status), ("median between", f"{low:g} and {high:g}")]
+            return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
         return [
-            ("theta", f"{self.theta:.6g} (standard error of ln theta {self.se_ln_theta:.3g})"),
+            ("theta", f"{self.theta:.6g}{unit} (standard error of ln theta {self.se_ln_theta:.3g})"),
             ("beta", f"{self.beta:.6g} (standard error {self.se_beta:.3g})"),
             ("log likelihood", f"{self.log_likelihood:.6g}"),
             ("status", self.status),

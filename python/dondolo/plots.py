@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo import style
+from dondolo import _binding, style
 from dondolo.errors import DondoloError, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.efficiency import IntensityComparison
     from dondolo.fragility import Fragility
     from dondolo.motion import Response
     from dondolo.overturning import OverturningSpectrum
@@ -217,7 +218,8 @@ def plot_fragility(
         band = np.asarray(fragility.interval(grid, level=level))
         text = f"{100.0 * level:.4g} % band" if label is None else None
         ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
-        text = label or f"θ = {fragility.theta:.3g}, β = {fragility.beta:.3g}"
+        unit = f" {_binding.unit_of(fragility.im)}".rstrip()
+        text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
         ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
     else:
         ax.axvspan(
@@ -237,6 +239,74 @@ def plot_fragility(
         ax.set_title(stripes.wall.name, loc="left", parse_math=False)
     style.legend(ax, loc="upper left" if label is None else "lower right")
     return ax
+
+
+def plot_intensities(comparison: IntensityComparison, axes: Sequence[Axes] | None = None) -> Any:
+    """Draw the curves of several intensity measures on one scale, and their dispersions.
+
+    Parameters
+    ----------
+    comparison : IntensityComparison
+        Result of `compare_intensities`.
+    axes : sequence of two Axes, optional
+        Where to draw; a new figure if left out.
+
+    Returns
+    -------
+    array of two Axes
+        Probability of collapse against scale factor over its median, for an amplitude the intensity over its median:
+        the steeper, the more efficient; and the dispersions with 95 % intervals, the most efficient measure at the top.
+    """
+    import matplotlib.pyplot as plt
+
+    if axes is None:
+        with plt.rc_context(style.RC):
+            _, axes = plt.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+    left, right = axes
+    order = np.argsort(comparison.ratio)
+    colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(order)))
+    grid = np.geomspace(0.2, 5.0, _POINTS)
+    for row, (i, color) in enumerate(zip(order, colors, strict=True)):
+        curve = comparison.curves[i]
+        power = _binding.describe_measure(curve.im).power
+        left.plot(
+            grid,
+            curve(grid**power * curve.theta),
+            color=color,
+            linestyle=("-", "--", "-.", ":")[row % 4],
+            label=curve.im,
+        )
+        left.plot(
+            (curve.levels / curve.theta) ** (1.0 / power),
+            curve.collapses / curve.histories,
+            linestyle="none",
+            marker="o",
+            markersize=3,
+            color=color,
+        )
+        low, high = (end / power for end in curve.parameter_interval()["beta"])
+        right.errorbar(
+            [comparison.dispersion[i]],
+            [row],
+            xerr=[[comparison.dispersion[i] - low], [high - comparison.dispersion[i]]],
+            color=color,
+            marker="o",
+            markersize=5,
+            capsize=3,
+        )
+    left.set_xscale("log")
+    left.set_xlim(0.2, 5.0)
+    left.set_xticks([0.2, 0.5, 1.0, 2.0, 5.0], ["0.2", "0.5", "1", "2", "5"])
+    left.set_xticks([], minor=True)
+    left.set_xlabel("scale factor / its median")
+    left.set_ylabel("probability of collapse")
+    left.set_title(comparison.stripes[0].wall.name, loc="left", parse_math=False)
+    style.legend(left, loc="upper left")
+    right.set_yticks(range(len(order)), [comparison.ims[i] for i in order])
+    right.invert_yaxis()
+    right.set_xlim(left=0.0)
+    right.set_xlabel("dispersion of the scale factor, 95 % interval")
+    return axes
 
 
 def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | None = None) -> Axes:
@@ -279,7 +349,8 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(chosen)} walls")
     ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label="weighted mean")
     if group.fit.has_fit:
-        text = f"lognormal, θ = {group.fit.theta:.3g}, β = {group.fit.beta:.3g}"
+        unit = f" {_binding.unit_of(typology.im)}".rstrip()
+        text = f"lognormal, θ = {group.fit.theta:.3g}{unit}, β = {group.fit.beta:.3g}"
         ax.plot(grid, group.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=text)
     ax.plot(
         typology.levels,

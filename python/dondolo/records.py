@@ -118,6 +118,24 @@ class Record:
         """Times of the samples [s]."""
         return self.dt * np.arange(len(self.acceleration))
 
+    def intensity(self, im: str, gravity: float | None = None) -> float:
+        """An intensity measure of the record as it stands.
+
+        Parameters
+        ----------
+        im : str
+            'pga', 'sa(T)' or 'saavg(T1:T2)' [g], 'pgv', 'arias' or 'cav' [m/s], 'pgd' or 'hi' [m], 'd5-75' or
+            'd5-95' [s]; T, T1 and T2 are periods [s], as in 'sa(0.5)'.
+        gravity : float, optional
+            What g is [m/s2]; 9.81 if left out.
+
+        Returns
+        -------
+        float
+            In the unit of its levels: accelerations in g, all else in SI units.
+        """
+        return float(intensities([self], im, gravity)[0])
+
     def __len__(self) -> int:
         return len(self.acceleration)
 
@@ -243,6 +261,14 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
         if not isinstance(record, Record):
             raise InputError(f"records: {type(record).__name__} is no record")
     return several
+
+
+def intensities(records: Iterable[Record], im: str, gravity: float | None = None) -> _binding.FloatArray:
+    """An intensity measure of several records, in the unit of its levels."""
+    pull = _binding.constants().gravity if gravity is None else _binding.as_number("gravity", gravity)
+    if not 0.0 < pull < np.inf:
+        raise InputError(f"gravity = {pull:g}: must be positive")
+    return _binding.intensities(im, flatten(as_records(records)), pull)
 
 
 def flatten(records: tuple[Record, ...]) -> _binding.FlatRecords:

@@ -31,7 +31,7 @@ class Stripes:
     im : str
         Intensity measure.
     levels : ndarray, shape (levels,)
-        Its levels, in g for accelerations.
+        Its levels: accelerations in g, all else in SI units.
     edp : ndarray, shape (levels, histories)
         Largest rotation / capacity; edp_limit for a collapse.
     collapsed : ndarray of bool, shape (levels, histories)
@@ -134,13 +134,15 @@ class Stripes:
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
+            f"unit of im_level: {_binding.unit_of(self.im) or '1'}",
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
+        unit = _binding.unit_of(self.im)
         return [
             ("wall", self.wall.name),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g}"),
+            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
             ("histories of a stripe", str(self.edp.shape[1])),
             ("collapses", " ".join(map(str, self.collapses))),
         ]
@@ -175,9 +177,11 @@ def multiple_stripe(
     records : Record or iterable of Record
         The accelerograms.
     levels : array_like, shape (levels,)
-        Levels of intensity, positive and increasing, in g for accelerations.
+        Levels of intensity, positive and increasing, in the unit of the measure.
     im : str
-        Intensity measure.
+        Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
+        'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
+        trigger acceleration and p its frequency parameter.
     polarity : {'as_recorded', 'reversed', 'both'}
         'both' doubles the histories, except for two-sided walls, which are symmetric.
     engine, rtol, atol, edp_limit

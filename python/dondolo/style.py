@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from dondolo import _binding
+from dondolo.errors import InputError
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -32,13 +35,14 @@ RC = {
     "lines.linewidth": 1.4,
 }
 
-# Name and unit of the intensity measures, for axes
-IM_LABELS = {"pga": "peak ground acceleration [g]"}
-
 
 def im_label(im: str) -> str:
-    """Axis label of an intensity measure."""
-    return IM_LABELS.get(im, im if im else "intensity measure")
+    """Axis label of an intensity measure: words and unit of those that dondolo knows."""
+    try:
+        measure = _binding.describe_measure(im)
+    except InputError:
+        return im if im else "intensity measure"
+    return f"{measure.title} [{measure.unit or '-'}]"
 
 
 def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: Any) -> Any:

@@ -157,13 +157,15 @@ class Typology:
 
     def to_csv(self, path: str | os.PathLike[str], table: str = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
-        tables.write_csv(path, tables.choose(self._tables(), table))
+        comments = [f"unit of im_level and theta: {_binding.unit_of(self.im) or '1'}"]
+        tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.curves)
+        unit = _binding.unit_of(self.im)
         return [
             ("walls", f"{len(self.walls)}, {fitted} of them with a curve"),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g}"),
+            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
             *self.fit()._facts(),
         ]
 

@@ -13,6 +13,7 @@ import pytest
         ("first_wall", ["first_wall_history.png", "first_wall_peak.png"]),
         ("stripes_and_curve", ["stripes.png", "curve.png"]),
         ("two_mechanisms", ["two_mechanisms.png"]),
+        ("intensity_measures", ["intensity_measures.png"]),
         ("population", ["population.png", "population_fragility.csv"]),
         ("process_records", ["process_records.png"]),
         ("overturning", ["overturning.png", "overturning_boundaries.csv"]),

@@ -4,7 +4,6 @@ module dondolo_case
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_history_group, only : echo_history, find_record, history_input_type, history_variables, &
       & read_history_group
-   use dondolo_intensity, only : scale_to_level
    use dondolo_job_group, only : echo_job, job_type, job_variables, read_job
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -17,6 +16,7 @@ module dondolo_case
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
+   use dondolo_stripes, only : measure_records
    use dondolo_stripes_group, only : echo_stripes, read_stripes_group, stripes_input_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
@@ -48,6 +48,8 @@ module dondolo_case
       type(record_type), allocatable :: records(:)
       !> Intensity measure and levels
       type(stripes_input_type) :: stripes
+      !> Values of the measure for the records as they stand, where records are scaled to levels
+      real(wp), allocatable :: values(:)
       !> How the motions are computed
       type(solver_input_type) :: solver
       !> Which time history
@@ -241,17 +243,19 @@ contains
 
       type(group_type) :: group
       real(wp) :: scale
-      integer :: i
+      integer :: i, j
 
       group = namelist%group('history')
       if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
       if (allocated(error)) return
+      if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
+         & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
       if (case%job%task == 'history') then
          associate (record => case%records(case%history%record))
             scale = abs(case%history_scale())
             if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
             if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
-               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%im// &
+               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
                   & ' of 0 and cannot be scaled to a level', error)
             else
                call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
@@ -263,18 +267,22 @@ contains
       group = namelist%group('stripes')
       do i = 1, size(case%records)
          associate (highest => case%stripes%levels(size(case%stripes%levels)))
-            if (case%scale_to(i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
-            call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
-               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+            do j = 1, size(case%population%walls)
+               if (case%scale_to(j, i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
+               call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
+                  & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+               return
+            end do
          end associate
-         return
       end do
    end subroutine check_scales
 
    !> Factor that scales a record to a level
-   pure function scale_to(self, record, level) result(scale)
+   pure function scale_to(self, wall, record, level) result(scale)
       !> The case
       class(case_type), intent(in) :: self
+      !> Number of the wall
+      integer, intent(in) :: wall
       !> Number of the record
       integer, intent(in) :: record
       !> Level, in the unit of the intensity measure
@@ -282,7 +290,7 @@ contains
       !> The factor; 0 for a record without motion
       real(wp) :: scale
 
-      scale = scale_to_level(self%records(record), self%stripes%im, level, self%solver%gravity)
+      scale = self%stripes%scaling%factor(level, self%values(record), self%population%walls(wall))
    end function scale_to
 
    !> Factor on the record of the time history, with the sign of its polarity
@@ -293,7 +301,7 @@ contains
       real(wp) :: scale
 
       if (allocated(self%history%im_level)) then
-         scale = self%scale_to(self%history%record, self%history%im_level)
+         scale = self%scale_to(1, self%history%record, self%history%im_level)
       else
          scale = self%history%scale
       end if

@@ -107,10 +107,22 @@ contains
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)
       end do
+      if (case%job%task /= 'history') call files%line('# unit of im_level and theta: '//unit_of_levels(case))
       do i = 1, warnings%count
          call files%line('# warning: '//warnings%line(i)%text)
       end do
    end subroutine write_head
+
+   !> Unit of the levels, for the head of a file
+   pure function unit_of_levels(case) result(unit)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Unit, 1 for a number
+      character(len=:), allocatable :: unit
+
+      unit = case%stripes%scaling%unit()
+      if (len(unit) == 0) unit = '1'
+   end function unit_of_levels
 
    !> The walls and their static quantities
    subroutine write_walls(case, files)
@@ -185,7 +197,8 @@ contains
       call files%line('wall,mechanism,im,im_level,histories,collapses,fraction')
       do i = 1, size(case%population%walls)
          do j = 1, size(case%stripes%levels)
-            call files%line(wall_cells(case, i)//','//case%stripes%im//','//to_table(case%stripes%levels(j))//','// &
+            call files%line(wall_cells(case, i)//','//case%stripes%scaling%name//','// &
+               & to_table(case%stripes%levels(j))//','// &
                & to_text(results%histories(i))//','//to_text(results%collapses(j, i))//','// &
                & to_table(real(results%collapses(j, i), wp)/real(results%histories(i), wp)))
          end do
@@ -210,7 +223,8 @@ contains
             fit = ',,,,'
             if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
                & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','//to_table(curve%log_likelihood)
-            call files%line(wall_cells(case, i)//','//case%stripes%im//','//fit//','//trim(curve%status)//','// &
+            call files%line(wall_cells(case, i)//','//case%stripes%scaling%name//','//fit//','// &
+               & trim(curve%status)//','// &
                & bound(curve%bracket(1))//','//bound(curve%bracket(2)))
          end associate
       end do
@@ -234,7 +248,8 @@ contains
             fit = ','
             if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
             do j = 1, size(typology%levels)
-               call files%line(typology%mechanism//','//case%stripes%im//','//to_table(typology%levels(j))//','// &
+               call files%line(typology%mechanism//','//case%stripes%scaling%name//','// &
+                  & to_table(typology%levels(j))//','// &
                   & to_table(typology%weight)//','//to_table(typology%mean_fraction(j))//','// &
                   & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status))
             end do

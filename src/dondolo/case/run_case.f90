@@ -7,7 +7,7 @@ module dondolo_run_case
    use dondolo_lines, only : lines_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : multiple_stripe, progress_interface, stripes_type
+   use dondolo_stripes, only : plan_stripes, progress_interface, run_histories, stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names
    use dondolo_warnings, only : scale_warning_type, warn_of_errors, warn_of_fit, warn_of_fits, warn_of_records
@@ -163,9 +163,11 @@ contains
 
       real(wp) :: histories(size(case%stripes%levels))
 
-      call multiple_stripe(stripes, case%population%walls(wall), case%records, case%stripes%levels, case%stripes%im, &
-         & case%records_input%polarity, case%solver%solver, team, error, progress)
+      call plan_stripes(stripes, case%population%walls(wall), case%records, case%stripes%levels, &
+         & case%stripes%scaling, case%values, case%records_input%polarity, case%solver%solver, error)
       if (.not. allocated(error)) then
+         call run_histories(stripes, case%population%walls(wall), case%records, case%solver%solver, 1, &
+            & size(stripes%response), team, progress)
          results%collapses(:, wall) = stripes%collapses()
          histories = real(results%histories(wall), wp)
          call fit_fragility(results%fragility(wall), case%stripes%levels, &

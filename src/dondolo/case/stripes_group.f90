@@ -2,12 +2,12 @@
 module dondolo_stripes_group
    use dondolo_assignment, only : assignment_text
    use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_intensity, only : im_names
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_stripes, only : check_levels
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -22,8 +22,8 @@ module dondolo_stripes_group
 
    !> What is said of the stripes
    type :: stripes_input_type
-      !> Intensity measure, one of im_names
-      character(len=:), allocatable :: im
+      !> Intensity measure that the records are scaled by
+      type(scaling_type) :: scaling
       !> Levels, in the unit of the intensity measure; not allocated: not given
       real(wp), allocatable :: levels(:)
    end type stripes_input_type
@@ -39,15 +39,15 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      stripes%im = 'pga'
+      character(len=:), allocatable :: im
+
+      im = 'pga'
       call group%check_names(stripes_variables, error)
-      if (.not. allocated(error)) call group%get_text('im', stripes%im, error)
+      if (.not. allocated(error)) call group%get_text('im', im, error)
       if (allocated(error)) return
-      stripes%im = trim(stripes%im)
-      if (.not. any(stripes%im == im_names)) then
-         call group%refuse('im', 'must be one of '//join(im_names), error)
-         return
-      end if
+      call new_scaling(stripes%scaling, trim(im), error)
+      call add_place(error, group%place())
+      if (allocated(error)) return
       call read_grid(group, stripes, error)
       if (allocated(error)) return
       if (group%has('levels')) then
@@ -130,10 +130,10 @@ contains
       type(lines_type), intent(inout) :: lines
 
       if (allocated(stripes%levels)) then
-         call lines%add('&stripes '//assignment_text('im', stripes%im))
+         call lines%add('&stripes '//assignment_text('im', stripes%scaling%name))
          call lines%add('         '//assignment_text('levels', stripes%levels)//' /')
       else
-         call lines%add('&stripes '//assignment_text('im', stripes%im)//' /')
+         call lines%add('&stripes '//assignment_text('im', stripes%scaling%name)//' /')
       end if
    end subroutine echo_stripes
 

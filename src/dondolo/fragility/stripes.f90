@@ -5,10 +5,11 @@
 module dondolo_stripes
    use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_thread_num
    use dondolo_error, only : error_type, raise_input
-   use dondolo_intensity, only : check_im, scale_to_level
+   use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type
+   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : join, to_text
@@ -16,7 +17,7 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, plan_stripes, run_histories
+   public :: stripes_type, multiple_stripe, measure_records, plan_stripes, run_histories
    public :: check_levels, check_polarity, polarity_names, progress_interface
    public :: largest_threads, available_threads
 
@@ -30,7 +31,7 @@ module dondolo_stripes
    type :: stripes_type
       !> Intensity measure
       character(len=:), allocatable :: im
-      !> Levels of intensity, in g for accelerations
+      !> Levels of intensity, in the unit of the measure
       real(wp), allocatable :: levels(:)
       !> Record of each history of a stripe
       integer, allocatable :: record(:)
@@ -65,9 +66,9 @@ contains
       type(wall_type), intent(in) :: wall
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
-      !> Levels of intensity, positive and increasing, in g for accelerations
+      !> Levels of intensity, positive and increasing, in the unit of the measure
       real(wp), intent(in) :: levels(:)
-      !> Intensity measure
+      !> Intensity measure, one of scaling_names
       character(len=*), intent(in) :: im
       !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
       character(len=*), intent(in) :: polarity
@@ -80,23 +81,52 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
-      call plan_stripes(stripes, wall, records, levels, im, polarity, solver, error)
+      type(scaling_type) :: scaling
+
+      call new_scaling(scaling, im, error)
+      if (.not. allocated(error)) call plan_stripes(stripes, wall, records, levels, scaling, &
+         & measure_records(scaling%measure, records, threads), polarity, solver, error)
       if (allocated(error)) return
       call run_histories(stripes, wall, records, solver, 1, size(stripes%response), threads, progress)
    end subroutine multiple_stripe
 
+   !> Values of a measure for records as they stand
+   function measure_records(measure, records, threads) result(values)
+      !> The measure
+      type(measure_type), intent(in) :: measure
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Its values
+      real(wp) :: values(size(records))
+
+      integer :: i
+
+      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(records))) default(none) &
+      !$omp & shared(measure, records, values)
+      do i = 1, size(records)
+         values(i) = measure%of(records(i))
+      end do
+      !$omp end parallel do
+   end function measure_records
+
    !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
-   subroutine plan_stripes(stripes, wall, records, levels, im, polarity, solver, error)
+   !>
+   !> The values of the measure do not depend on the wall: who runs many walls computes them once.
+   subroutine plan_stripes(stripes, wall, records, levels, scaling, values, polarity, solver, error)
       !> Result; the responses have room but no values
       type(stripes_type), intent(out) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
-      !> Levels of intensity, positive and increasing, in g for accelerations
+      !> Levels of intensity, positive and increasing, in the unit of the measure
       real(wp), intent(in) :: levels(:)
-      !> Intensity measure
-      character(len=*), intent(in) :: im
+      !> What records are scaled by
+      type(scaling_type), intent(in) :: scaling
+      !> Values of its measure for the records as they stand
+      real(wp), intent(in) :: values(:)
       !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
       character(len=*), intent(in) :: polarity
       !> Engine, tolerances and limit
@@ -104,16 +134,15 @@ contains
       !> What cannot be run: `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
 
-      call check_im(im, error)
-      if (.not. allocated(error)) call check_levels(levels, error)
+      call check_levels(levels, error)
       if (.not. allocated(error)) call check_polarity(polarity, error)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
       if (allocated(error)) return
-      stripes%im = im
+      stripes%im = scaling%name
       stripes%levels = levels
       call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
-      call choose_scales(stripes, records, wall%gravity, error)
+      call choose_scales(stripes, wall, records, scaling, values, error)
       if (allocated(error)) return
       allocate(stripes%response(size(stripes%record), size(levels)))
    end subroutine plan_stripes
@@ -141,9 +170,7 @@ contains
 
       histories = size(stripes%record)
       total = last - first + 1
-      team = threads
-      if (team == 0) team = available_threads()
-      team = max(1, min(team, total))
+      team = team_of(threads, total)
       done = 0
       ! High levels take longest: they go first, so that no thread is left alone with them at the end.
       !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
@@ -164,6 +191,18 @@ contains
       !$omp end parallel do
       if (present(progress)) call progress(total, total)
    end subroutine run_histories
+
+   !> Threads that share some work
+   integer function team_of(threads, pieces)
+      !> Number of threads that are asked for; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Pieces of work
+      integer, intent(in) :: pieces
+
+      team_of = threads
+      if (threads == 0) team_of = available_threads()
+      team_of = max(1, min(team_of, pieces))
+   end function team_of
 
    !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
    integer function available_threads()
@@ -193,13 +232,17 @@ contains
    end subroutine choose_polarities
 
    !> Factors that bring every record to every level; a record without motion stays as it is
-   subroutine choose_scales(stripes, records, gravity, error)
+   subroutine choose_scales(stripes, wall, records, scaling, values, error)
       !> Result: scale is set
       type(stripes_type), intent(inout) :: stripes
+      !> The wall
+      type(wall_type), intent(in) :: wall
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
+      !> What they are scaled by
+      type(scaling_type), intent(in) :: scaling
+      !> Values of its measure
+      real(wp), intent(in) :: values(:)
       !> A record scaled beyond all measure
       type(error_type), allocatable, intent(out) :: error
 
@@ -210,7 +253,7 @@ contains
       do i = 1, size(stripes%record)
          associate (record => records(stripes%record(i)))
             do j = 1, highest
-               stripes%scale(i, j) = scale_to_level(record, stripes%im, stripes%levels(j), gravity)
+               stripes%scale(i, j) = scaling%factor(stripes%levels(j), values(stripes%record(i)), wall)
             end do
             if (stripes%scale(i, highest)*record%pga() <= largest_acceleration) cycle
             call raise_input(error, 'levels = '//to_text(stripes%levels(highest))//': scales record '// &

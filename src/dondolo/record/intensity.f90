@@ -1,80 +1,258 @@
-!> Intensity measures of an accelerogram, and the units their levels are given in.
+!> Intensity measures of an accelerogram: their names, their values, and the units their levels are given in.
+!>
+!> Levels of accelerations are in g, all others in SI units. Where a measure needs the acceleration of gravity, that
+!> stands in the size of a level and not in the value: the value of 'arias' is pi/2 times the integral of a**2, and a
+!> level of 1 m/s is g of it.
 module dondolo_intensity
+   use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration
    use dondolo_error, only : error_type, raise_input
+   use dondolo_ground_motion, only : peak_displacement, peak_velocity
    use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_real
    use dondolo_record, only : record_type
-   use dondolo_text, only : join
+   use dondolo_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
+   use dondolo_text, only : join, to_text
    implicit none
    private
 
-   public :: im_names, check_im, intensity, level_unit, scale_to_level
+   public :: measure_type, new_measure
+   public :: im_names, im_help
 
-   !> Names of the intensity measures
-   character(len=3), parameter :: im_names(1) = ['pga']
+   !> Names of the intensity measures; T, T1 and T2 stand for periods [s]
+   character(len=12), parameter :: im_names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', &
+      & 'd5-95', 'hi', 'sa(T)', 'saavg(T1:T2)']
+
+   !> What a message adds to the names
+   character(len=*), parameter :: im_help = '; T in s, 0.01 to 20, such as ''sa(0.5)'' or ''saavg(0.2:2)'''
+
+   !> Periods between which Housner integrates the spectrum [s]
+   real(wp), parameter :: housner_periods(2) = [0.1_wp, 2.5_wp]
+
+   !> Steps of his integral, by the trapezoidal rule
+   integer, parameter :: housner_steps = 96
+
+   !> Periods that an average takes
+   integer, parameter :: averaged = 20
+
+   real(wp), parameter :: pi = 3.14159265358979323846264338327950288_wp
+
+   !> An intensity measure
+   type :: measure_type
+      !> Its name, with periods as short as they can be written
+      character(len=:), allocatable :: name
+      !> Its name without periods
+      character(len=5) :: kind = 'pga'
+      !> Periods of the oscillators it needs [s]
+      real(wp), allocatable :: periods(:)
+   contains
+      !> Its value for a record as it stands
+      procedure :: of
+      !> What a level of 1 is
+      procedure :: level_size
+      !> Unit of its levels
+      procedure :: unit
+      !> What it is, in words
+      procedure :: title
+      !> Power of a record's scale that its value grows by
+      procedure :: power
+   end type measure_type
 
 contains
 
-   !> Check the name of an intensity measure
-   subroutine check_im(im, error)
-      !> Name
-      character(len=*), intent(in) :: im
-      !> Not one of im_names
+   !> Make a measure of its name
+   subroutine new_measure(measure, name, error)
+      !> The measure
+      type(measure_type), intent(out) :: measure
+      !> One of im_names, with numbers for the periods
+      character(len=*), intent(in) :: name
+      !> There is no such measure
       type(error_type), allocatable, intent(out) :: error
 
-      if (.not. any(im == im_names)) &
-         & call raise_input(error, 'im = '''//im//''': must be one of '//join(im_names))
-   end subroutine check_im
+      integer :: open, i
+      logical :: ok
 
-   !> An intensity measure of a record as it stands
-   pure function intensity(record, im) result(value)
+      open = index(name, '(')
+      ! Fortran would take trailing blanks for nothing
+      ok = any(im_names == name) .and. len_trim(name) == len(name)
+      if (ok .and. open == 0) then
+         measure%kind = name
+         measure%name = name
+         allocate (measure%periods(0))
+         if (name == 'hi') measure%periods = evenly(housner_periods(1), housner_periods(2), housner_steps + 1)
+         return
+      end if
+      ok = .false.
+      if (open > 1 .and. index(name, ')') == len(name)) then
+         associate (inside => name(open + 1:len(name) - 1))
+            select case (name(:open - 1))
+            case ('sa')
+               allocate (measure%periods(1))
+               call parse_period(inside, measure%periods(1), ok)
+               if (ok) measure%name = 'sa('//to_text(measure%periods(1))//')'
+            case ('saavg')
+               i = index(inside, ':')
+               allocate (measure%periods(2))
+               call parse_period(inside(:i - 1), measure%periods(1), ok)
+               if (ok) call parse_period(inside(i + 1:), measure%periods(2), ok)
+               if (ok) ok = measure%periods(1) < measure%periods(2)
+               if (ok) then
+                  measure%name = 'saavg('//to_text(measure%periods(1))//':'//to_text(measure%periods(2))//')'
+                  measure%periods = evenly(measure%periods(1), measure%periods(2), averaged)
+               end if
+            end select
+         end associate
+      end if
+      if (ok) then
+         measure%kind = name(:open - 1)
+      else
+         call raise_input(error, 'im = '''//name//''': must be one of '//join(im_names)//im_help)
+      end if
+   end subroutine new_measure
+
+   !> Read a period
+   pure subroutine parse_period(text, period, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Period [s]
+      real(wp), intent(out) :: period
+      !> It is a number without blanks, within the bounds
+      logical, intent(out) :: ok
+
+      call parse_real(text, period, ok)
+      ok = ok .and. scan(text, ' '//achar(9)) == 0 .and. period >= smallest_period .and. period <= largest_period
+   end subroutine parse_period
+
+   !> Numbers evenly from one to another, both included
+   pure function evenly(first, last, number) result(values)
+      !> The first
+      real(wp), intent(in) :: first
+      !> The last
+      real(wp), intent(in) :: last
+      !> How many
+      integer, intent(in) :: number
+      !> The numbers
+      real(wp) :: values(number)
+
+      integer :: i
+
+      values = [((real(number - i, wp)*first + real(i - 1, wp)*last)/real(number - 1, wp), i=1, number)]
+   end function evenly
+
+   !> Value for a record as it stands
+   pure function of(self, record) result(value)
+      !> The measure
+      class(measure_type), intent(in) :: self
       !> The accelerogram
       type(record_type), intent(in) :: record
-      !> Name of the measure, one of im_names
-      character(len=*), intent(in) :: im
-      !> Its value, SI units
+      !> Its value: m/s2 for accelerations, m2/s3 for 'arias', else the unit of the levels
       real(wp) :: value
 
+      real(wp) :: sa(size(self%periods)), velocity(size(self%periods))
+
+      sa = pseudo_acceleration(record, self%periods, standard_damping)
       value = 0.0_wp
-      select case (im)
+      select case (self%kind)
       case ('pga')
          value = record%pga()
+      case ('pgv')
+         value = peak_velocity(record)
+      case ('pgd')
+         value = peak_displacement(record)
+      case ('arias')
+         value = 0.5_wp*pi*acceleration_energy(record)
+      case ('cav')
+         value = cumulative_absolute_velocity(record)
+      case ('d5-75')
+         value = significant_duration(record, 0.05_wp, 0.75_wp)
+      case ('d5-95')
+         value = significant_duration(record, 0.05_wp, 0.95_wp)
+      case ('hi')
+         velocity = sa*self%periods/(2.0_wp*pi)
+         value = (sum(velocity) - 0.5_wp*(velocity(1) + velocity(size(velocity)))) &
+            & *(housner_periods(2) - housner_periods(1))/real(housner_steps, wp)
+      case ('sa')
+         value = sa(1)
+      case ('saavg')
+         if (all(sa > 0.0_wp)) value = exp(sum(log(sa))/real(size(sa), wp))
       end select
-   end function intensity
+   end function of
 
-   !> What a level of 1 is in SI units: levels of accelerations are given in g
-   pure function level_unit(im, gravity) result(unit)
-      !> Name of the measure, one of im_names
-      character(len=*), intent(in) :: im
+   !> What a level of 1 is, in the unit of the value
+   pure function level_size(self, gravity)
+      !> The measure
+      class(measure_type), intent(in) :: self
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
-      !> SI units per level
-      real(wp) :: unit
+      !> Value / level
+      real(wp) :: level_size
 
-      unit = 1.0_wp
-      select case (im)
+      level_size = 1.0_wp
+      select case (self%kind)
+      case ('pga', 'sa', 'saavg', 'arias')
+         level_size = gravity
+      end select
+   end function level_size
+
+   !> Unit of the levels
+   pure function unit(self)
+      !> The measure
+      class(measure_type), intent(in) :: self
+      !> Unit
+      character(len=:), allocatable :: unit
+
+      select case (self%kind)
+      case ('pgd', 'hi')
+         unit = 'm'
+      case ('d5-75', 'd5-95')
+         unit = 's'
+      case ('pgv', 'arias', 'cav')
+         unit = 'm/s'
+      case default
+         unit = 'g'
+      end select
+   end function unit
+
+   !> What it is, in words
+   pure function title(self)
+      !> The measure
+      class(measure_type), intent(in) :: self
+      !> Words
+      character(len=:), allocatable :: title
+
+      title = ''
+      select case (self%kind)
       case ('pga')
-         unit = gravity
+         title = 'peak ground acceleration'
+      case ('pgv')
+         title = 'peak ground velocity'
+      case ('pgd')
+         title = 'peak ground displacement'
+      case ('arias')
+         title = 'Arias intensity'
+      case ('cav')
+         title = 'cumulative absolute velocity'
+      case ('d5-75')
+         title = 'significant duration 5-75 %'
+      case ('d5-95')
+         title = 'significant duration 5-95 %'
+      case ('hi')
+         title = 'Housner intensity'
+      case ('sa')
+         title = 'spectral acceleration at '//to_text(self%periods(1))//' s'
+      case ('saavg')
+         title = 'average spectral acceleration, '//to_text(self%periods(1))//' to '// &
+            & to_text(self%periods(size(self%periods)))//' s'
       end select
-   end function level_unit
+   end function title
 
-   !> Factor that scales a record to a level of an intensity measure
-   pure function scale_to_level(record, im, level, gravity) result(scale)
-      !> The accelerogram
-      type(record_type), intent(in) :: record
-      !> Name of the measure, one of im_names
-      character(len=*), intent(in) :: im
-      !> Level, in g for accelerations
-      real(wp), intent(in) :: level
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
-      !> The factor; 0 for a record without motion
-      real(wp) :: scale
+   !> Power of a record's scale that the value grows by: 2 for an energy, 0 for a duration
+   pure integer function power(self)
+      !> The measure
+      class(measure_type), intent(in) :: self
 
-      real(wp) :: value
-
-      scale = 0.0_wp
-      value = intensity(record, im)
-      if (value > 0.0_wp) scale = level*level_unit(im, gravity)/value
-   end function scale_to_level
+      power = 1
+      if (self%kind == 'arias') power = 2
+      if (self%kind(1:2) == 'd5') power = 0
+   end function power
 
 end module dondolo_intensity

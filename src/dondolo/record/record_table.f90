@@ -22,34 +22,44 @@ module dondolo_record_table
 contains
 
    !> A table of records
-   function record_table(records, gravity) result(table)
+   function record_table(records, gravity, measure, unit, values) result(table)
       !> The records
       type(record_type), intent(in) :: records(:)
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
+      !> Name and unit of an intensity measure to show as well, and its values
+      character(len=*), intent(in), optional :: measure, unit
+      real(wp), intent(in), optional :: values(:)
       !> Its lines, two of titles first
       type(lines_type) :: table
 
       integer, parameter :: widest = 40
       character(len=60) :: numbers
-      integer :: i, width, origins
+      character(len=:), allocatable :: column
+      integer :: i, width, origins, measures
 
       width = 6
       origins = 0
+      measures = 0
+      if (present(values)) measures = max(len(measure), len(unit), 10) + 1
+      allocate (character(len=measures) :: column)
       do i = 1, size(records)
          width = max(width, len(records(i)%name))
          origins = max(origins, len(origin(records(i))))
       end do
       if (origins > 0) origins = min(max(origins, len('event, station')), widest)
+      if (present(values)) column = repeat(' ', measures - len(measure))//measure
       write (numbers, '(a9, a10, a10, a11, a10)') 'samples', 'dt', 'length', 'PGA', 'PGV'
-      call table%add('  no.  '//left('record', width)//trim(numbers)//titled('event, station', origins)//'  problems')
+      call table%add('  no.  '//left('record', width)//trim(numbers)//column//titled('event, station', origins)//'  problems')
       write (numbers, '(a9, a10, a10, a11, a10)') '', 's', 's', 'g', 'cm/s'
-      call table%add('       '//left('', width)//trim(numbers))
+      if (present(values)) column = repeat(' ', measures - len(unit))//unit
+      call table%add('       '//left('', width)//trim(numbers)//column)
       do i = 1, size(records)
          associate (record => records(i))
             write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
-            call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)// &
+            if (present(values)) write (column, '(es'//to_text(measures)//'.3)') values(i)
+            call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)//column// &
                & titled(origin(record), origins)//'  '//record_problems(record)))
          end associate
       end do

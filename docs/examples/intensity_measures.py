@@ -1,0 +1,27 @@
+"""Which intensity measure tells best whether a wall collapses? The less records scatter by it, the fewer are needed."""
+
+# %%
+from pathlib import Path
+
+import dondolo as dd
+
+data = Path(__file__).resolve().parents[2] / "data"
+out = Path("out/examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% Intensities of a record, in the unit of their levels, and its response spectrum, in SI units
+records = dd.read_catalogue(data / "records" / "synthetic44.csv")
+record = records[0]
+print(f"PGV {record.intensity('pgv'):.3f} m/s, Sa(0.5 s) {record.intensity('sa(0.5)'):.3f} g")
+print(dd.response_spectrum(record, [0.2, 0.5, 1.0]).sa, "m/s2")
+
+# %% Stripes by spectral acceleration instead of peak ground acceleration
+wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+stripes = dd.multiple_stripe(wall, records, levels=[0.8, 1.1, 1.4, 1.7, 2.0], im="sa(0.5)")
+print(stripes.fit())
+
+# %% Every measure with an analysis of its own
+ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
+comparison = dd.compare_intensities(wall, records, ims)
+print(comparison)
+dd.plot_intensities(comparison)[0].figure.savefig(out / "intensity_measures.png")

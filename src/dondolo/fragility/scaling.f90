@@ -1,0 +1,143 @@
+!> What records are scaled by in stripes: an intensity measure of the record, or one made dimensionless by the wall.
+!>
+!> Of a rigid block, the PGA over the acceleration at which rocking starts, and p PGV over it, govern rocking and
+!> overturning (Giouvanidis and Dimitrakopoulos 2018; Dimitrakopoulos and Paraskeva 2015).
+module dondolo_scaling
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_intensity, only : im_help, measure_type, new_measure
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : join
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: scaling_type, new_scaling
+   public :: scaling_names
+
+   !> Measures that need a wall: a0 is its trigger acceleration, p its frequency parameter
+   character(len=8), parameter :: wall_names(2) = [character(len=8) :: 'pga/a0', 'p*pgv/a0']
+
+   !> What a record can be scaled by: all measures but durations, and those that need a wall
+   character(len=12), parameter :: scaling_names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', &
+      & 'hi', 'sa(T)', 'saavg(T1:T2)', wall_names]
+
+   !> What records are scaled by
+   type :: scaling_type
+      !> Its name
+      character(len=:), allocatable :: name
+      !> The measure of the record
+      type(measure_type) :: measure
+   contains
+      !> Factor that scales a record to a level
+      procedure :: factor
+      !> Does the factor depend on the wall?
+      procedure :: needs_wall
+      !> Unit of the levels, empty for a number
+      procedure :: unit
+      !> The unit as it follows a number or a name
+      procedure :: unit_after_blank
+      !> What it is, in words
+      procedure :: title
+   end type scaling_type
+
+contains
+
+   !> Make a scaling of its name
+   subroutine new_scaling(scaling, name, error)
+      !> The scaling
+      type(scaling_type), intent(out) :: scaling
+      !> One of scaling_names, with numbers for the periods
+      character(len=*), intent(in) :: name
+      !> There is no such measure, or it does not grow with the record
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: measure
+
+      measure = name
+      if (any(wall_names == name)) measure = name(index(name, 'pg'):index(name, '/') - 1)
+      ! Fortran would take trailing blanks for nothing
+      if (len_trim(name) < len(name)) measure = ''
+      call new_measure(scaling%measure, measure, error)
+      if (allocated(error)) then
+         error%message = 'im = '''//name//''': must be one of '//join(scaling_names)//im_help
+      else if (scaling%measure%power() == 0) then
+         call raise_input(error, 'im = '''//name//''': a duration stays as it is when a record is scaled; '// &
+            & 'must be one of '//join(scaling_names)//im_help)
+      else
+         scaling%name = scaling%measure%name
+         if (any(wall_names == name)) scaling%name = name
+      end if
+   end subroutine new_scaling
+
+   !> Factor that scales a record to a level
+   pure function factor(self, level, value, wall) result(scale)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+      !> Level, in its unit
+      real(wp), intent(in) :: level
+      !> Value of the measure for the record as it stands
+      real(wp), intent(in) :: value
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> The factor; 0 for a record without motion
+      real(wp) :: scale
+
+      real(wp) :: level_size
+
+      level_size = self%measure%level_size(wall%gravity)
+      if (self%name == 'pga/a0') level_size = wall%mechanism%trigger_acceleration()
+      if (self%name == 'p*pgv/a0') &
+         & level_size = wall%mechanism%trigger_acceleration()/wall%mechanism%frequency_parameter()
+      scale = 0.0_wp
+      if (value > 0.0_wp) scale = level*level_size/value
+      if (self%measure%power() == 2) scale = sqrt(scale)
+   end function factor
+
+   !> Does the factor depend on the wall, beyond its gravity?
+   pure logical function needs_wall(self)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+
+      needs_wall = any(wall_names == self%name)
+   end function needs_wall
+
+   !> Unit of the levels
+   pure function unit(self)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+      !> Unit; empty for a number
+      character(len=:), allocatable :: unit
+
+      unit = ''
+      if (.not. self%needs_wall()) unit = self%measure%unit()
+   end function unit
+
+   !> The unit as it follows a number or a name
+   pure function unit_after_blank(self) result(text)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+      !> A blank and the unit; empty where there is none
+      character(len=:), allocatable :: text
+
+      text = self%unit()
+      if (len(text) > 0) text = ' '//text
+   end function unit_after_blank
+
+   !> What it is, in words
+   pure function title(self)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+      !> Words
+      character(len=:), allocatable :: title
+
+      select case (self%name)
+      case ('pga/a0')
+         title = 'PGA / trigger acceleration'
+      case ('p*pgv/a0')
+         title = 'p PGV / trigger acceleration'
+      case default
+         title = self%measure%title()
+      end select
+   end function title
+
+end module dondolo_scaling

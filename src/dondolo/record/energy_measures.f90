@@ -1,0 +1,115 @@
+!> Measures that grow while the ground shakes: integrals of the piecewise linear acceleration, exactly.
+module dondolo_energy_measures
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : record_type
+   implicit none
+   private
+
+   public :: acceleration_energy, cumulative_absolute_velocity, significant_duration
+
+contains
+
+   !> Integral of the squared acceleration over time [m2/s3]; Arias's intensity is pi/(2 g) times it (Arias 1970)
+   pure function acceleration_energy(record) result(energy)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> The integral [m2/s3]
+      real(wp) :: energy
+
+      energy = sum(step_energies(record))
+   end function acceleration_energy
+
+   !> Cumulative absolute velocity: the integral of |a| over time [m/s] (EPRI 1988, without a threshold)
+   pure function cumulative_absolute_velocity(record) result(cav)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> The integral [m/s]
+      real(wp) :: cav
+
+      real(wp) :: both
+      integer :: i
+
+      cav = 0.0_wp
+      associate (a => record%acceleration)
+         do i = 2, size(a)
+            both = abs(a(i - 1)) + abs(a(i))
+            ! Two triangles where the acceleration passes zero
+            if (a(i - 1)*a(i) < 0.0_wp) both = (a(i - 1)**2 + a(i)**2)/both
+            cav = cav + 0.5_wp*record%dt*both
+         end do
+      end associate
+   end function cumulative_absolute_velocity
+
+   !> Significant duration: the time in which the integral of a**2 grows from one share of its end value to another [s]
+   !> (Trifunac and Brady 1975)
+   pure function significant_duration(record, from, to) result(duration)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Share at which it begins, between 0 and 1
+      real(wp), intent(in) :: from
+      !> Share at which it ends, above `from`
+      real(wp), intent(in) :: to
+      !> Duration [s]; 0 for a record without motion
+      real(wp) :: duration
+
+      real(wp) :: step(size(record%acceleration) - 1), total
+
+      step = step_energies(record)
+      total = sum(step)
+      duration = 0.0_wp
+      if (total > 0.0_wp) duration = time_of(record, step, to*total) - time_of(record, step, from*total)
+   end function significant_duration
+
+   !> Integral of the squared acceleration over every step [m2/s3]
+   pure function step_energies(record) result(step)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Integrals [m2/s3]
+      real(wp) :: step(size(record%acceleration) - 1)
+
+      integer :: i
+
+      associate (a => record%acceleration)
+         do i = 1, size(step)
+            step(i) = record%dt*(a(i)**2 + a(i)*a(i + 1) + a(i + 1)**2)/3.0_wp
+         end do
+      end associate
+   end function step_energies
+
+   !> When the integral of the squared acceleration reaches a value [s]
+   pure function time_of(record, step, energy) result(time)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Integrals over the steps [m2/s3]
+      real(wp), intent(in) :: step(:)
+      !> The value, above 0 and below the sum of all [m2/s3]
+      real(wp), intent(in) :: energy
+      !> Time [s]
+      real(wp) :: time
+
+      real(wp) :: rest, low, middle, high, slope
+      integer :: i, k
+
+      rest = energy
+      do i = 1, size(step) - 1
+         if (rest <= step(i)) exit
+         rest = rest - step(i)
+      end do
+      ! Within a step the integral is a cubic that never falls: halving finds the part of the step to rounding
+      low = 0.0_wp
+      high = 1.0_wp
+      associate (a => record%acceleration(i))
+         slope = record%acceleration(i + 1) - a
+         do k = 1, digits(low)
+            middle = 0.5_wp*(low + high)
+            if (record%dt*middle*(a**2 + middle*slope*(a + middle*slope/3.0_wp)) < rest) then
+               low = middle
+            else
+               high = middle
+            end if
+         end do
+      end associate
+      time = record%dt*(real(i - 1, wp) + high)
+   end function time_of
+
+end module dondolo_energy_measures
