@@ -58,7 +58,7 @@ contains
          associate (record => records(i))
             write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
-            if (present(values)) write (column, '(es'//to_text(measures)//'.3)') values(i)
+            if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
             call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)//column// &
                & titled(origin(record), origins)//'  '//record_problems(record)))
          end associate
