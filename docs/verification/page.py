@@ -31,25 +31,24 @@ def summary(study, missed):
     times = ", ".join(f"{study.milliseconds[wall, name, DEFAULT]:.2f} ms ({wall})" for wall, name in study.recorded())
     rows = wrong_flags(study)
     exactly = "the exact ones" if shift == 0.0 else f"within {shift:.2g} standard errors of the exact ones"
+    off = "off by more than 1e-6"
     return bullets(
         [
-            f"Reference: {total} histories of three walls in 33 digits, none of which moves by more than "
-            f"{small(change)} at a hundredfold tolerance.",
+            f"Reference: {total} histories of three walls in 33 digits; none moves by more than {small(change)} at a "
+            "hundredfold tolerance.",
             f"Defaults: {many(sum(e.flags() for e in by_default), 'wrong collapse flag')}; "
-            f"{many(sum(e.above(LARGE) for e in by_default), 'EDP')} off by more than 1e-6, the worst by "
+            f"{many(sum(e.above(LARGE) for e in by_default), 'EDP')} {off}, the worst by "
             f"{small(max(e.worst() for e in by_default))}.",
-            f"Median error of the histories that rock and do not collapse: at most "
+            "Median error of the histories that rock and do not collapse: at most "
             f"{small(max(e.quantile(0.5) for e in by_default))}, for each wall and set.",
-            f"rtol = {power(TIGHT)}: {many(sum(e.above(LARGE) for e in by_tight), 'EDP')} off by more than 1e-6, the "
-            f"worst by "
+            f"rtol = {power(TIGHT)}: {many(sum(e.above(LARGE) for e in by_tight), 'EDP')} {off}, the worst by "
             f"{small(max(e.worst() for e in by_tight))}, at {percent(cost(study, TIGHT, DEFAULT))} time.",
-            f"Targets (section 3): met in {len(pairs) - missed} of {len(pairs)} combinations of wall and "
-            f"accelerograms.",
+            f"Targets (section 3): met in {len(pairs) - missed} of {len(pairs)} combinations of wall and set.",
             f"Time per recorded history at the defaults, on one thread: {times}.",
-            f"Fragility: θ and β at the defaults are {exactly}; between rtol = "
-            f"{power(ORDINARY[0])} and {power(ORDINARY[-1])} within {widest:.2g} standard errors, by "
-            f"{many(len(rows), 'wrong flag')}.",
-            f"The estimated error finds {counts[1]} of {many(counts[0], 'EDP')} that are off by more than 1e-6, with "
+            f"Fragility: θ and β at the defaults are {exactly}; between rtol = {power(ORDINARY[0])} and "
+            f"{power(ORDINARY[-1])} {many(len(rows), 'wrong flag')}, and shifts of at most {widest:.2g} standard "
+            "errors.",
+            f"The estimated error finds {counts[1]} of the {many(counts[0], 'EDP')} {off}, with "
             f"{many(counts[3], 'false alarm')}.",
             f'The costliest single shortcut, "{worst}": {single[worst]} wrong flags of {recorded}, '
             f"{sum(e.above(1e-3) for e in spoiled[worst])} EDPs off by more than 1e-3.",

@@ -52,20 +52,16 @@ def truth(study):
         "## 1. What truth is",
         "",
         *paragraph(
-            "The truth is the motion that [theory.md](theory.md#4-the-hybrid-motion) defines, for the accelerogram "
-            "that "
-            "is linear between its samples: rocking starts, impacts happen, chains of bounces end and the peak is "
-            "reached "
-            "at instants of their own, and not at samples. Whether mechanisms and restitution describe a wall is "
-            "another "
-            "question."
+            "The truth is the motion that [theory.md](theory.md#4-the-hybrid-motion) defines, for the "
+            "accelerogram that is linear between its samples: rocking starts, impacts happen, chains of bounces "
+            "end and the peak is reached at instants of their own, and not at samples. Whether mechanisms and "
+            "restitution describe a wall is another question."
         ),
         *paragraph(
             "The tables of [test/reference](../test/reference) hold the EDP of every history to 20 digits. "
-            "`./run reference` compiles the same sources in real128 (33 digits) and runs them at a tolerance at which "
-            "even the worst amplified error is small. How far an EDP moves when that tolerance is relaxed a "
-            "hundredfold "
-            "bounds the error of the table."
+            "`./run reference` compiles the same sources in real128 (33 digits) and runs them at a tolerance at "
+            "which even the worst amplified error is small. How far an EDP moves when that tolerance is relaxed "
+            "a hundredfold bounds the error of the table."
         ),
         *table(
             ["wall", "accelerograms", "histories", "rtol", "largest change of an EDP", "in", "changes above 1e-12"],
@@ -73,12 +69,11 @@ def truth(study):
         ),
         *bullets(f"`{wall}`: `{said}`" for wall, said in WALLS.items()),
         *paragraph(
-            "The recorded accelerograms are 44 horizontal components from Italy, 1976 to 2016 (22 stations of the "
-            "collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository), the "
-            "synthetic "
-            "ones those of [data/records](../data/records/synthetic44.csv). Reference and product share their sources; "
-            "section 7 says what checks both from outside, and the study of section 6 integrates the same motion by a "
-            "loop of its own."
+            "The recorded accelerograms are 44 horizontal components from Italy, 1976 to 2016 (22 stations of "
+            "the collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository), "
+            "the synthetic ones those of [data/records](../data/records/synthetic44.csv). Reference and product "
+            "share their sources; section 7 says what checks both from outside, and the study of section 6 "
+            "integrates the same motion by a loop of its own."
         ),
     ]
 
@@ -90,11 +85,10 @@ def work_precision(study):
         "## 2. Accuracy and time",
         "",
         *paragraph(
-            f"The engine rk45 at rtol from {power(TOLERANCES[0])} to {power(TOLERANCES[-1])}, atol = rtol/100, one "
-            f"thread. "
-            "The error is that of the EDP against the reference; the median is that of the histories that rock and "
-            "do not "
-            f"collapse. Times are medians of {REPEATS} runs, without the reading of files, and inform only."
+            f"The engine rk45 at rtol from {power(TOLERANCES[0])} to {power(TOLERANCES[-1])}, atol = rtol/100, "
+            "one thread. The error is that of the EDP against the reference; the median is that of the histories "
+            f"that rock and do not collapse. Times are medians of {REPEATS} runs, without the reading of files, "
+            "and inform only."
         ),
         "![error of the EDP against tolerance and time per history](figures/verification_work.png)",
         "",
@@ -138,16 +132,13 @@ def defaults(study):
     demand(gain > 10.0, f"beyond the default errors fall: {gain:.2g}-fold at {power(TIGHT)}")
     return paragraph(
         f"**Why rtol = {power(DEFAULT)} and atol = {power(DEFAULT / 100.0)} are the defaults.** No step crosses a "
-        f"sample, "
-        "and one step from sample to sample is already so accurate that looser tolerances change next to nothing: from "
-        f"{power(loosest)} to {power(DEFAULT)} no median error changes by more than a factor {change:.1f}, and the "
-        f"time of "
-        f"all histories by {percent(near)}. Beyond, accuracy has its price: {power(tighter)} costs {percent(far)} "
-        f"time, and "
-        f"{power(TIGHT)} {percent(farther)}, for median errors that fall at least {gain:.0f}-fold. The default is "
-        f"the knee: "
-        "the tightest tolerance that costs next to nothing. It matters where the samples do not limit the step: in "
-        "accelerograms with coarser samples than these (0.005 s), and for smaller, faster walls."
+        "sample, and one step from sample to sample is already so accurate that looser tolerances change next to "
+        f"nothing: from {power(loosest)} to {power(DEFAULT)} no median error changes by more than a factor "
+        f"{change:.1f}, and the time of all histories by {percent(near)}. Beyond, accuracy has its price: "
+        f"{power(tighter)} costs {percent(far)} time, and {power(TIGHT)} {percent(farther)}, for median errors "
+        f"that fall at least {gain:.0f}-fold. The default is the knee: the tightest tolerance that costs next to "
+        "nothing. It matters where the samples do not limit the step: in accelerograms with coarser samples than "
+        "these (0.005 s), and for smaller, faster walls."
     )
 
 
@@ -173,9 +164,8 @@ def targets(study):
         "## 3. Targets",
         "",
         *paragraph(
-            f"At the defaults no wrong flag, and at most {100.0 * SHARE:.0f} % of the EDPs off by more than 1e-6; at "
-            f"rtol "
-            f"= {power(TIGHT)} at most {many(FEW, 'EDP')}. In brackets: how many are allowed."
+            f"At the defaults no wrong flag, and at most {100.0 * SHARE:.0f} % of the EDPs off by more than 1e-6; "
+            f"at rtol = {power(TIGHT)} at most {many(FEW, 'EDP')}. In brackets: how many are allowed."
         ),
         *table(
             ["wall", "accelerograms", "wrong flags", "EDPs off by more than 1e-6", f"the same at {power(TIGHT)}", ""],

@@ -138,10 +138,9 @@ def flags(study):
     if wrong:
         lines += paragraph(
             f"{span}, in {len(ORDINARY) * len(study.pairs())} runs of all histories of a wall, "
-            f"{many(len(wrong), 'flag')} "
-            "differed from the reference. No ordinary tolerance is safe from that: a tighter one may miss the one "
-            "history "
-            "that a looser one has right. What the estimated error of section 5 says of it:"
+            f"{many(len(wrong), 'flag')} differed from the reference. No ordinary tolerance is safe from that: a "
+            "tighter one may miss the one history that a looser one has right. What the estimated error of "
+            "section 5 says of it:"
         )
         lines += table(
             [
@@ -222,11 +221,10 @@ def estimates(study):
         "",
         *paragraph(
             "With `estimate_error = .true.` every history is run a second time with halved steps, and "
-            "`*_histories.csv` "
-            "has a column `edp_error`. Here it is held against the true error, at the defaults. A miss is an EDP "
-            "that is "
-            "off by more than 1e-6 and not called so; a false alarm the opposite. A flag is in doubt if EDP plus twice "
-            "the estimated error reaches the limit, or if only one of the two runs collapses."
+            "`*_histories.csv` has a column `edp_error`. Here it is held against the true error, at the "
+            "defaults. A miss is an EDP that is off by more than 1e-6 and not called so; a false alarm the "
+            "opposite. A flag is in doubt if EDP plus twice the estimated error reaches the limit, or if only one "
+            "of the two runs collapses."
         ),
         *table(
             [
