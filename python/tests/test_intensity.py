@@ -1,6 +1,7 @@
 """Intensity measures against SciPy, their table, their units, and the comparison of their efficiency."""
 
 import re
+
 import numpy as np
 import pytest
 from scipy import integrate, signal
