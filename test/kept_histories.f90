@@ -29,10 +29,10 @@ contains
       select case (number)
       case (1)
          what = 'a trial step went beyond the geometry and overflowed'
-         call wall('two_block', hinge=0.9_wp)
-         call record(98.1_wp*wave, 0.05_wp)
+         call wall('two_block', hinge=0.88_wp)
+         call record([(0.9_wp*largest_acceleration*sin(real(i, wp)**2), i=1, 600)], 0.05_wp)
       case (2)
-         what = 'the same with the largest acceleration'
+         what = 'spikes of the largest acceleration'
          call wall('two_block', hinge=0.95_wp)
          call record(largest_acceleration*spike, 0.05_wp)
       case (3)

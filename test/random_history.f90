@@ -126,7 +126,7 @@ contains
 
       allocate(a(n))
       peak = min(trigger*across(random, 0.5_wp, 50.0_wp), 98.1_wp)
-      if (choice(random, 20) == 1) peak = 0.5_wp*largest_acceleration
+      if (choice(random, 20) == 1) peak = 0.9_wp*largest_acceleration
       edge = min(trigger, 0.5_wp*largest_acceleration)
       select case (choice(random, 6))
       case (1)
