@@ -126,7 +126,7 @@ contains
       kinetic = 0.5_wp*j*v**2
    end function kinetic
 
-   !> Power of the ground, -s L u_g'' q', times the interval, at Gauss's nodes of a motion given by Bernstein coefficients
+   !> Power of the ground, -s L u_g'' q', times the interval, at Gauss's nodes of a motion in Bernstein form
    function power_along(mechanism, ground, h, b) result(power)
       class(mechanism_type), intent(in) :: mechanism
       type(excitation_type), intent(in) :: ground
