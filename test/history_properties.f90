@@ -11,6 +11,7 @@ module history_properties
    use dondolo_solver, only : check_limit, solver_type
    use dondolo_text, only : to_text
    use energy_balance, only : balance_type, energy_balance_of
+   use dondolo_simulate, only : simulate
    use random_history, only : history_type
    use same_response, only : is_same
    implicit none
@@ -43,6 +44,7 @@ contains
 
       call check_work(history, response, what)
       call check_result(response, history%solver%edp_limit, what)
+      call check_estimate(history, response, what)
       call check_symmetries(history, response, what)
       call check_limit_at_peak(history, response, what)
       call check_midpoints(history, response, what)
@@ -103,6 +105,22 @@ contains
       call check(response%collapsed .eqv. response%edp == limit, what//': collapsed at the limit')
       call check(response%time_of_peak >= 0.0_wp .and. response%impacts >= 0, what//': time of the peak, impacts')
    end subroutine check_result
+
+   !> An estimated error is finite and changes nothing else
+   subroutine check_estimate(history, response, what)
+      type(history_type), intent(in) :: history
+      type(response_type), intent(in) :: response
+      character(len=*), intent(in) :: what
+      type(response_type) :: again
+      type(solver_type) :: solver
+
+      solver = history%solver
+      solver%estimate_error = .true.
+      call simulate(history%wall%mechanism, history%record, history%scale, solver, again)
+      call check(is_same(again, response), what//': the same with an estimated error')
+      call check(again%edp_error >= 0.0_wp .and. again%edp_error <= solver%edp_limit, what//': estimated error '// &
+         & to_text(again%edp_error))
+   end subroutine check_estimate
 
    !> What changes nothing, to the bit: record and scale reversed, the record of a two-sided wall reversed, a power of
    !> two in the record and out of the scale

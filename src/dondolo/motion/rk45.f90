@@ -236,6 +236,7 @@ contains
       !> Where the motion is
       type(motion_type), intent(inout) :: motion
 
+      call motion%limit_steps(scene%solver, record%dt)
       motion%excitation%start = 0.0_wp
       motion%excitation%slope = 0.0_wp
       associate (a => record%acceleration, i => motion%interval)
