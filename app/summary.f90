@@ -94,8 +94,13 @@ contains
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
-         if (case%solver%solver%estimate_error) &
-            & write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
+         if (case%solver%solver%estimate_error) then
+            if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
+               write (output_unit, '(a)') 'with halved steps it collapses too'
+            else
+               write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
+            end if
+         end if
       end associate
    end subroutine print_history
 

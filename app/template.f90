@@ -101,7 +101,7 @@ contains
       call print_line('   rtol = '//to_text(solver%rtol)//'          ! relative error of a step')
       call print_line('   atol = '//to_text(solver%atol)//'         ! absolute error of a step, 1 = the capacity')
       call print_line('   edp_limit = 1.0      ! rotation / capacity rotation that counts as collapse')
-      call print_line('   estimate_error = .false.   ! .true.: how far is each EDP off? Takes two to three times as long')
+      call print_line('   estimate_error = .false. ! .true.: how far is each EDP off? Takes two to three times as long')
       call print_line('   gravity = 9.81       ! m/s2')
       call print_line('/')
    end subroutine print_solver

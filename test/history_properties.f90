@@ -11,6 +11,7 @@ module history_properties
    use dondolo_solver, only : check_limit, solver_type
    use dondolo_text, only : to_text
    use energy_balance, only : balance_type, energy_balance_of
+   use dondolo_simulate, only : simulate
    use random_history, only : history_type
    use same_response, only : is_same
    implicit none
@@ -18,8 +19,8 @@ module history_properties
 
    public :: check_properties, print_extremes
 
-   !> Most evaluations of the equation of motion for each sample and impact. The most are those of the time of a late peak
-   !> after a record of two samples
+   !> Most evaluations of the equation of motion for each sample and impact. The most are those of the time of a late
+   !> peak after a record of two samples
    real(wp), parameter :: most_evaluations = 2.0e3_wp
 
    !> Longest time of a history, which no machine should need [s]
@@ -43,6 +44,7 @@ contains
 
       call check_work(history, response, what)
       call check_result(response, history%solver%edp_limit, what)
+      call check_estimate(history, response, what)
       call check_symmetries(history, response, what)
       call check_limit_at_peak(history, response, what)
       call check_midpoints(history, response, what)
@@ -56,8 +58,8 @@ contains
    !> Print what the histories came to
    subroutine print_extremes()
 
-      print '(a)', to_text(moved)//' moved, '//to_text(collapsed)//' collapsed, '//to_text(impacts)//' impacts; most '// &
-         & 'evaluations a sample '//short(most_work)//'; '//to_text(balanced)//' intervals balance, worst '// &
+      print '(a)', to_text(moved)//' moved, '//to_text(collapsed)//' collapsed, '//to_text(impacts)//' impacts; '// &
+         & 'most evaluations a sample '//short(most_work)//'; '//to_text(balanced)//' intervals balance, worst '// &
          & short(worst_balance)//'; '//to_text(conditioned)//' with midpoints, worst '//short(worst_midpoints)// &
          & '; slowest '//short(slowest)//' s'
    end subroutine print_extremes
@@ -104,8 +106,24 @@ contains
       call check(response%time_of_peak >= 0.0_wp .and. response%impacts >= 0, what//': time of the peak, impacts')
    end subroutine check_result
 
-   !> What changes nothing, to the bit: record and scale reversed, the record of a two-sided wall reversed, a power of two
-   !> in the record and out of the scale
+   !> An estimated error is finite and changes nothing else
+   subroutine check_estimate(history, response, what)
+      type(history_type), intent(in) :: history
+      type(response_type), intent(in) :: response
+      character(len=*), intent(in) :: what
+      type(response_type) :: again
+      type(solver_type) :: solver
+
+      solver = history%solver
+      solver%estimate_error = .true.
+      call simulate(history%wall%mechanism, history%record, history%scale, solver, again)
+      call check(is_same(again, response), what//': the same with an estimated error')
+      call check(again%edp_error >= 0.0_wp .and. again%edp_error <= solver%edp_limit, what//': estimated error '// &
+         & to_text(again%edp_error))
+   end subroutine check_estimate
+
+   !> What changes nothing, to the bit: record and scale reversed, the record of a two-sided wall reversed, a power of
+   !> two in the record and out of the scale
    subroutine check_symmetries(history, response, what)
       type(history_type), intent(in) :: history
       type(response_type), intent(in) :: response
@@ -154,9 +172,9 @@ contains
    end subroutine check_limit_at_peak
 
    !> A record with the midpoints of its samples is the same function of time, so its result - the peak, the time of a
-   !> collapse - differs by errors of the steps alone. How much they grow shows in a change of the scale as large as they
-   !> are; where that is amplified more than a thousandfold no tolerance tells what the result should be. Every one of hundreds of steps
-   !> may err by the tolerance
+   !> collapse - differs by errors of the steps alone. How much they grow shows in a change of the scale as large as
+   !> they are; where that is amplified more than a thousandfold no tolerance tells what the result should be. Every
+   !> one of hundreds of steps may err by the tolerance
    subroutine check_midpoints(history, response, what)
       type(history_type), intent(in) :: history
       type(response_type), intent(in) :: response

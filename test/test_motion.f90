@@ -236,9 +236,14 @@ contains
       response = response_type(edp=0.9_wp, edp_error=0.9e-6_wp)
       call check(.not. response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a small error')
       response%edp_error = 1.1e-6_wp
-      call check(response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), 'a large one, far from the limit')
-      response%edp_error = 0.06_wp
-      call check(response%is_unsure(1.0_wp) .and. .not. response%is_unsure(1.1_wp), 'twice the error reaches the limit')
+      call check(response%is_ill_conditioned() .and. .not. response%is_unsure(1.0_wp), &
+         & 'a large one, far from the limit')
+      response%edp_error = 0.006_wp
+      response%edp = 0.99_wp
+      call check(response%is_unsure(1.0_wp) .and. .not. response%is_unsure(1.1_wp), &
+         & 'twice the error reaches the limit')
+      response = response_type(edp=0.3_wp, edp_error=0.02_wp)
+      call check(response%is_unsure(1.0_wp), 'errors as large as the motion')
       response = response_type(edp=1.0_wp, collapsed=.true.)
       call check(.not. response%is_unsure(1.0_wp), 'both runs collapse')
       response%edp_error = 0.3_wp

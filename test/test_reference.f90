@@ -139,8 +139,8 @@ contains
          call check(100*count(wrong) <= size(wrong), to_text(count(wrong))//' of '//to_text(size(wrong))// &
             & ' EDPs are off by more than 1e-6, one in a hundred may be')
          call check(all(response%is_ill_conditioned() .or. .not. wrong), 'the estimate marks every one of them')
-         call check(.not. any(response%is_ill_conditioned() .and. abs(response%edp - exact%edp) < 0.1_wp*largest_error), &
-            & 'it does not cry wolf')
+         call check(.not. any(response%is_ill_conditioned() .and. &
+            & abs(response%edp - exact%edp) < 0.1_wp*largest_error), 'it does not cry wolf')
          call check(all(abs(response%edp - exact%edp) <= 2.0_wp*response%edp_error + 1.0e-10_wp), &
             & 'no error is more than twice its estimate')
          ! A collapse in slow motion, or a wall that hardly moves, says little of the time.
@@ -155,7 +155,8 @@ contains
       call check_ok(error, 'tight tolerances')
       call check(all(stripes%response%collapsed .eqv. exact%collapsed), 'every flag is right at rtol = 1e-12')
       wrong = abs(stripes%response%edp - exact%edp) > largest_error
-      call check(count(wrong) <= 2, to_text(count(wrong))//' EDPs are off by more than 1e-6 at rtol = 1e-12, two may be')
+      call check(count(wrong) <= 2, to_text(count(wrong))// &
+         & ' EDPs are off by more than 1e-6 at rtol = 1e-12, two may be')
       solver%estimate_error = .true.
       do k = 1, size(levels)
          do j = 1, size(records)

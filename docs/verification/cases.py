@@ -15,6 +15,10 @@ WALLS = {
     "free_standing": "mechanism = 'free_standing' height = 2.0 thickness = 0.5",
 }
 
+# Walls of the dense grid of levels, where a run at a tight tolerance stands for the truth
+DENSE_WALLS = WALLS | {"two_block, factor 1": "mechanism = 'two_block' height = 3.0 thickness = 0.25 hinge = 0.6"}
+DENSE_LEVELS = "first = 0.02 last = 1.0 count = 50"
+
 
 @dataclass(frozen=True)
 class Motions:
@@ -38,7 +42,7 @@ def write_case(folder, wall, motions, rtol, threads=1, solver=""):
     path = Path(folder) / "case.nml"
     path.write_text(
         f"&job task = 'stripes' output = '{folder}/result' threads = {threads} /\n"
-        f"&wall {WALLS[wall]} /\n"
+        f"&wall {DENSE_WALLS[wall]} /\n"
         f"&records catalogue = '{motions.catalogue}' /\n"
         f"&stripes {motions.stripes} /\n"
         f"&solver rtol = {rtol} atol = {rtol / 100.0} {solver} /\n",

@@ -72,8 +72,7 @@ def truth(study):
             "The recorded accelerograms are 44 horizontal components from Italy, 1976 to 2016 (22 stations of "
             "the collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository), "
             "the synthetic ones those of [data/records](../data/records/synthetic44.csv). Reference and product "
-            "share their sources; section 7 says what checks both from outside, and the study of section 6 "
-            "integrates the same motion by a loop of its own."
+            "share their sources; section 7 says what checks both from outside."
         ),
     ]
 

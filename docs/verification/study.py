@@ -8,11 +8,11 @@ import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from cases import TABLES, WALLS, motions, read_table, run, write_case
+from cases import DENSE_LEVELS, DENSE_WALLS, TABLES, WALLS, Motions, motions, read_table, run, write_case
 from histories import Errors, Histories
 
 TOLERANCES = [10.0**-digits for digits in range(3, 14)]
-DEFAULT, TIGHT = 1e-8, 1e-12
+DEFAULT, TIGHT, TIGHTEST = 1e-8, 1e-12, 1e-13
 REPEATS = 3
 
 
@@ -25,6 +25,7 @@ class Study:
     runs: dict = field(default_factory=dict)  # (wall, set, rtol): histories
     milliseconds: dict = field(default_factory=dict)  # (wall, set, rtol): time per history
     estimated: dict = field(default_factory=dict)  # (wall, set, rtol): histories with estimated errors
+    dense: dict = field(default_factory=dict)  # wall: run and its errors on the dense grid of levels
     shortcuts: dict = field(default_factory=dict)  # wall: {shortcut: histories}
 
     def errors(self, wall, name, rtol):
@@ -69,6 +70,13 @@ def collect(executable, shortcuts, records):
         if key[2] == DEFAULT or study.errors(*key).flags():
             result = run(executable, key[0], sets[key[1]], key[2], solver="estimate_error = .true.")
             study.estimated[key] = Histories.of(result["histories"])
+    dense = Motions(sets["recorded"].catalogue, DENSE_LEVELS)
+    for wall in DENSE_WALLS:
+        default = run(executable, wall, dense, DEFAULT, solver="estimate_error = .true.")
+        tight = run(executable, wall, dense, TIGHTEST)
+        runs = [Histories.of(each["histories"]) for each in (default, tight)]
+        study.dense[wall] = (runs[0], Errors(*runs))
+        print(f"dense grid: {wall}", file=sys.stderr)
     for wall in WALLS:
         study.shortcuts[wall] = run_shortcuts(shortcuts, wall, sets["recorded"])
         print(f"shortcuts: {wall}", file=sys.stderr)

@@ -427,9 +427,12 @@ def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, cu
 
 
 def warnings_of_errors(
-    edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str, level: float
+    edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
 ) -> list[str]:
-    """What the executable would warn of, of estimated errors; record and level are those of the largest."""
+    """What the executable would warn of, of estimated errors; record and level are those of the largest.
+
+    Without a record it is one history.
+    """
     return receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)).lines
 
 

@@ -771,7 +771,8 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
    call report(error, stat, message)
 end subroutine warn_of_curve
 
-! What the executable would warn of, of estimated errors; record and level are those of the largest
+! What the executable would warn of, of estimated errors; record and level are those of the largest, without a record
+! it is one history
 subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_lines, parcel_type, report, send
@@ -779,7 +780,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
-   use dondolo_warnings, only : sentences => warn_of_errors
+   use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    implicit none
    !f2py threadsafe
    integer(c_int), intent(in) :: n
@@ -800,7 +801,11 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    allocate (stripes%response(n, 1))
    stripes%response(:, 1)%edp = edp
    stripes%response(:, 1)%edp_error = edp_error
-   call sentences(stripes, records, edp_limit, warnings)
+   if (len(record) == 0) then
+      call sentence(stripes%response(1, 1), edp_limit, warnings)
+   else
+      call sentences(stripes, records, edp_limit, warnings)
+   end if
    parcel%text = pack_lines(warnings)
    call send(parcel, handle, sizes)
    call report(error, stat, message)

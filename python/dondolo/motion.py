@@ -41,7 +41,7 @@ class Response:
     side : ndarray of int, shape (rows,), or None
         +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
     edp_error : float or None
-        Estimated error of `edp`; None unless asked for.
+        Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
     """
 
     wall: Wall
@@ -70,7 +70,13 @@ class Response:
             ("time of the peak", f"{self.time_of_peak:.6g} s"),
         ]
         if self.edp_error is not None:
-            facts.insert(4, ("estimated error of the EDP", f"{self.edp_error:.2g}"))
+            both = self.collapsed and self.edp_error == 0.0
+            fact = (
+                ("with halved steps", "collapses too")
+                if both
+                else ("estimated error of the EDP", f"{self.edp_error:.2g}")
+            )
+            facts.insert(4, fact)
         return facts
 
     def __repr__(self) -> str:
@@ -144,6 +150,11 @@ def simulate(
     InputError
         A setting that makes no sense, with the sentence of the executable.
 
+    Warns
+    -----
+    DondoloWarning
+        With an estimated error: a history in doubt.
+
     Notes
     -----
     Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
@@ -168,6 +179,7 @@ def simulate(
     response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
     if estimate_error:
         object.__setattr__(response, "edp_error", edp_error)
+        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
     if history:
         rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
         rows.flags.writeable = False

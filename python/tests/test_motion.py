@@ -121,13 +121,30 @@ def test_scaling_the_record_or_its_factor(scale, factor, kind):
     assert dd.simulate(wall, dd.Record(motion, 0.01), scale * factor, history=False).time_of_peak >= 0.0
 
 
-def test_estimated_error(wall, sine):
-    """At loose tolerances the estimate is close to how far the EDP really is off."""
+@pytest.mark.parametrize("step", [1, 20])
+def test_estimated_error(wall, sine, step):
+    """The estimate is close to how far the EDP really is off, whether samples or tolerances limit the steps."""
+    sine = dd.Record(sine.acceleration[::step], step * sine.dt)
     assert dd.simulate(wall, sine, 2.0).edp_error is None
     exact = dd.simulate(wall, sine, 2.0, rtol=1e-13, atol=1e-15, history=False).edp
-    for rtol in (1e-2, 1e-3):
-        rough = dd.simulate(wall, sine, 2.0, rtol=rtol, atol=rtol, estimate_error=True)
+    for rtol in (1e-3, 1e-4, 1e-5, 1e-6):
+        rough = dd.simulate(wall, sine, 2.0, rtol=rtol, atol=0.01 * rtol, estimate_error=True)
         assert rough.edp != exact
         assert rough.edp_error == pytest.approx(abs(rough.edp - exact), rel=0.2)
         assert "estimated error" in repr(rough)
     assert dd.simulate(wall, sine, 2.0, estimate_error=True).edp_error < 1e-9
+
+
+def test_tightest_tolerances_are_doubted_too(wall, sine):
+    """Where rounding rules, the second run still takes other steps."""
+    tightest = dd.simulate(wall, sine, 2.0, rtol=2.3e-15, atol=1e-17, estimate_error=True)
+    assert 0.0 < tightest.edp_error < 1e-9
+
+
+def test_a_history_in_doubt_is_warned_of(wall, records):
+    record = next(each for each in records if each.name == "18_l_aquila_2009_apr_07_m5.5_a")
+    with pytest.warns(dd.DondoloWarning, match="ill-conditioned: the estimated error of the EDP is 0.000"):
+        dd.simulate(wall, record, 0.8 * 9.81 / record.pga, estimate_error=True, history=False)
+    collapse = dd.simulate(wall, record, 10.0 * 9.81 / record.pga, estimate_error=True, history=False)
+    assert collapse.collapsed
+    assert "with halved steps collapses too" in repr(collapse)

@@ -10,7 +10,8 @@ module dondolo_run_case
    use dondolo_stripes, only : plan_stripes, progress_interface, run_histories, stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names
-   use dondolo_warnings, only : scale_warning_type, warn_of_errors, warn_of_fit, warn_of_fits, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_fits, &
+      & warn_of_records
    implicit none
    private
 
@@ -60,6 +61,7 @@ contains
          call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
          call simulate(case%population%walls(1)%mechanism, case%records(case%history%record), &
             & case%history_scale(), case%solver%solver, results%response, results%trace)
+         call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
       case ('stripes')
          call run_stripes(case, results, error, team, progress)
       case ('typology')

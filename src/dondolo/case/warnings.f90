@@ -4,7 +4,7 @@ module dondolo_warnings
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : largest_sure_error
+   use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : typology_type
@@ -12,7 +12,7 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, warn_of_errors, rounded
+   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, warn_of_error, warn_of_errors, rounded
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -180,18 +180,33 @@ contains
       character(len=:), allocatable :: of_all
       integer :: at(2), number
 
-      of_all = ' of '//to_text(size(stripes%response))//' histories '
+      of_all = ' of '//to_text(size(stripes%response))//' histories'
       number = count(stripes%response%is_ill_conditioned())
       if (number > 0) then
          at = maxloc(stripes%response%edp_error)
-         call warnings%add(to_text(number)//of_all//'are ill-conditioned: the estimated error of the EDP is above '// &
-            & to_text(largest_sure_error)//', at most '//rounded(stripes%response(at(1), at(2))%edp_error)// &
-            & ' (record '''//records(stripes%record(at(1)))%name//''' at level '//to_text(stripes%levels(at(2)))//')')
+         call warnings%add('ill-conditioned: '//to_text(number)//of_all// &
+            & ' with an estimated error of the EDP above '//to_text(largest_sure_error)//'; the largest is '// &
+            & rounded(stripes%response(at(1), at(2))%edp_error)//' (record '''// &
+            & records(stripes%record(at(1)))%name//''' at level '//rounded(stripes%levels(at(2)))//')')
       end if
       number = count(stripes%response%is_unsure(edp_limit))
-      if (number > 0) call warnings%add(to_text(number)//of_all// &
-         & 'are so near the limit that their estimated error leaves the collapse in doubt')
+      if (number > 0) call warnings%add('collapse or not is in doubt, by the estimated error, in '// &
+         & to_text(number)//of_all)
    end subroutine warn_of_errors
+
+   !> Warn of one history in the same words
+   subroutine warn_of_error(response, edp_limit, warnings)
+      !> The history with its estimated error
+      type(response_type), intent(in) :: response
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      if (response%is_ill_conditioned()) call warnings%add('ill-conditioned: the estimated error of the EDP is '// &
+         & rounded(response%edp_error)//', above '//to_text(largest_sure_error))
+      if (response%is_unsure(edp_limit)) call warnings%add('collapse or not is in doubt, by the estimated error')
+   end subroutine warn_of_error
 
    !> Where a bracket lies: between two levels, or above or below one
    pure function between(bracket) result(text)

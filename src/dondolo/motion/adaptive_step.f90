@@ -43,6 +43,8 @@ module dondolo_adaptive_step
       real(wp) :: f = 0.0_wp
       !> Step proposed by the error control [s]
       real(wp) :: step = 0.0_wp
+      !> Longest step from the last sample or event to the next [s]
+      real(wp) :: longest = huge(1.0_wp)
       !> Scaled error of the last accepted step
       real(wp) :: last_error = 1.0e-4_wp
       !> Largest rotation so far [rad] and its time [s]
@@ -51,6 +53,9 @@ module dondolo_adaptive_step
       integer :: impacts = 0
       !> Tiny bounces in a row
       integer :: tiny_bounces = 0
+   contains
+      !> Take note of a sample or an event
+      procedure :: limit_steps
    end type motion_type
 
    !> What stays the same during a history
@@ -84,19 +89,16 @@ contains
       !> Does it end on the next sample?
       logical, intent(out) :: sample_reached
 
-      ! Longer by a little, so that rounding never asks for one step more
-      real(wp), parameter :: slack = 1.0001_wp
-      real(wp) :: longest, remaining, h, q, v, f, q_error, v_error, error, x
+      real(wp) :: remaining, h, q, v, f, q_error, v_error, error, x
       logical :: accepted
       integer :: parts
 
-      longest = slack*dt/real(scene%solver%steps_per_sample, wp)
       remaining = dt - motion%time
       event = no_event
       sample_reached = .not. remaining > 0.0_wp
       if (sample_reached) return
       do
-         parts = max(1, ceiling(remaining/min(motion%step, longest)))
+         parts = max(1, ceiling(remaining/min(motion%step, motion%longest)))
          h = remaining/real(parts, wp)
          call dormand_prince_step(mechanism, motion%excitation, motion%time, h, motion%q, motion%v, motion%f, &
             & q, v, f, q_error, v_error)
@@ -118,7 +120,24 @@ contains
       motion%q = q
       motion%v = v
       motion%f = f
+      if (event /= no_event) call motion%limit_steps(scene%solver, dt)
    end subroutine advance
+
+   !> From a sample or an event to the next sample there are at least as many steps as the solver asks for
+   elemental subroutine limit_steps(self, solver, dt)
+      !> Where the motion is: just after the sample or event
+      class(motion_type), intent(inout) :: self
+      !> The solver
+      type(solver_type), intent(in) :: solver
+      !> Sample interval [s]
+      real(wp), intent(in) :: dt
+
+      ! Longer by a little, so that rounding never asks for one step more
+      real(wp), parameter :: slack = 1.0001_wp
+
+      self%longest = huge(dt)
+      if (solver%steps_per_sample > 1) self%longest = slack*(dt - self%time)/real(solver%steps_per_sample, wp)
+   end subroutine limit_steps
 
    !> Accept or reject a step and propose the next (PI control; Hairer, Norsett and Wanner 1993, section II.4)
    pure subroutine control_step(error, h, smallest, motion, accepted)

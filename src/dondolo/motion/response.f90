@@ -10,8 +10,9 @@ module dondolo_response
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
 
-   !> Error that must be reckoned with / estimated error, where a collapse is at stake
-   real(wp), parameter :: safety = 2.0_wp
+   !> Error that must be reckoned with / estimated error, where a collapse is at stake; and the estimated error
+   !> beyond which nothing is sure, since errors have grown to the size of the motion
+   real(wp), parameter :: safety = 2.0_wp, saturated = 1.0e-2_wp
 
    !> Result of one history
    type :: response_type
@@ -69,7 +70,8 @@ contains
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
 
-      is_unsure = self%edp_error > 0.0_wp .and. self%edp + safety*self%edp_error >= edp_limit
+      is_unsure = self%edp_error > 0.0_wp .and. &
+         & (self%edp + safety*self%edp_error >= edp_limit .or. self%edp_error > saturated*edp_limit)
    end function is_unsure
 
    !> Add a row

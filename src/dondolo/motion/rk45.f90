@@ -25,7 +25,7 @@ module dondolo_rk45
    real(wp), parameter :: tiny_height = 1.0e-12_wp
    integer, parameter :: most_tiny_bounces = 1000
 
-   !> Time after the record for which a trace goes on [s], and most sample intervals of it, since a time step may be tiny
+   !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
    real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
 
 contains
@@ -236,6 +236,7 @@ contains
       !> Where the motion is
       type(motion_type), intent(inout) :: motion
 
+      call motion%limit_steps(scene%solver, record%dt)
       motion%excitation%start = 0.0_wp
       motion%excitation%slope = 0.0_wp
       associate (a => record%acceleration, i => motion%interval)

@@ -1,15 +1,15 @@
 !> The motion of a wall under an accelerogram, and how far its result can be trusted.
 !>
 !> Rocking amplifies errors, in a few histories by more than 10^8, and nothing in a step's own error tells which.
-!> So the history is run once more with every step halved, which leaves a 32nd of the error of a fifth-order
-!> method: the difference is the error of the first run (docs/theory.md, section 5).
+!> So the history is run once more with halved steps, which leave about a 32nd of the error of a fifth-order method:
+!> the difference tells the size of the error of the first run, and is no bound (docs/theory.md, section 5).
 module dondolo_simulate
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : halved_steps, solver_type
+   use dondolo_solver, only : other_steps, solver_type
    implicit none
    private
 
@@ -32,12 +32,12 @@ contains
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
 
-      type(response_type) :: finer
+      type(response_type) :: other
 
       call simulate_rk45(mechanism, record, scale, solver, response, trace)
       if (.not. solver%estimate_error) return
-      call simulate_rk45(mechanism, record, scale, halved_steps(solver), finer)
-      response%edp_error = abs(finer%edp - response%edp)
+      call simulate_rk45(mechanism, record, scale, other_steps(solver), other)
+      response%edp_error = abs(other%edp - response%edp)
    end subroutine simulate
 
 end module dondolo_simulate

@@ -7,7 +7,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit, halved_steps
+   public :: solver_type, check_solver, check_limit, other_steps
    public :: engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -25,7 +25,7 @@ module dondolo_solver
       real(wp) :: edp_limit = 1.0_wp
       !> Run every history a second time, to estimate the error of its EDP?
       logical :: estimate_error = .false.
-      !> Least number of steps from sample to sample
+      !> Least number of steps from sample to sample, and from an event to the next sample
       integer :: steps_per_sample = 1
    end type solver_type
 
@@ -52,21 +52,24 @@ contains
       end if
    end subroutine check_solver
 
-   !> Settings that halve every step, whether samples or tolerances limit it; no tolerance gets lost in rounding
-   elemental function halved_steps(solver) result(finer)
+   !> Settings that halve the steps, whether samples or tolerances limit them; where a tolerance is so tight that
+   !> rounding would undo that, they double the steps
+   elemental function other_steps(solver) result(other)
       !> Settings
       type(solver_type), intent(in) :: solver
-      !> Finer settings
-      type(solver_type) :: finer
+      !> Other settings
+      type(solver_type) :: other
 
       ! Half a step has a 32nd of the error that the control of the step looks at.
-      real(wp), parameter :: part = 1.0_wp/32.0_wp, least_rtol = 50.0_wp*epsilon(1.0_wp), least_atol = epsilon(1.0_wp)
+      real(wp), parameter :: ratio = 32.0_wp, least_rtol = 50.0_wp*epsilon(1.0_wp)
+      real(wp) :: factor
 
-      finer = solver
-      finer%rtol = min(solver%rtol, max(part*solver%rtol, least_rtol))
-      finer%atol = min(solver%atol, max(part*solver%atol, least_atol))
-      finer%steps_per_sample = 2*solver%steps_per_sample
-   end function halved_steps
+      factor = merge(ratio, 1.0_wp/ratio, solver%rtol < ratio*least_rtol)
+      other = solver
+      other%rtol = factor*solver%rtol
+      other%atol = factor*solver%atol
+      other%steps_per_sample = 2*solver%steps_per_sample
+   end function other_steps
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)

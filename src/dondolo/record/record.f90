@@ -2,7 +2,6 @@
 !>
 !> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
 module dondolo_record
-   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
@@ -15,6 +14,9 @@ module dondolo_record
 
    !> Largest ground acceleration that is taken for a measurement [m/s2]: a thousand times gravity
    real(wp), parameter :: largest_acceleration = 1.0e4_wp
+
+   !> Shortest and longest time step that are taken for those of a record [s]
+   real(wp), parameter :: shortest_step = 1.0e-9_wp, longest_step = 1.0e2_wp
 
    !> An accelerogram
    type :: record_type
@@ -50,8 +52,9 @@ contains
 
       integer :: i
 
-      if (.not. (dt > 0.0_wp .and. ieee_is_finite(dt))) then
-         call raise_input(error, 'time step dt = '//to_text(dt)//': must be positive')
+      if (.not. (dt >= shortest_step .and. dt <= longest_step)) then
+         call raise_input(error, 'time step dt = '//to_text(dt)//': must lie between '//to_text(shortest_step)// &
+            & ' and '//to_text(longest_step)//' s')
          return
       end if
       if (size(acceleration) < 2) then
