@@ -15,7 +15,6 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.processing import velocity
-from scipy.signal import cont2discrete, lfilter
 
 import dondolo as dd
 from dondolo import style
@@ -199,18 +198,6 @@ def statistics():
     print(f"mean energy {total:.5g}, model {model.energy:.5g}, coefficient of variation {spread / total:.3f}")
 
 
-def response_spectrum(record, periods, damping=0.05):
-    """Spectral pseudo-acceleration [m/s2]: exact for straight lines between samples, peaks at samples."""
-    values = []
-    for period in periods:
-        w = 2.0 * np.pi / period
-        top, bottom, _ = cont2discrete(([-1.0], [1.0, 2.0 * damping * w, w**2]), record.dt, method="foh")
-        # The free motion after the record, for a period
-        ground = np.append(record.acceleration, np.zeros(int(period / record.dt)))
-        values.append(w**2 * np.abs(lfilter(top.ravel(), bottom, ground)).max())
-    return np.array(values)
-
-
 def spectra():
     """Response spectra of the synthetic suite beside those of recorded Italian accelerograms."""
     folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
@@ -224,7 +211,7 @@ def spectra():
     ]
     figure, axes = new_axes(1, 3, (10.4, 3.8))
     for name, several, color, line in sets:
-        logs = np.log([response_spectrum(record, periods) / 9.81 for record in several])
+        logs = np.log([dd.response_spectrum(record, periods).sa / 9.81 for record in several])
         pga = np.log([record.pga / 9.81 for record in several])
         shape = logs - pga[:, None]
         for ax, values in zip(axes[:2], (logs, shape), strict=True):

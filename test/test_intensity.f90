@@ -1,6 +1,7 @@
 !> Intensity measures: closed forms, what must not change them, their names, and the El Centro accelerogram of 1940.
 program test_intensity
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
+   use dondolo_energy_measures, only : significant_times
    use dondolo_error, only : error_type
    use dondolo_ground_motion, only : ground_displacement, ground_velocity
    use dondolo_intensity, only : im_names, measure_type, new_measure
@@ -63,7 +64,7 @@ contains
       type(record_type) :: record
       real(wp), parameter :: exact = 100*epsilon(1.0_wp)
       real(wp), allocatable :: velocity(:), displacement(:)
-      real(wp) :: s
+      real(wp) :: s, times(2)
 
       call suite('shapes')
       record = record_of(spread(2.0_wp, 1, 101), 0.05_wp)
@@ -81,6 +82,12 @@ contains
       ! The energy of the ramp grows with the cube of time, of the falling side with 2 minus a cube
       call check_close(measured(record, 'd5-95'), 1.0_wp - 2.0_wp*0.5_wp*0.1_wp**(1.0_wp/3.0_wp), exact, &
          & 'duration of a triangle')
+      ! Rest before and after does not count: the shares 0 and 1 are where the triangle begins and ends
+      record = record_of([0.0_wp, 0.0_wp, 0.0_wp, 3.0_wp, 0.0_wp, 0.0_wp], 0.5_wp)
+      times = significant_times(record, 0.0_wp, 1.0_wp)
+      call check_close(times(1), 1.0_wp, exact, 'beginning of motion')
+      ! The cubic is flat there: a rounding of the energy is its cube root in time
+      call check_close(times(2), 2.0_wp, epsilon(1.0_wp)**(1.0_wp/3.0_wp), 'end of motion')
       ! From 1 to -1 in a step of 1: the velocity t - t**2 peaks half way, at 1/4
       record = record_of([1.0_wp, -1.0_wp], 1.0_wp)
       call check_close(measured(record, 'pgv'), 0.25_wp, exact, 'PGV within a step')

@@ -209,6 +209,15 @@ def as_text(name: str, value: Any) -> bytes:
         raise InputError(f"{name} = {value!r}: must be a text") from None
 
 
+def as_measures(ims: str | Iterable[str]) -> list[str]:
+    """Turn what a user gives for the names of measures into a list of them; a text is one."""
+    if isinstance(ims, str):
+        return [ims]
+    if not isinstance(ims, Iterable):
+        raise InputError(f"ims = {ims!r}: must be names of intensity measures")
+    return list(ims)
+
+
 def as_path(path: str | os.PathLike[str]) -> bytes:
     """Turn a path into the bytes Fortran takes."""
     return os.fsencode(path)

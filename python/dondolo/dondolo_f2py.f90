@@ -260,6 +260,40 @@ subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat
    call report(error, stat, message)
 end subroutine spectrum
 
+! Velocity of the ground at the samples of a record
+subroutine ground_velocity(acceleration, n, dt, velocity)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_ground_motion, only : velocity_of => ground_velocity
+   use dondolo_record, only : record_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: acceleration(n), dt
+   real(c_double), intent(out) :: velocity(n)
+   type(record_type) :: record
+
+   record%dt = dt
+   record%acceleration = acceleration
+   velocity = velocity_of(record)
+end subroutine ground_velocity
+
+! Times at which the integral of the squared acceleration reaches two shares of its end value
+subroutine significant_times(acceleration, n, dt, low, high, times)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_energy_measures, only : times_of => significant_times
+   use dondolo_record, only : record_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: acceleration(n), dt, low, high
+   real(c_double), intent(out) :: times(2)
+   type(record_type) :: record
+
+   record%dt = dt
+   record%acceleration = acceleration
+   times = times_of(record, low, high)
+end subroutine significant_times
+
 ! Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
 ! where they are not given
 subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)

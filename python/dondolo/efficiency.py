@@ -108,7 +108,7 @@ class IntensityComparison:
 def compare_intensities(
     wall: Wall,
     records: Record | Iterable[Record],
-    ims: Sequence[str],
+    ims: str | Iterable[str],
     levels: int = 15,
     polarity: str = "as_recorded",
     samples: int = 1000,
@@ -128,7 +128,7 @@ def compare_intensities(
         The wall.
     records : Record or iterable of Record
         The accelerograms.
-    ims : sequence of str
+    ims : str or iterable of str
         Intensity measures, as for `multiple_stripe`.
     levels : int
         Stripes of each analysis, at least 2.
@@ -151,7 +151,7 @@ def compare_intensities(
         A measure without a curve: too few records, say.
     """
     several = as_records(records)
-    names = [_binding.describe_measure(im).name for im in ims]
+    names = [_binding.describe_measure(im).name for im in _binding.as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
     if isinstance(levels, bool) or not isinstance(levels, (int, np.integer)) or levels < 2:

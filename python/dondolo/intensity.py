@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -89,7 +89,7 @@ def response_spectrum(record: Record, periods: ArrayLike, damping: float = 0.05)
 
 
 def intensity_table(
-    records: Record | Iterable[Record], ims: Sequence[str] = _COLUMNS, gravity: float | None = None
+    records: Record | Iterable[Record], ims: str | Iterable[str] = _COLUMNS, gravity: float | None = None
 ) -> Any:
     """Intensity measures of records.
 
@@ -97,7 +97,7 @@ def intensity_table(
     ----------
     records : Record or iterable of Record
         The accelerograms.
-    ims : sequence of str
+    ims : str or iterable of str
         Intensity measures, as for `Record.intensity`.
     gravity : float, optional
         What g is [m/s2]; 9.81 if left out.
@@ -106,10 +106,11 @@ def intensity_table(
     -------
     pandas.DataFrame
         A row for each record; the columns are the record's name and the measures with their units, as 'pga [g]'.
+        pandas is no dependency of dondolo: the extra 'tables' installs it.
     """
     several = as_records(records)
     table: dict[str, Any] = {"record": [record.name for record in several]}
-    for im in ims:
+    for im in _binding.as_measures(ims):
         measure = _binding.describe_measure(im, of_record=True)
         table[f"{measure.name} [{measure.unit}]"] = intensities(several, im, gravity)
     return tables.frame(table)

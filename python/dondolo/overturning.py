@@ -215,12 +215,12 @@ def overturning_spectrum(
     wall : Wall
         The wall.
     pulse : callable
-        A record for an amplitude and a frequency [Hz], such as `ricker` or `one_sine`; the record of amplitude 1 is
-        scaled by its peak ground acceleration.
+        A record for an amplitude [m/s2] and a frequency [Hz], such as `ricker` or `one_sine`; the record of amplitude 1
+        is scaled to the peak ground accelerations of the scan.
     frequencies : array_like, shape (frequencies,)
         Frequencies of the pulse [Hz], positive and increasing.
     amplitudes : array_like, shape (amplitudes,)
-        Peak ground accelerations [g], positive and increasing: the scan.
+        Peak ground accelerations in g, not in m/s2 as the amplitude of a pulse is; positive and increasing: the scan.
     polarity : {'as_recorded', 'reversed'}
         Which way round a one-sided wall feels the pulse.
     tolerance : float
@@ -260,6 +260,8 @@ def overturning_spectrum(
     if polarity not in ("as_recorded", "reversed"):
         raise InputError(f"polarity = {polarity!r}: must be one of 'as_recorded', 'reversed'")
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
+    if not callable(pulse):
+        raise InputError(f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.one_sine")
     width = _binding.as_number("tolerance", tolerance)
     if not 1e-12 <= width <= 1.0:
         raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")

@@ -5,12 +5,14 @@ Nothing here is applied by itself: an analysis takes records as they are.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo import _binding
+from dondolo import _binding, _core
 from dondolo.errors import InputError
 from dondolo.records import Record
 
@@ -20,8 +22,11 @@ FloatArray = _binding.FloatArray
 _SAME = 1e-9
 # Least number of periods of the lowest corner that a record must hold
 _SHORTEST = 0.1
-# Largest numerator and denominator of a polyphase filter
+# Largest numerator and denominator of a ratio of time steps, and most samples of a record with a new step
 _LARGEST_FACTOR = 1000
+_MOST_SAMPLES = 100_000_000
+# How the formats write a component that is vertical, also after a station: UP, U-D, UD1, ICC-UP, HNZ (SEED)
+_VERTICAL = re.compile(r"(.*[-_ .])?[-+]?(U|D|UP|DN|DWN|DOWN|UD\d?|DU|Z|V|VRT|VER\w*|[A-Z][HLGMN]Z)", re.IGNORECASE)
 
 
 class RotD(NamedTuple):
@@ -128,7 +133,8 @@ def band_pass(
     Raises
     ------
     InputError
-        Corners out of order, or beyond Nyquist's frequency; an order or a taper out of range.
+        Corners out of order, or beyond Nyquist's frequency; an order or a taper out of range; a keep_padding that is
+        neither True nor False.
 
     Notes
     -----
@@ -156,6 +162,8 @@ def band_pass(
             f"{'low' if low is not None else 'high'} = {corners[0]:g} Hz: its period must not exceed ten times the "
             f"duration of the record, {record.duration:g} s"
         )
+    if not isinstance(keep_padding, (bool, np.bool_)):
+        raise InputError(f"keep_padding = {keep_padding!r}: must be True or False")
     degree = _whole("order", order, 1, 10)
     part = _binding.as_number("taper", taper)
     if not 0.0 <= part <= 0.5:
@@ -195,7 +203,8 @@ def resample(record: Record, dt: float) -> Record:
     Raises
     ------
     InputError
-        The steps have no ratio of whole numbers up to 1000, or the new one is too long for the record.
+        The steps have no ratio of whole numbers up to 1000, the new one is too long for the record, or there would be
+        more than 100 million samples.
 
     Notes
     -----
@@ -210,6 +219,11 @@ def resample(record: Record, dt: float) -> Record:
     if record.duration < step:
         raise InputError(f"dt = {step:g} s: must not exceed the duration of the record, {record.duration:g} s")
     ratio = record.dt / step
+    if ratio > _LARGEST_FACTOR * (1.0 + _SAME) or (len(values) - 1) * ratio >= _MOST_SAMPLES:
+        raise InputError(
+            f"dt = {step:g} s: must not be less than a thousandth of the record's {record.dt:g} s, nor make more than "
+            f"{_MOST_SAMPLES} samples"
+        )
     parts = round(ratio)
     if parts >= 1 and abs(ratio - parts) <= _SAME * ratio:
         inner = np.arange(parts) / parts
@@ -312,7 +326,8 @@ def rotate(first: Record, second: Record, angle: float) -> Record:
     Raises
     ------
     InputError
-        Records that do not belong together, an angle that is none.
+        Records that do not belong together (steps, lengths, stations or dates differ), a vertical component, an angle
+        that is none.
     """
     _pair(first, second)
     direction = _binding.as_number("angle", angle)
@@ -328,15 +343,18 @@ def rotate(first: Record, second: Record, angle: float) -> Record:
     return Record(values, first.dt, f"{first.name} at {direction:g} degrees", (*steps, text), metadata=metadata)
 
 
-def rotd(first: Record, second: Record, measure: Callable[[Record], float] | None = None, angles: int = 180) -> RotD:
+def rotd(
+    first: Record, second: Record, measure: str | Callable[[Record], float] | None = None, angles: int = 180
+) -> RotD:
     """Median and largest value of a measure over all directions of two horizontal components.
 
     Parameters
     ----------
     first, second : Record
         Two components at right angles, of the same step and number of samples.
-    measure : callable, optional
-        A number of a record that does not depend on its polarity; the peak ground acceleration [m/s2] if left out.
+    measure : str or callable, optional
+        Name of an intensity measure, in the unit of `Record.intensity` ('pga' is in g), or a number of a record that
+        does not depend on its polarity; the peak ground acceleration in m/s2 if left out.
     angles : int
         Directions in half a circle: 180 for steps of one degree, as Boore (2010) takes.
 
@@ -347,7 +365,7 @@ def rotd(first: Record, second: Record, measure: Callable[[Record], float] | Non
     Raises
     ------
     InputError
-        Records that do not belong together, a measure that is no number.
+        As for `rotate`; an unknown measure or one that is no number.
 
     Notes
     -----
@@ -358,6 +376,10 @@ def rotd(first: Record, second: Record, measure: Callable[[Record], float] | Non
     _pair(first, second)
     count = _whole("angles", angles, 1, 36000)
     directions = 180.0 * np.arange(count) / count
+    if isinstance(measure, str):
+        measure = partial(Record.intensity, im=_binding.describe_measure(measure, of_record=True).name)
+    if measure is not None and not callable(measure):
+        raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
     values = np.empty(count)
     for i, direction in enumerate(directions):
         if measure is None:
@@ -372,25 +394,15 @@ def rotd(first: Record, second: Record, measure: Callable[[Record], float] | Non
 
 def velocity(record: Record) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
-    a = record.acceleration
-    return record.dt * np.append(0.0, np.cumsum(0.5 * (a[1:] + a[:-1])))
+    return np.asarray(_core.ground_velocity(record.acceleration, record.dt))
 
 
 def significant_times(record: Record, low: float, high: float) -> tuple[float, float]:
-    """Times at which Arias' integral reaches two parts of its final value [s]."""
-    a = record.acceleration
-    # Of the square of a straight line, exactly
-    husid = record.dt * np.append(0.0, np.cumsum((a[1:] ** 2 + a[1:] * a[:-1] + a[:-1] ** 2) / 3.0))
-    if not husid[-1] > 0.0:
+    """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
+    first, last = _core.significant_times(record.acceleration, record.dt, low, high)
+    if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")
-    first = int(np.searchsorted(husid, low * husid[-1], side="right")) - 1
-    last = int(np.searchsorted(husid, high * husid[-1]))
-
-    def inside(i: int, part: float) -> float:
-        rise = husid[i + 1] - husid[i]
-        return (i + (part * husid[-1] - husid[i]) / rise if rise > 0.0 else i) * record.dt
-
-    return inside(min(first, len(a) - 2), low), inside(max(last - 1, 0), high)
+    return float(first), float(last)
 
 
 def _component(first: FloatArray, second: FloatArray, angle: float) -> FloatArray:
@@ -418,6 +430,16 @@ def _pair(first: Any, second: Any) -> None:
         raise InputError(
             f"components '{first.name}' and '{second.name}': dt = {first.dt:g} and {second.dt:g} s: must be the same"
         )
+    for key in ("station", "date"):
+        one, other = (record.metadata.get(key, "") for record in (first, second))
+        if one and other and one != other:
+            raise InputError(
+                f"components '{first.name}' and '{second.name}': {key} = '{one}' and '{other}': must be the same"
+            )
+    for record in (first, second):
+        component = record.metadata.get("component", "").strip()
+        if _VERTICAL.fullmatch(component):
+            raise InputError(f"record '{record.name}': component = '{component}': is vertical, must be horizontal")
 
 
 def _whole(name: str, value: Any, least: int, most: int) -> int:

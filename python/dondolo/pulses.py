@@ -23,7 +23,7 @@ def one_sine(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
     Parameters
     ----------
     amplitude : float
-        Peak acceleration [m/s2].
+        Peak acceleration in m/s2, not in g.
     frequency : float
         Frequency of the pulse [Hz].
     error : float
@@ -53,7 +53,7 @@ def one_cosine(amplitude: float, frequency: float, error: float = 1e-5) -> Recor
     Parameters
     ----------
     amplitude, frequency, error
-        As those of `one_sine`.
+        As those of `one_sine`, the amplitude in m/s2.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def ricker(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
     Parameters
     ----------
     amplitude, frequency, error
-        As those of `one_sine`; the frequency is that of the largest Fourier amplitude.
+        As those of `one_sine`, the amplitude in m/s2; the frequency is that of the largest Fourier amplitude.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def mavroeidis_papageorgiou(
     Parameters
     ----------
     amplitude : float
-        Amplitude A of the velocity's envelope [m/s].
+        Amplitude A of the velocity's envelope in m/s: a velocity, unlike the amplitudes of the other pulses.
     frequency : float
         Prevailing frequency f_p [Hz].
     phase : float

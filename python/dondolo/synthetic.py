@@ -43,7 +43,9 @@ def synthetic_records(
     Returns
     -------
     list of Record
-        With a time step of 0.005 s, named after the arguments. They are synthetic: say so where you show them.
+        With a time step of 0.005 s, named after the arguments, which their metadata hold too: event ('synthetic'),
+        magnitude, distance_km, site, seed, realisation, deviations and format ('synthetic'). They are synthetic: say so
+        where you show them.
 
     Raises
     ------
@@ -63,6 +65,8 @@ def synthetic_records(
     for what, value, least in (("count", count, 1), ("seed", seed, 1), ("first", first, 0)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value < 2**31:
             raise InputError(f"{what} = {value!r}: must be a whole number, at least {least}")
+    if int(first) + int(count) > 2**31:
+        raise InputError(f"first = {first}, count = {count}: realisations must have numbers below 2147483648")
     place = _binding.as_text("site", site)
     return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(count)]
 
@@ -70,4 +74,15 @@ def synthetic_records(
 def _realisation(*arguments: Any) -> Record:
     parcel = _binding.receive(*_core.synthetic_record(*arguments))
     (data,) = _binding.unpack_records(parcel, 1)
-    return Record(data.acceleration, data.dt, data.name)
+    magnitude, distance, site, seed, realisation, deviations = arguments
+    metadata = {
+        "event": "synthetic",
+        "magnitude": f"{magnitude:.15g}",
+        "distance_km": f"{distance:.15g}",
+        "site": site.decode(),
+        "seed": str(seed),
+        "realisation": str(realisation),
+        "deviations": f"{deviations:.15g}",
+        "format": "synthetic",
+    }
+    return Record(data.acceleration, data.dt, data.name, metadata=metadata)

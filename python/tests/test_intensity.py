@@ -147,6 +147,10 @@ def test_table(few):
     assert "arias [m/s]" in table.columns
     assert table["pgv [m/s]"].iloc[3] == few[3].intensity("pgv")
     assert list(dd.intensity_table(few[0], ["sa(0.50)"]).columns) == ["record", "sa(0.5) [g]"]
+    # A text is one measure, not its letters
+    assert list(dd.intensity_table(few, "pga").columns) == ["record", "pga [g]"]
+    with pytest.raises(dd.InputError, match="ims = 3: must be names"):
+        dd.intensity_table(few, 3)
 
 
 @pytest.mark.parametrize("im", ["pgv", "pgd", "arias", "cav", "hi", "sa(0.5)", "saavg(0.2:2)"])
@@ -230,6 +234,11 @@ def test_comparison(comparison, wall):
     left, right = dd.plot_intensities(comparison)
     assert right.get_yticklabels()[0].get_text() == comparison.best
     assert len(left.get_lines()) == 8
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_one_measure_is_a_comparison(wall, records):
+    assert dd.compare_intensities(wall, records, "pga", levels=5, samples=20, progress=False).ims == ("pga",)
 
 
 def test_wrong_comparisons(wall, few):

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from dondolo.processing import velocity
+from dondolo.processing import significant_times, velocity
 
 import dondolo as dd
 
@@ -156,6 +156,7 @@ def test_padding():
         ((0.5, 20.0, 0), "order = 0: must be a whole number between 1 and 10"),
         ((0.5, 20.0, 4, 0.6), "taper = 0.6: must lie between 0 and 0.5"),
         (("a", 20.0), "low = 'a': must be a number"),
+        ((0.5, 20.0, 4, 0.05, "no"), "keep_padding = 'no': must be True or False"),
     ],
 )
 def test_filter_errors(arguments, words):
@@ -200,11 +201,32 @@ def test_polyphase_resampling():
         (0.0, "dt = 0 s: must be positive"),
         (np.pi / 300.0, "ratio to the record's 0.01 s must be one of whole numbers"),
         (30.0, "must not exceed the duration"),
+        (1e-9, "must not be less than a thousandth of the record's 0.01 s"),
+        (0.0095e-3, "must not be less than a thousandth of the record's 0.01 s"),
     ],
 )
 def test_resampling_errors(dt, words):
     with pytest.raises(dd.InputError, match=words):
         dd.resample(noise(), dt)
+
+
+def test_resampling_keeps_to_its_limits():
+    assert len(dd.resample(noise(11), 1e-5)) == 10001
+    with pytest.raises(dd.InputError, match="nor make more than 100000000 samples"):
+        dd.resample(noise(200_001), 1e-5)
+
+
+def test_significant_times_follow_the_cubic(records):
+    # A ramp from 0 to 1 in one step: the integral grows with the cube of the time.
+    ramp = dd.Record([0.0, 1.0], 2.0)
+    np.testing.assert_allclose(significant_times(ramp, 0.001, 0.125), [0.2, 1.0], rtol=1e-12)
+    for record in records[:3]:
+        first, last = significant_times(record, 0.05, 0.95)
+        assert last - first == record.intensity("d5-95")
+    # Rest before and after the motion, also where the sum of the steps rounds
+    still = np.zeros(50)
+    padded = dd.Record(np.concatenate([still, noise(777).acceleration, still]), 0.01)
+    np.testing.assert_allclose(significant_times(padded, 0.0, 1.0), [0.5, 8.26], atol=1e-9)
 
 
 def test_trimming():
@@ -272,6 +294,9 @@ def test_directions_do_not_know_the_sensor(records):
     assert (one.angle - other.angle) % 180.0 == pytest.approx(37.0)
     by_measure = dd.rotd(first, second, lambda record: record.pga)
     assert by_measure.rotd50 == one.rotd50
+    by_name = dd.rotd(first, second, "pga")
+    assert by_name.rotd50 == pytest.approx(one.rotd50 / 9.81, rel=1e-14)
+    assert by_name.angle == one.angle
     # The energy of a direction has its mean for its median, and the greater root of the covariance for its largest.
     energy = dd.rotd(first, second, lambda record: float(record.acceleration @ record.acceleration), 720)
     matrix = np.cov(first.acceleration, second.acceleration, bias=True) * len(first)
@@ -290,3 +315,27 @@ def test_pairs_that_do_not_belong_together():
         dd.rotd(noise(), noise(), lambda record: np.nan)
     with pytest.raises(dd.InputError, match="angle = nan"):
         dd.rotate(noise(), noise(), np.nan)
+    with pytest.raises(dd.InputError, match="measure = 3: must be the name of a measure or a function"):
+        dd.rotd(noise(), noise(), 3)
+    with pytest.raises(dd.InputError, match="im = 'x': must be one of"):
+        dd.rotd(noise(), noise(), "x")
+
+
+def known(**metadata):
+    """A record with metadata."""
+    return dd.Record(noise().acceleration, 0.01, metadata=metadata)
+
+
+@pytest.mark.parametrize("combine", [lambda *pair: dd.rotate(*pair, 30.0), dd.rotd], ids=["rotate", "rotd"])
+def test_metadata_of_components(combine):
+    combine(known(station="AQV", date="2009-04-06", component="HNE"), known(station="AQV", component="HNN"))
+    for one, other in (("N-S", "E-W"), ("090", "360"), ("DUZCE-270", "DUZCE-180"), ("S00E", "L")):
+        combine(known(component=one), known(component=other))
+    with pytest.raises(dd.InputError, match="station = 'AQV' and 'AQK': must be the same"):
+        combine(known(station="AQV"), known(station="AQK"))
+    with pytest.raises(dd.InputError, match="date = '2009-04-06' and '2009-04-07': must be the same"):
+        combine(known(date="2009-04-06"), known(date="2009-04-07"))
+    for vertical in ("U", "UP", "Up", "UD", "U-D", "UD1", "Z", "V", "VERT", "vertical", "HNZ", "HGZ", "ICC-UP", "+UP"):
+        for pair in ((vertical, "HNE"), ("HNE", vertical)):
+            with pytest.raises(dd.InputError, match="is vertical, must be horizontal"):
+                combine(*(known(component=component) for component in pair))

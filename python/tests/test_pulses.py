@@ -282,6 +282,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
         ({"pulse": lambda amplitude, frequency: 3.0}, "pulse: must return a Record, not float"),
         ({"pulse": lambda amplitude, frequency: dd.Record([0.0, 0.0], 1.0)}, "pulse: is zero at 0.5 Hz"),
         ({"wall": 3.0}, "wall: float is no wall"),
+        ({"pulse": "sine"}, "pulse = 'sine': must be a function"),
     ],
 )
 def test_errors_of_spectra(spectrum, changes, words):

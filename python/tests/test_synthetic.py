@@ -36,6 +36,20 @@ def test_seeds():
     assert not np.array_equal(other.acceleration, five[0].acceleration)
 
 
+def test_metadata():
+    record = dd.synthetic_records(6.5, 12.25, "deep", count=2, seed=7, first=3, deviations=-0.5)[1]
+    assert dict(record.metadata) == {
+        "event": "synthetic",
+        "magnitude": "6.5",
+        "distance_km": "12.25",
+        "site": "deep",
+        "seed": "7",
+        "realisation": "4",
+        "deviations": "-0.5",
+        "format": "synthetic",
+    }
+
+
 def test_energy(many):
     records, model = many
     energy = np.array([record.dt * record.acceleration @ record.acceleration for record in records])
@@ -86,6 +100,7 @@ def test_the_end_is_still(many):
         ((6.0, 10.0, "rock", 0), "count = 0: must be a whole number, at least 1"),
         ((6.0, 10.0, "rock", 1, 0), "seed = 0: must be a whole number, at least 1"),
         ((6.0, 10.0, "rock", 1, 1, -1), "first = -1: must be a whole number, at least 0"),
+        ((6.0, 10.0, "rock", 3, 1, 2**31 - 2), "realisations must have numbers below 2147483648"),
         ((6.0, 10.0, "rock", 1, 1, 0, 4.0), "deviations = 4: must be between -3 and 3"),
     ],
 )

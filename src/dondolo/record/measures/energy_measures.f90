@@ -5,7 +5,7 @@ module dondolo_energy_measures
    implicit none
    private
 
-   public :: acceleration_energy, cumulative_absolute_velocity, significant_duration
+   public :: acceleration_energy, cumulative_absolute_velocity, significant_duration, significant_times
 
 contains
 
@@ -52,13 +52,31 @@ contains
       !> Duration [s]; 0 for a record without motion
       real(wp) :: duration
 
+      real(wp) :: times(2)
+
+      times = significant_times(record, from, to)
+      duration = times(2) - times(1)
+   end function significant_duration
+
+   !> Times at which the integral of a**2 reaches two shares of its end value [s]; the shares 0 and 1 are where the
+   !> motion begins and ends
+   pure function significant_times(record, from, to) result(times)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> The first share, between 0 and 1
+      real(wp), intent(in) :: from
+      !> The second share, above `from`
+      real(wp), intent(in) :: to
+      !> Times [s]; 0 for a record without motion
+      real(wp) :: times(2)
+
       real(wp) :: step(size(record%acceleration) - 1), total
 
       step = step_energies(record)
       total = sum(step)
-      duration = 0.0_wp
-      if (total > 0.0_wp) duration = time_of(record, step, to*total) - time_of(record, step, from*total)
-   end function significant_duration
+      times = 0.0_wp
+      if (total > 0.0_wp) times = [time_of(record, step, from*total), time_of(record, step, to*total)]
+   end function significant_times
 
    !> Integral of the squared acceleration over every step [m2/s3]
    pure function step_energies(record) result(step)
@@ -82,7 +100,7 @@ contains
       type(record_type), intent(in) :: record
       !> Integrals over the steps [m2/s3]
       real(wp), intent(in) :: step(:)
-      !> The value, above 0 and below the sum of all [m2/s3]
+      !> The value, from 0 to the sum of all, which is positive [m2/s3]
       real(wp), intent(in) :: energy
       !> Time [s]
       real(wp) :: time
@@ -91,7 +109,8 @@ contains
       integer :: i, k
 
       rest = energy
-      do i = 1, size(step) - 1
+      ! Rest before and after the motion is passed over, where rounding could send the shares 0 and 1
+      do i = findloc(step > 0.0_wp, .true., dim=1), findloc(step > 0.0_wp, .true., dim=1, back=.true.) - 1
          if (rest <= step(i)) exit
          rest = rest - step(i)
       end do
