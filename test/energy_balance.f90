@@ -1,5 +1,5 @@
-!> The energy of a time history: E = 1/2 J q'^2 + V changes only by the work of the ground, dE/dt = -s L u_g'' q', and at
-!> impacts, where the speed is multiplied by e. Coming to rest may lose some, nothing may create any.
+!> The energy of a time history: E = 1/2 J q'^2 + V changes only by the work of the ground, dE/dt = -s L u_g'' q',
+!> and at impacts, where the speed is multiplied by e. Coming to rest may lose some, nothing may create any.
 module energy_balance
    use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, excitation_type
    use dondolo_kinds, only : wp
@@ -25,8 +25,8 @@ module energy_balance
    !> Nodes and weights of Gauss's rule with five points on (0, 1)
    real(wp), parameter :: outer = 0.906179845938663992797626878299_wp, inner = 0.538469310105683091036314420700_wp
    real(wp), parameter :: nodes(5) = 0.5_wp + 0.5_wp*[-outer, -inner, 0.0_wp, inner, outer]
-   real(wp), parameter :: weights(5) = 0.5_wp*[0.236926885056189087514264040720_wp, 0.478628670499366468041291514836_wp, &
-      & 0.568888888888888888888888888889_wp, 0.478628670499366468041291514836_wp, 0.236926885056189087514264040720_wp]
+   real(wp), parameter :: light = 0.236926885056189087514264040720_wp, heavy = 0.478628670499366468041291514836_wp
+   real(wp), parameter :: weights(5) = 0.5_wp*[light, heavy, 128.0_wp/225.0_wp, heavy, light]
 
 contains
 
@@ -126,7 +126,7 @@ contains
       kinetic = 0.5_wp*j*v**2
    end function kinetic
 
-   !> Power of the ground at Gauss's nodes of a motion given by Bernstein coefficients, -s L u_g'' q', times the interval
+   !> Power of the ground, -s L u_g'' q', times the interval, at Gauss's nodes of a motion in Bernstein form
    function power_along(mechanism, ground, h, b) result(power)
       class(mechanism_type), intent(in) :: mechanism
       type(excitation_type), intent(in) :: ground

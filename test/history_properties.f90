@@ -18,8 +18,8 @@ module history_properties
 
    public :: check_properties, print_extremes
 
-   !> Most evaluations of the equation of motion for each sample and impact. The most are those of the time of a late peak
-   !> after a record of two samples
+   !> Most evaluations of the equation of motion for each sample and impact. The most are those of the time of a late
+   !> peak after a record of two samples
    real(wp), parameter :: most_evaluations = 2.0e3_wp
 
    !> Longest time of a history, which no machine should need [s]
@@ -56,8 +56,8 @@ contains
    !> Print what the histories came to
    subroutine print_extremes()
 
-      print '(a)', to_text(moved)//' moved, '//to_text(collapsed)//' collapsed, '//to_text(impacts)//' impacts; most '// &
-         & 'evaluations a sample '//short(most_work)//'; '//to_text(balanced)//' intervals balance, worst '// &
+      print '(a)', to_text(moved)//' moved, '//to_text(collapsed)//' collapsed, '//to_text(impacts)//' impacts; '// &
+         & 'most evaluations a sample '//short(most_work)//'; '//to_text(balanced)//' intervals balance, worst '// &
          & short(worst_balance)//'; '//to_text(conditioned)//' with midpoints, worst '//short(worst_midpoints)// &
          & '; slowest '//short(slowest)//' s'
    end subroutine print_extremes
@@ -104,8 +104,8 @@ contains
       call check(response%time_of_peak >= 0.0_wp .and. response%impacts >= 0, what//': time of the peak, impacts')
    end subroutine check_result
 
-   !> What changes nothing, to the bit: record and scale reversed, the record of a two-sided wall reversed, a power of two
-   !> in the record and out of the scale
+   !> What changes nothing, to the bit: record and scale reversed, the record of a two-sided wall reversed, a power of
+   !> two in the record and out of the scale
    subroutine check_symmetries(history, response, what)
       type(history_type), intent(in) :: history
       type(response_type), intent(in) :: response
@@ -154,9 +154,9 @@ contains
    end subroutine check_limit_at_peak
 
    !> A record with the midpoints of its samples is the same function of time, so its result - the peak, the time of a
-   !> collapse - differs by errors of the steps alone. How much they grow shows in a change of the scale as large as they
-   !> are; where that is amplified more than a thousandfold no tolerance tells what the result should be. Every one of hundreds of steps
-   !> may err by the tolerance
+   !> collapse - differs by errors of the steps alone. How much they grow shows in a change of the scale as large as
+   !> they are; where that is amplified more than a thousandfold no tolerance tells what the result should be. Every
+   !> one of hundreds of steps may err by the tolerance
    subroutine check_midpoints(history, response, what)
       type(history_type), intent(in) :: history
       type(response_type), intent(in) :: response

@@ -25,7 +25,7 @@ module dondolo_rk45
    real(wp), parameter :: tiny_height = 1.0e-12_wp
    integer, parameter :: most_tiny_bounces = 1000
 
-   !> Time after the record for which a trace goes on [s], and most sample intervals of it, since a time step may be tiny
+   !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
    real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
 
 contains
