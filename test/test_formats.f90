@@ -257,6 +257,12 @@ contains
       call check_metadata(record, 'station', 'ARRAY #10')
       call check_metadata(record, 'component', '50')
       call check_metadata(record, 'processing', 'FILTER POINTS: HP=0.1 Hz  LP=40.0 Hz')
+      call read_content(replaced(peer_content('SOME VALLEY 10/15/79 12:31, ARRAY #10, 50', '. FILTERED'), 'OF G', &
+         & 'OF (G)'), record)
+      call check_values(record, 9.80665_wp, 'units in brackets')
+      call check_metadata(record, 'date', '1979-10-15T12:31')
+      call check_metadata(record, 'units', 'g')
+      call check_metadata(record, 'processing', 'FILTERED')
       call read_content(peer_content('rotated', ''), record)
       call check_metadata(record, 'description', 'rotated')
       call check_metadata(record, 'event', '')

@@ -92,12 +92,21 @@ def test_names_that_are_no_utf8(folder):
     assert "a name that UTF-8 does not know" in err
 
 
-def test_names_that_stand_there_twice(folder):
+def test_stems_that_stand_there_twice(folder):
     (folder / "sub" / "three.txt").write_text("t,a (g),b (g)\n0,1,2\n0.01,-1,3\n")
-    code, _, err = run("catalogue", folder)
+    (folder / "valley.acc").write_text(PEER)
+    code, out, _ = run("catalogue", folder)
     assert code == 0
-    assert "record 'three.a_(g)' stands in the catalogue already" in err
-    assert len(dd.read_catalogue(folder / "catalogue.csv")) == 3
+    assert "(6 records)" in out
+    names = {record.name for record in dd.read_catalogue(folder / "catalogue.csv")}
+    assert names == {
+        "valley.AT2",
+        "valley.acc",
+        "three.txt.a_(g)",
+        "three.txt.b_(g)",
+        "sub/three.txt.a_(g)",
+        "sub/three.txt.b_(g)",
+    }
 
 
 def test_nothing_to_read(tmp_path):

@@ -11,7 +11,7 @@ module dondolo_channel
    implicit none
    private
 
-   public :: as_record, find_channel, name_channels
+   public :: as_record, find_channel, name_channels, stem
 
    !> Relative difference allowed between a time step that is given and the file's own
    real(wp), parameter :: step_tolerance = 0.01_wp
