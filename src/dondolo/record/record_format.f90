@@ -29,6 +29,8 @@ module dondolo_record_format
       character(len=:), allocatable :: peak_units
       !> Line of that number
       integer :: peak_line = 1
+      !> Why the values are no accelerations, with file and line; not allocated if they may be
+      character(len=:), allocatable :: refusal
       !> What the file says of this channel alone
       type(metadata_type) :: metadata
    end type channel_type
