@@ -274,6 +274,7 @@ contains
    subroutine test_csmip()
       type(record_type), allocatable :: records(:)
       type(record_type) :: record
+      character(len=:), allocatable :: content
       type(error_type), allocatable :: error
       character(len=*), parameter :: old = '.020 SEC.  (UNITS: CM/SEC/SEC)'
 
@@ -290,8 +291,9 @@ contains
       call check_text(record%metadata%get('longitude'), '-120.250', 'longitude')
       call check_text(record%metadata%get('processing'), 'corrected; filtered WITH RAMPS AT .05- .10', 'processing')
       call check_text(record%metadata%get('network'), '', 'network, which the file does not state')
-      call check_motion('fine.v2', csmip('Up', '13', '.005 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp), &
-         & 0.001_wp, 0.005_wp, record)
+      content = csmip('Up', '13', '.005 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp)
+      call check_bad(content, 'duration 0.26 s: count and time step make 0.065 s')
+      call check_motion('fine.v2', replaced(content, '.260', '.065'), 0.001_wp, 0.005_wp, record)
       call write_file('three.V2', with_crlf(csmip('90 DEG', '13', old, '(8F10.3)', 10.0_wp)// &
          & csmip('UP', '12', old, '(8F10.3)', 10.0_wp)//csmip('0 DEG', '13', old, '(8F10.3)', -10.0_wp))// &
          & repeat(achar(26), 50))

@@ -29,6 +29,7 @@ program test_formats
    call test_fixed()
    call test_columns()
    call test_titles()
+   call test_duration()
    call test_dyna()
    call test_peer()
    call test_smtk()
@@ -194,6 +195,17 @@ contains
       call read_record(file, record, error, format='columns')
       call check_error(error, ': line 1: more than 63 columns', 'sixty-four columns')
    end subroutine test_columns
+
+   !> A duration that is not that of the values
+   subroutine test_duration()
+      type(record_type) :: record
+
+      call suite('duration')
+      call read_content(replaced(dyna_content('STREAM: HNE'), 'STREAM:', 'DURATION_S: 0.06'//lf//'STREAM:'), record)
+      call check_values(record, 0.01_wp, 'duration of six steps')
+      call check_refused(replaced(dyna_content('STREAM: HNE'), 'STREAM:', 'DURATION_S: 14.0'//lf//'STREAM:'), &
+         & 'duration 14 s: count and time step make 0.07 s')
+   end subroutine test_duration
 
    !> What comments and titles of columns state
    subroutine test_titles()
