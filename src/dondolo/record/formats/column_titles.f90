@@ -10,8 +10,8 @@ module dondolo_column_titles
    public :: units_in, is_other_quantity, is_seconds
 
    !> Words of titles whose values are no accelerations of the ground in time
-   character(len=*), parameter :: others(*) = [character(len=12) :: 'velocity', 'veloc', 'vel', 'displacement', 'displ', &
-      & 'disp', 'period', 'frequency', 'freq', 'spectrum', 'spectral', 'sa', 'psa', 'sv', 'psv', 'sd']
+   character(len=*), parameter :: others(*) = [character(len=12) :: 'velocity', 'veloc', 'vel', 'displacement', &
+      & 'displ', 'disp', 'period', 'frequency', 'freq', 'spectrum', 'spectral', 'sa', 'psa', 'sv', 'psv', 'sd']
 
    !> Units of other quantities
    character(len=*), parameter :: other_units(*) = [character(len=4) :: 'm', 'cm', 'mm', 'in', 'ft', 'm/s', 'cm/s', &
