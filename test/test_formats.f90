@@ -28,6 +28,8 @@ program test_formats
    call test_dates()
    call test_fixed()
    call test_columns()
+   call test_titles()
+   call test_duration()
    call test_dyna()
    call test_peer()
    call test_smtk()
@@ -170,7 +172,7 @@ contains
       call check_error(error, 'channel = ''2'': must be one of ''1''', 'no other channel')
       call write_file(scratch//'/three.txt', 'a,b (cm/s)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
-      call check_error(error, 'units = ''cm/s'': must be one of', 'velocities by their title')
+      call check_error(error, 'three.txt: line 1: channel ''b (cm/s)'' is no acceleration', 'velocities by their title')
       call write_file(file, 't,2,2'//lf//'0,1,4'//lf//'0.01,2,5'//lf)
       call read_record(file, record, error, units='m/s2', channel='2')
       call check_close(record%pga(), 2.0_wp, 0.0_wp, 'a name goes before a number')
@@ -178,7 +180,9 @@ contains
       call check_close(record%pga(), 5.0_wp, 0.0_wp, 'a name that stands there twice gets its number')
       call write_file(scratch//'/three.txt', 'a,b (N/S)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
-      call check_error(error, 'the file does not state its units', 'brackets that hold no units')
+      call check_error(error, 'units = ''N/S'': must be one of', 'brackets that hold no units')
+      call read_record(file, record, error, units='g')
+      call check_error(error, 'units = ''N/S'': must be one of', 'brackets that hold no units, units given')
       call write_file(scratch//'/three.txt', repeat('x', 200)//' 1'//lf//'0 1'//lf//'0.01 2'//lf)
       call read_record(file, record, error, units='g', format='columns')
       call check_ok(error, 'a long title')
@@ -191,6 +195,62 @@ contains
       call read_record(file, record, error, format='columns')
       call check_error(error, ': line 1: more than 63 columns', 'sixty-four columns')
    end subroutine test_columns
+
+   !> A duration that is not that of the values
+   subroutine test_duration()
+      type(record_type) :: record
+
+      call suite('duration')
+      call read_content(replaced(dyna_content('STREAM: HNE'), 'STREAM:', 'DURATION_S: 0.06'//lf//'STREAM:'), record)
+      call check_values(record, 0.01_wp, 'duration of six steps')
+      call check_refused(replaced(dyna_content('STREAM: HNE'), 'STREAM:', 'DURATION_S: 14.0'//lf//'STREAM:'), &
+         & 'duration 14 s: count and time step make 0.07 s')
+   end subroutine test_duration
+
+   !> What comments and titles of columns state
+   subroutine test_titles()
+      type(record_type), allocatable :: records(:)
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: file
+      character(len=*), parameter :: values = '0'//lf//'1'//lf//'2'//lf
+      character(len=*), parameter :: timed = '0,1'//lf//'0.01,2'//lf
+
+      call suite('comments and titles')
+      file = scratch//'/content.dat'
+      call read_content('# units: cm/s2'//lf//'# dt: 0.02'//lf//values, record)
+      call check_close(maxval(record%acceleration), 0.02_wp, 1.0e-14_wp, 'units of a comment')
+      call check_close(record%dt, 0.02_wp, 0.0_wp, 'step of a comment')
+      call read_record(file, record, error, units='g')
+      call check_error(error, 'units = ''g'': the file states ''cm/s2''', 'units that differ from the comment')
+      call read_record(file, record, error, dt=0.01_wp)
+      call check_error(error, 'dt = 0.01: the file states 0.02', 'a step that differs from the comment')
+      call check_refused('# units: g'//lf//'# dt: x'//lf//values, 'the comment dt = ''x'': must be a positive number')
+      call check_refused('# units: g'//lf//'# dt: 0.02'//lf//timed, 'a comment states dt = 0.02')
+      call read_content('t [s],a [cm/s^2]'//lf//timed, record)
+      call check_close(maxval(record%acceleration), 0.02_wp, 1.0e-14_wp, 'square brackets')
+      call read_content('t,a (m s-2)'//lf//timed, record)
+      call check_close(maxval(record%acceleration), 2.0_wp, 1.0e-14_wp, 'powers')
+      call check_refused('t,a (mg)'//lf//timed, 'units = ''mg'': must be one of')
+      call check_refused('t,a (%g)'//lf//timed, 'units = ''%g'': must be one of')
+      call check_refused('time (ms),a (g)'//lf//timed, 'line 1: title ''time (ms)'' of the times: they must be in s')
+      call check_refused('time_min,a (g)'//lf//timed, 'line 1: title ''time_min'' of the times')
+      call check_refused('Period,a (g)'//lf//timed, 'line 1: title ''Period'' of the times')
+      call check_refused('t,Sa (g)'//lf//timed, 'line 1: channel ''Sa (g)'' is no acceleration')
+      call check_refused('t,x (cm)'//lf//timed, 'line 1: channel ''x (cm)'' is no acceleration')
+      call check_refused('t,x (m/sec)'//lf//timed, 'line 1: channel ''x (m/sec)'' is no acceleration')
+      call check_refused('t,a (g)'//lf//'0,1'//lf//'2,1'//lf, 'time step 2 s: must be at most 1 s')
+      call write_file(file, columns_content('time (s),acceleration (g),velocity (cm/s),displacement'//lf))
+      call read_records(file, records, error)
+      call check_ok(error, 'three quantities')
+      if (allocated(error)) return
+      call check(size(records) == 1, 'accelerations alone')
+      call check_values(records(1), 9.80665_wp, 'accelerations')
+      call read_record(file, record, error)
+      call check_ok(error, 'the only accelerations')
+      call read_record(file, record, error, channel='2')
+      call check_error(error, 'line 1: channel ''velocity (cm/s)'' is no acceleration', 'velocities asked for')
+   end subroutine test_titles
 
    !> DYNA files
    subroutine test_dyna()
@@ -257,6 +317,12 @@ contains
       call check_metadata(record, 'station', 'ARRAY #10')
       call check_metadata(record, 'component', '50')
       call check_metadata(record, 'processing', 'FILTER POINTS: HP=0.1 Hz  LP=40.0 Hz')
+      call read_content(replaced(peer_content('SOME VALLEY 10/15/79 12:31, ARRAY #10, 50', '. FILTERED'), 'OF G', &
+         & 'OF (G)'), record)
+      call check_values(record, 9.80665_wp, 'units in brackets')
+      call check_metadata(record, 'date', '1979-10-15T12:31')
+      call check_metadata(record, 'units', 'g')
+      call check_metadata(record, 'processing', 'FILTERED')
       call read_content(peer_content('rotated', ''), record)
       call check_metadata(record, 'description', 'rotated')
       call check_metadata(record, 'event', '')

@@ -543,7 +543,21 @@ contains
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,,g'//lf, 'a.txt: the file does not state its time step')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,'//lf, 'a.txt: the file does not state its units')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,g'//lf//'sub/a.txt,.01,g'//lf, &
-         & 'bad.csv: line 3: record ''a'' stands there twice')
+         & 'bad.csv: line 3: record ''sub/a.txt'' stands there twice')
+      call check_catalogue('file,dt_s,units,name'//lf//'sub/a.txt,.01,g,x'//lf//'b.txt,,g,x'//lf, &
+         & 'bad.csv: line 3: record ''x'' stands there twice')
+      call write_file('folder/a.txt', '1'//lf//'2'//lf)
+      call write_file('folder/a.NS', '1'//lf//'2'//lf)
+      call write_file('folder/names.csv', 'file,dt_s,units,name'//lf//'sub/a.txt,.01,g,'//lf//'a.txt,.01,g,'//lf// &
+         & 'a.NS,.01,g,'//lf//'a.txt,.02,g,other'//lf//'b.txt,,g,'//lf)
+      call read_catalogue(scratch//'/folder/names.csv', records, error)
+      call check_ok(error, 'names')
+      if (allocated(error)) return
+      call check_text(records(1)%name, 'sub/a.txt', 'folder')
+      call check_text(records(2)%name, 'a.txt', 'no folder')
+      call check_text(records(3)%name, 'a.NS', 'extension')
+      call check_text(records(4)%name, 'other', 'given')
+      call check_text(records(5)%name, 'b', 'stem')
       call check_catalogue('file,dt_s,units'//lf//'none.txt,.01,g'//lf, 'line 2: '//scratch// &
          & '/folder/none.txt: no such file')
       call check_catalogue('file,dt_s,units'//lf//'sub,.01,g'//lf, 'line 2: '//scratch//'/folder/sub: ')

@@ -52,7 +52,6 @@ def build_catalogue(
         raise InputError(f"{target}: stands there already: -o must name the catalogue")
     columns = ("file", "channel", "dt_s", "units", *_KEYS)
     table: dict[str, list[str]] = {column: [] for column in columns}
-    names: set[str] = set()
     problems = []
     files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]
     for path in files:
@@ -68,21 +67,16 @@ def build_catalogue(
         except InputError as error:
             problems.append(str(error))
             continue
-        taken = [record.name for record in records if record.name in names]
-        if taken:
-            problems.append(f"{path}: record '{taken[0]}' stands in the catalogue already")
-            continue
-        names.update(record.name for record in records)
         for record in records:
             row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
             row += (record.metadata.get("units", given_units),)
             row += tuple(record.metadata.get(key, "") for key in _KEYS)
             for column, text in zip(columns, row, strict=True):
                 table[column].append(text)
-    if not names:
+    if not table["file"]:
         raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
     tables.write_csv(target, table)
-    return Catalogue(target, len(names), problems)
+    return Catalogue(target, len(table["file"]), problems)
 
 
 def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:

@@ -92,12 +92,31 @@ def test_names_that_are_no_utf8(folder):
     assert "a name that UTF-8 does not know" in err
 
 
-def test_names_that_stand_there_twice(folder):
+def test_stems_that_stand_there_twice(folder):
     (folder / "sub" / "three.txt").write_text("t,a (g),b (g)\n0,1,2\n0.01,-1,3\n")
-    code, _, err = run("catalogue", folder)
+    (folder / "valley.acc").write_text(PEER)
+    code, out, _ = run("catalogue", folder)
     assert code == 0
-    assert "record 'three.a_(g)' stands in the catalogue already" in err
-    assert len(dd.read_catalogue(folder / "catalogue.csv")) == 3
+    assert "(6 records)" in out
+    names = {record.name for record in dd.read_catalogue(folder / "catalogue.csv")}
+    assert names == {
+        "valley.AT2",
+        "valley.acc",
+        "three.txt.a_(g)",
+        "three.txt.b_(g)",
+        "sub/three.txt.a_(g)",
+        "sub/three.txt.b_(g)",
+    }
+
+
+def test_units_and_steps_of_comments(tmp_path):
+    (tmp_path / "x.txt").write_text("# units: cm/s2\n# dt: 0.02\n0\n1\n2\n")
+    (tmp_path / "y.csv").write_text("t,acc (g),vel (cm/s),disp (cm)\n0,1,2,3\n0.01,-1,3,4\n")
+    code, out, err = run("catalogue", tmp_path, "--dt", "0.005", "--units", "m/s2")
+    assert (code, err) == (0, "")
+    x, y = dd.read_catalogue(tmp_path / "catalogue.csv")
+    assert (x.dt, x.pga) == (0.02, 0.02)
+    assert (y.name, y.pga) == ("y.acc_(g)", 9.80665)
 
 
 def test_nothing_to_read(tmp_path):

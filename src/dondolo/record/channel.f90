@@ -11,10 +11,13 @@ module dondolo_channel
    implicit none
    private
 
-   public :: as_record, find_channel, name_channels
+   public :: as_record, find_channel, name_channels, stem
 
    !> Relative difference allowed between a time step that is given and the file's own
    real(wp), parameter :: step_tolerance = 0.01_wp
+
+   !> Longest time step of an accelerogram [s]
+   real(wp), parameter :: largest_step = 1.0_wp
 
    !> Relative difference allowed between the peak and the header's, beyond the rounding of its print
    real(wp), parameter :: peak_tolerance = 0.01_wp
@@ -42,9 +45,15 @@ contains
       real(wp) :: step, factor
 
       associate (channel => samples%channels(number))
+         if (allocated(channel%refusal)) then
+            call raise_input(error, channel%refusal)
+            return
+         end if
          stated = ''
          if (allocated(channel%units)) stated = channel%units
          call choose_step(channel%dt, step, error, dt)
+         if (.not. allocated(error) .and. step > largest_step) call raise_input(error, 'time step '//to_text(step)// &
+            & ' s: must be at most '//to_text(largest_step)//' s for an accelerogram')
          if (.not. allocated(error)) call choose_units(stated, factor, error, units)
          call add_place(error, text%file)
          if (.not. allocated(error)) call check_peak(text, channel, factor, error)
@@ -93,6 +102,7 @@ contains
       character(len=*), intent(in), optional :: wanted
 
       character(len=:), allocatable :: name
+      integer, allocatable :: ground(:)
       integer :: i
       logical :: ok
 
@@ -100,8 +110,11 @@ contains
       if (present(wanted)) name = trim(adjustl(wanted))
       number = 1
       if (len(name) == 0) then
-         if (size(samples%channels) > 1) call raise_input(error, 'the file holds '// &
-            & to_text(size(samples%channels))//' channels: channel must be one of '//names_of(samples%channels))
+         ground = pack([(i, i=1, size(samples%channels))], &
+            & [(.not. allocated(samples%channels(i)%refusal), i=1, size(samples%channels))])
+         if (size(ground) == 1) number = ground(1)
+         if (size(ground) > 1) call raise_input(error, 'the file holds '//to_text(size(ground))// &
+            & ' channels: channel must be one of '//names_of(samples%channels(ground)))
          return
       end if
       do i = 1, size(samples%channels)

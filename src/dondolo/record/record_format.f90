@@ -10,7 +10,7 @@ module dondolo_record_format
    implicit none
    private
 
-   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at, shown
+   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, shown
 
    !> One channel of a file, before units are converted
    type :: channel_type
@@ -29,6 +29,8 @@ module dondolo_record_format
       character(len=:), allocatable :: peak_units
       !> Line of that number
       integer :: peak_line = 1
+      !> Why the values are no accelerations, with file and line; not allocated if they may be
+      character(len=:), allocatable :: refusal
       !> What the file says of this channel alone
       type(metadata_type) :: metadata
    end type channel_type
@@ -182,6 +184,30 @@ contains
       call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
          & to_text(count))
    end subroutine read_fixed
+
+   !> The duration that a header states must be that of the values
+   subroutine check_duration(text, line, stated, channel, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Line of the duration
+      integer, intent(in) :: line
+      !> The duration [s]; what is no number, or not positive, says nothing
+      character(len=*), intent(in) :: stated
+      !> The channel, with values and time step
+      type(channel_type), intent(in) :: channel
+      !> The two differ by more than 2 % and five samples
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: duration, length
+      logical :: ok
+
+      call parse_real(stated, duration, ok)
+      if (.not. ok) return
+      length = channel%dt*real(size(channel%values), wp)
+      if (.not. duration > 0.0_wp .or. abs(duration - length) <= max(0.02_wp*length, 5.0_wp*channel%dt)) return
+      call raise_at(error, text, line, 'duration '//to_text(duration)//' s: count and time step make '// &
+         & to_text(length)//' s')
+   end subroutine check_duration
 
    !> A part of a file as messages show it: its beginning, where it is long
    pure function shown(part)

@@ -104,7 +104,7 @@ contains
    subroutine read_records(file, records, error, dt, units, format)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> One record for each channel
+      !> One record for each channel that holds accelerations
       type(record_type), allocatable, intent(out) :: records(:)
       !> As of `read_record`
       type(error_type), allocatable, intent(out) :: error
@@ -117,13 +117,18 @@ contains
 
       type(text_file_type) :: text
       type(samples_type) :: samples
+      integer, allocatable :: ground(:)
       integer :: i
 
       call read_samples(file, text, samples, error, format)
       if (allocated(error)) return
-      allocate (records(size(samples%channels)))
+      ground = pack([(i, i=1, size(samples%channels))], &
+         & [(.not. allocated(samples%channels(i)%refusal), i=1, size(samples%channels))])
+      ! If none is, the first says why
+      if (size(ground) == 0) ground = [1]
+      allocate (records(size(ground)))
       do i = 1, size(records)
-         call as_record(text, samples, i, records(i), error, dt, units)
+         call as_record(text, samples, ground(i), records(i), error, dt, units)
          if (.not. allocated(error)) cycle
          deallocate (records)
          return

@@ -1,9 +1,11 @@
 !> Plain columns of numbers: accelerations alone, one a line, or times and one or more columns of accelerations.
 !>
 !> At the top may stand comment lines that begin with # and one line of titles. Columns are separated by semicolons,
-!> commas, or blanks and tabs. Comments `# key: value` are metadata; a title may end with units in brackets. Of three
-!> columns or more, each but the first is a channel with its title for a name, else `column 2` and so on.
+!> commas, or blanks and tabs. Comments `# key: value` are metadata; `# units: cm/s2` and `# dt: 0.02` are what the file
+!> states. A title may hold units in brackets. Of three columns or more, each but the first is a channel with its title
+!> for a name, else `column 2` and so on.
 module dondolo_format_columns
+   use dondolo_column_titles, only : is_other_quantity, is_seconds, units_in
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
@@ -29,6 +31,9 @@ module dondolo_format_columns
 
    !> Most columns that are told apart
    integer, parameter :: most_cells = 64
+
+   !> Relative difference allowed between the step of the times and one that a comment states
+   real(wp), parameter :: step_tolerance = 0.01_wp
 
    !> Blanks between columns
    character(len=*), parameter :: blanks = ' '//achar(9)
@@ -123,7 +128,7 @@ contains
          samples%channels(i)%dt = dt
          if (cells > 2) samples%channels(i)%name = 'column '//to_text(cell)
       end do
-      call read_top(text, begin, cells, samples)
+      call read_top(text, begin, cells, samples, error)
    end subroutine read_columns
 
    !> Say what is wrong in a line
@@ -160,7 +165,7 @@ contains
    end subroutine raise_bad_line
 
    !> Read comments and titles
-   subroutine read_top(text, begin, cells, samples)
+   subroutine read_top(text, begin, cells, samples, error)
       !> The file
       type(text_file_type), intent(in) :: text
       !> First line of values
@@ -169,6 +174,8 @@ contains
       integer, intent(in) :: cells
       !> What the file says
       type(samples_type), intent(inout) :: samples
+      !> Times that are no seconds, or a time step that is another than that of the times
+      type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: content, units
       integer :: line, mark, i, k, titles, first(most_cells), last(most_cells)
@@ -188,39 +195,63 @@ contains
             last(1) = text%last(line)
          end if
          if (titles /= cells) cycle
+         content = unquoted(text%text(first(1):last(1)))
+         if (cells > 1 .and. .not. is_seconds(content, units_in(content))) then
+            call raise_at(error, text, line, 'title '''//shown(content)//''' of the times: they must be in s')
+            return
+         end if
          do i = 1, size(samples%channels)
             k = min(i + 1, cells)
             content = unquoted(text%text(first(k):last(k)))
             units = units_in(content)
             if (len(units) > 0) samples%channels(i)%units = units
+            if (is_other_quantity(content, units)) samples%channels(i)%refusal = text%place(line)//': channel '''// &
+               & shown(content)//''' is no acceleration'
             if (cells > 2 .and. len(content) > 0) samples%channels(i)%name = content
          end do
       end do
+      call take_comments(text, begin, samples, error)
    end subroutine read_top
 
-   !> Units in a title
-   pure function units_in(title) result(units)
-      !> Title
-      character(len=*), intent(in) :: title
-      !> What stands in its last brackets, if it is g or gal or a length over something, as m/s2 is
-      character(len=:), allocatable :: units
+   !> Take units and time step that comments state
+   subroutine take_comments(text, begin, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> First line of values
+      integer, intent(in) :: begin
+      !> What the file says
+      type(samples_type), intent(inout) :: samples
+      !> The time step is no positive number, or not that of the times
+      type(error_type), allocatable, intent(out) :: error
 
-      integer :: open, close
+      character(len=:), allocatable :: stated
+      real(wp) :: dt
+      integer :: i
+      logical :: ok
 
-      units = ''
-      open = scan(title, '([', back=.true.)
-      close = scan(title, ')]', back=.true.)
-      if (open == 0 .or. close <= open + 1) return
-      units = trim(adjustl(title(open + 1:close - 1)))
-      select case (lower(units(:scan(units//'/', '/') - 1)))
-      case ('m', 'cm', 'mm', 'in', 'ft')
-         if (index(units, '/') == 0) units = ''
-      case ('g', 'gal')
-         if (index(units, '/') > 0) units = ''
-      case default
-         units = ''
-      end select
-   end function units_in
+      stated = samples%metadata%get('dt')
+      if (len(stated) > 0) then
+         i = len(stated) - merge(1, 0, lower(stated(len(stated):)) == 's')
+         call parse_real(stated(:i), dt, ok)
+         if (ok) ok = dt > 0.0_wp
+         if (.not. ok) then
+            call raise_at(error, text, begin, 'the comment dt = '''//shown(stated)//''': must be a positive number')
+            return
+         end if
+         associate (step => samples%channels(1)%dt)
+            if (step > 0.0_wp .and. abs(dt - step) > step_tolerance*step) then
+               call raise_at(error, text, begin, 'the step of the times is '//to_text(step)// &
+                  & ': a comment states dt = '//to_text(dt))
+               return
+            end if
+            if (.not. step > 0.0_wp) step = dt
+         end associate
+      end if
+      stated = samples%metadata%get('units')
+      do i = 1, size(samples%channels)
+         if (.not. allocated(samples%channels(i)%units)) samples%channels(i)%units = stated
+      end do
+   end subroutine take_comments
 
    !> A title without blanks and quotes around it
    pure function unquoted(title)

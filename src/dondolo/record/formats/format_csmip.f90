@@ -10,7 +10,7 @@ module dondolo_format_csmip
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, check_duration, format_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -145,6 +145,8 @@ contains
          return
       end if
       call read_header(text, first, min(first + text_lines, begin) - 1, channel)
+      call check_duration(text, max(line_with(text, first, begin, 'record length'), first), &
+         & leading_number(channel%metadata%get('record length')), channel, error)
    end subroutine read_channel
 
    !> Does a line announce velocities or displacements?

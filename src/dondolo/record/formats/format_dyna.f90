@@ -6,7 +6,7 @@ module dondolo_format_dyna
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
+   use dondolo_record_format, only : check_duration, format_type, raise_at, read_block, samples_type, shown
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -77,6 +77,8 @@ contains
          channel%peak_line = labels%line_of(peak_key)
          channel%name = one_of(labels%value_of('STREAM'), labels%value_of('COMPONENT'))
          call read_block(text, header_lines(text) + 1, count, channel%values, error)
+         if (.not. allocated(error)) call check_duration(text, max(labels%line_of('DURATION_S'), 1), &
+            & labels%value_of('DURATION_S'), channel, error)
          call add_metadata(labels, channel%name, samples%metadata)
       end associate
    end subroutine read_dyna

@@ -224,7 +224,7 @@ contains
       channel%peak = leading_number(line)
       channel%units = before(after(line, channel%peak), ' at')
       associate (metadata => channel%metadata)
-         call metadata%set('event', squeezed(text%line(first + 8)))
+         call metadata%set('epicentre', squeezed(text%line(first + 8)))
          call metadata%set('date', origin())
          call metadata%set('time', squeezed(text%line(first + 7)))
          line = after(text%line(first + 1), 'site')

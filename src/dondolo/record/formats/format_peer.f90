@@ -79,7 +79,7 @@ contains
          return
       end if
       at = index(line, 'in units of') + len('in units of')
-      samples%channels(1)%units = first_word(line(at:), ' ,.;')
+      samples%channels(1)%units = first_word(line(at:), ' ,.;()')
       call read_count(lower(text%line(count_line)), count, samples%channels(1)%dt, ok)
       if (.not. ok) then
          call raise_at(error, text, count_line, ''''//shown(trim(text%line(count_line)))// &
@@ -131,6 +131,7 @@ contains
       if (comma == 0) comma = len(rest) + 1
       time = trim(adjustl(rest(:comma - 1)))
       if (len(time) == 4 .and. verify(time, '0123456789') == 0) date = date//'T'//time(:2)//':'//time(3:)
+      if (len(time) == 5 .and. index(time, ':') == 3 .and. verify(time, '0123456789:') == 0) date = date//'T'//time
       call metadata%set('date', date)
       last = index(rest, ',', back=.true.)
       if (last <= comma) return
@@ -148,7 +149,7 @@ contains
 
       integer :: first
 
-      first = verify(text, ' .,;:'//achar(9))
+      first = verify(text, ' .,;:)'//achar(9))
       sentence = ''
       if (first > 0) sentence = trim(text(first:))
    end function first_sentence
