@@ -523,7 +523,7 @@ catalogue "no column file" 'name,dt_s,units\nr1.txt,0.01,g\n' "records/bad.csv: 
 catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
 catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
-catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1' stands there twice"
+catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' stands there twice"
 printf '1\n2\nx\n' >records/broken.txt
 catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
 rm records/broken.txt records/bad.csv

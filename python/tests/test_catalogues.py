@@ -112,7 +112,7 @@ def test_stems_that_stand_there_twice(folder):
 def test_units_and_steps_of_comments(tmp_path):
     (tmp_path / "x.txt").write_text("# units: cm/s2\n# dt: 0.02\n0\n1\n2\n")
     (tmp_path / "y.csv").write_text("t,acc (g),vel (cm/s),disp (cm)\n0,1,2,3\n0.01,-1,3,4\n")
-    code, out, err = run("catalogue", tmp_path, "--dt", "0.005", "--units", "m/s2")
+    code, _, err = run("catalogue", tmp_path, "--dt", "0.005", "--units", "m/s2")
     assert (code, err) == (0, "")
     x, y = dd.read_catalogue(tmp_path / "catalogue.csv")
     assert (x.dt, x.pga) == (0.02, 0.02)

@@ -50,7 +50,8 @@ contains
       if (origins > 0) origins = min(max(origins, len('event, station')), widest)
       if (present(values)) column = repeat(' ', measures - len(measure))//measure
       write (numbers, '(a9, a10, a10, a11, a10)') 'samples', 'dt', 'length', 'PGA', 'PGV'
-      call table%add('  no.  '//left('record', width)//trim(numbers)//column//titled('event, station', origins)//'  problems')
+      call table%add('  no.  '//left('record', width)//trim(numbers)//column// &
+         & titled('event, station', origins)//'  problems')
       write (numbers, '(a9, a10, a10, a11, a10)') '', 's', 's', 'g', 'cm/s'
       if (present(values)) column = repeat(' ', measures - len(unit))//unit
       call table%add('       '//left('', width)//trim(numbers)//column)
