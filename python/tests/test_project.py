@@ -35,6 +35,17 @@ def test_fortran_sources(root):
     assert app == {f"../app/{file.name}" for file in root.glob("app/*.f90")} - other_programs
 
 
+def test_rooms(root):
+    """Each room of the library knows only those before it."""
+    rooms = ["base", "record", "wall", "motion", "fragility", "case"]
+    files = {path: path.relative_to(root / "src/dondolo").parts[0] for path in root.glob("src/dondolo/**/*.[fF]90")}
+    home = {name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    assert set(files.values()) == set(rooms)
+    for path, room in files.items():
+        for name in re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M):
+            assert rooms.index(home[name]) <= rooms.index(room), f"{path.name} uses {name}"
+
+
 def test_python_sources(root):
     text = (root / "python/meson.build").read_text()
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
