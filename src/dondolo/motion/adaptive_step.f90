@@ -4,25 +4,17 @@
 !> Events - impact, turning point, limit - are found on the dense output of a step; the step is then taken again so
 !> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_adaptive_step
-   use dondolo_bernstein, only : first_descent, nowhere
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+      use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond
+   use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_rest, only : rest_type
+   use dondolo_rest, only : rest_type, shortest_motion
    use dondolo_solver, only : solver_type
    implicit none
    private
 
    public :: motion_type, scene_type, advance
-   public :: impact, limit_reached
-   public :: shortest_motion
-
-   !> Events within a step
-   integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
-
-   !> A motion shorter than this part of the sample interval cannot be told from rest
-   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
 
    !> Smallest step / sample interval
    real(wp), parameter :: smallest_step = 2.0_wp**(-20)
@@ -113,7 +105,8 @@ contains
       end do
 
       ! In a step too short to be told from none, signs are rounding; what happened shows in the next.
-      if (h > shortest_motion*dt) call find_event(scene, motion, h, q, v, f, event, x)
+      if (h > shortest_motion*dt) &
+         & call find_event(dense_rotation(h, motion%q, motion%v, motion%f, q, v, f), motion%peak, scene%limit, event, x)
       if (event /= no_event) call land(mechanism, scene, motion, h, event, x, q, v, f)
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(dt, min(motion%time + h, dt), sample_reached)
@@ -173,60 +166,6 @@ contains
          motion%step = max(smallest, h*factor)
       end if
    end subroutine control_step
-
-   !> The first event within a step, on its dense output
-   pure subroutine find_event(scene, motion, h, q, v, f, event, x)
-      !> What stays the same
-      type(scene_type), intent(in) :: scene
-      !> Start of the step
-      type(motion_type), intent(in) :: motion
-      !> The step [s]
-      real(wp), intent(in) :: h
-      !> Rotation [rad], velocity [rad/s] and acceleration [rad/s2] at its end
-      real(wp), intent(in) :: q, v, f
-      !> The event
-      integer, intent(out) :: event
-      !> Its place, as a part of the step
-      real(wp), intent(out) :: x
-
-      real(wp) :: b(0:5), d(0:4), highest, place
-
-      b = dense_rotation(h, motion%q, motion%v, motion%f, q, v, f)
-      highest = maxval(b)
-      event = no_event
-      x = nowhere
-      if (minval(b) <= 0.0_wp) then
-         x = first_descent(b)
-         if (x < nowhere) event = impact
-      end if
-      ! A turning point matters only where it may be a new peak.
-      if (highest > motion%peak) then
-         d = b(1:) - b(:4)
-         place = nowhere
-         if (any(d < 0.0_wp) .and. any(d > 0.0_wp)) place = first_descent(d*initial_sign(d))
-         if (place < x) then
-            x = place
-            event = turning
-         end if
-         if (highest >= scene%limit) then
-            place = first_descent(scene%limit - b)
-            if (place < x) then
-               x = place
-               event = limit_reached
-            end if
-         end if
-      end if
-   end subroutine find_event
-
-   !> Sign of the first coefficient that is not zero
-   pure function initial_sign(c) result(s)
-      !> Coefficients, not all zero
-      real(wp), intent(in) :: c(:)
-      !> +1 or -1
-      real(wp) :: s
-
-      s = sign(1.0_wp, c(findloc(c /= 0.0_wp, .true., dim=1)))
-   end function initial_sign
 
    !> Take a step again so that it ends on an event: Newton's method on the step itself, kept in a bracket by
    !> bisection, from the place found on the dense output

@@ -9,7 +9,11 @@ module dondolo_rest
    implicit none
    private
 
-   public :: rest_type, new_rest
+   public :: rest_type, new_rest, leave_edge
+   public :: shortest_motion
+
+   !> A motion shorter than this part of the sample interval cannot be told from rest
+   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
 
    !> A wall near q = 0
    type :: rest_type
@@ -27,15 +31,19 @@ module dondolo_rest
       real(wp) :: height
       !> Relative change of the terms up to that rotation
       real(wp) :: slack
+      !> Energy of a bounce that is called tiny [J]
+      real(wp) :: tiny_energy
       !> Impacts after which a chain of bounces is looked at again: 1, more where e is next to 1
       integer :: bounces_per_look
    contains
+      !> Ground acceleration at which rocking begins
+      procedure :: trigger
       !> When rocking begins
       procedure :: next_start
-      !> Moment that pushes the wall back to rest
-      procedure :: inward_moment
+      !> Does the wall come to rest after an impact?
+      procedure :: settle
       !> Does a chain of bounces end at rest, whatever happens in between?
-      procedure :: chain_ends
+      procedure, private :: chain_ends
       !> Lower bound of the inward moment within the height of a chain
       procedure, private :: least_moment
    end type rest_type
@@ -46,6 +54,11 @@ module dondolo_rest
    !> What the bounds of a chain leave in hand for the change of the terms within its height; it covers moments
    !> that rise up to tenfold
    real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
+
+   !> A bounce that would rise less than this part of q_c in still ground is tiny; after this many tiny ones in a
+   !> row the wall is called at rest, which only guards against a chain without end (restitution next to 1)
+   real(wp), parameter :: tiny_height = 1.0e-12_wp
+   integer, parameter :: most_tiny_bounces = 1000
 
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
    real(wp), parameter :: speed_per_look = 3.0e-3_wp, most_bounces = 1.0e3_wp
@@ -67,6 +80,7 @@ contains
       rest%moment = g0 - load0
       rest%lever = l0
       rest%inertia = j0
+      rest%tiny_energy = tiny_height*mechanism%capacity*rest%moment
       rest%bounces_per_look = max(1, int(min(most_bounces, speed_per_look/(1.0_wp - rest%restitution))))
       rest%height = 1.0e-3_wp*mechanism%capacity
       do
@@ -79,19 +93,13 @@ contains
       end do
    end function new_rest
 
-   !> Moment at q = 0 that pushes the wall back to rest: G(0) - Q(0) + s L(0) u_g''
-   elemental function inward_moment(self, side, acceleration) result(moment)
+   !> Ground acceleration beyond which a wall at rest does not stay so, towards the side it can rock to [m/s2]
+   elemental real(wp) function trigger(self)
       !> The wall
       class(rest_type), intent(in) :: self
-      !> Side, +1 or -1
-      real(wp), intent(in) :: side
-      !> Ground acceleration [m/s2]
-      real(wp), intent(in) :: acceleration
-      !> Inward moment; negative: the wall is pushed out [N m]
-      real(wp) :: moment
 
-      moment = self%moment + side*self%lever*acceleration
-   end function inward_moment
+      trigger = self%moment/self%lever
+   end function trigger
 
    !> The instant at which a wall at rest begins to rock: where the inward moment of one of its sides first falls
    !> below zero, in closed form inside a sample interval
@@ -111,9 +119,9 @@ contains
       !> Does rocking begin before the end of the record?
       logical, intent(out) :: found
 
-      real(wp) :: here, next, trigger
+      real(wp) :: here, next, threshold
 
-      trigger = self%moment/self%lever
+      threshold = self%trigger()
       associate (a => record%acceleration)
          here = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/record%dt))
          do
@@ -126,7 +134,7 @@ contains
             time = 0.0_wp
             here = next
          end do
-         if (.not. opens(here)) time = time + (record%dt - time)*((-side*trigger - here)/(next - here))
+         if (.not. opens(here)) time = time + (record%dt - time)*((-side*threshold - here)/(next - here))
       end associate
 
    contains
@@ -136,10 +144,77 @@ contains
          !> Ground acceleration [m/s2]
          real(wp), intent(in) :: acceleration
 
-         opens = -acceleration > trigger .or. (self%two_sided .and. acceleration > trigger)
+         opens = -acceleration > threshold .or. (self%two_sided .and. acceleration > threshold)
       end function opens
 
    end subroutine next_start
+
+   !> Leave the edge of a threshold, where rounding undid a start at once: nothing more starts on its side in this
+   !> interval, so go on to where the accelerogram changes its sign, or to the next sample
+   pure subroutine leave_edge(record, interval, time)
+      !> The accelerogram
+      type(record_type), intent(in) :: record
+      !> Sample interval, from 1
+      integer, intent(inout) :: interval
+      !> Time since the first sample of the interval [s]
+      real(wp), intent(inout) :: time
+
+      real(wp) :: crossing
+
+      associate (here => record%acceleration(interval), next => record%acceleration(interval + 1))
+         crossing = 0.0_wp
+         if (here > 0.0_wp .neqv. next > 0.0_wp) crossing = record%dt*(here/(here - next))
+      end associate
+      if (crossing > time) then
+         time = crossing
+      else
+         interval = interval + 1
+         time = 0.0_wp
+      end if
+   end subroutine leave_edge
+
+   !> Does the wall come to rest after an impact? Otherwise it rocks on, or bounces and the next impact decides
+   pure subroutine settle(self, record, scale, interval, time, acceleration, side, speed, peak, impacts, &
+      & tiny_bounces, at_rest)
+      !> The wall
+      class(rest_type), intent(in) :: self
+      !> The accelerogram; zero after its last sample
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Sample interval of the impact; may lie beyond the record
+      integer, intent(in) :: interval
+      !> Its time since the first sample of the interval [s]
+      real(wp), intent(in) :: time
+      !> Ground acceleration at the impact [m/s2]
+      real(wp), intent(in) :: acceleration
+      !> Side after the impact
+      real(wp), intent(in) :: side
+      !> Speed after the impact [rad/s]
+      real(wp), intent(in) :: speed
+      !> Largest rotation so far [rad]
+      real(wp), intent(in) :: peak
+      !> Impacts so far
+      integer, intent(in) :: impacts
+      !> Tiny bounces in a row so far; this one is counted
+      integer, intent(inout) :: tiny_bounces
+      !> Does it?
+      logical, intent(out) :: at_rest
+
+      real(wp) :: moment, energy
+
+      energy = 0.5_wp*self%inertia*speed**2
+      tiny_bounces = merge(tiny_bounces + 1, 0, energy < self%tiny_energy)
+      moment = self%moment + side*self%lever*acceleration
+      at_rest = speed == 0.0_wp .or. tiny_bounces > most_tiny_bounces
+      if (at_rest .or. moment <= 0.0_wp) return
+      at_rest = 2.0_wp*speed*self%inertia <= shortest_motion*record%dt*moment
+      ! A chain may not rise so high, whatever else; and only now and then where bounces have no number, since each
+      ! look may go through the whole record.
+      if (at_rest .or. energy > moment*min(self%height, peak)) return
+      if (modulo(impacts, self%bounces_per_look) == 0) &
+         & at_rest = self%chain_ends(record, scale, interval, time, side, speed, peak)
+   end subroutine settle
 
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>

@@ -3,13 +3,14 @@
 !> At rest, rocking, collapsed (docs/theory.md, section 4). No step crosses a sample, where the piecewise linear
 !> accelerogram has its corners.
 module dondolo_rk45
-   use dondolo_adaptive_step, only : advance, impact, limit_reached, motion_type, scene_type, shortest_motion
+   use dondolo_adaptive_step, only : advance, motion_type, scene_type
    use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_events, only : impact, limit_reached
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : new_rest
+   use dondolo_rest, only : leave_edge, new_rest, shortest_motion
    use dondolo_solver, only : solver_type
    use dondolo_tail, only : free_motion, tail_type
    implicit none
@@ -19,11 +20,6 @@ module dondolo_rk45
 
    !> How rocking ends
    integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3
-
-   !> A bounce that would rise less than this part of q_c in still ground is tiny; after this many tiny ones in a
-   !> row the wall is called at rest, which only guards against a chain without end (restitution next to 1)
-   real(wp), parameter :: tiny_height = 1.0e-12_wp
-   integer, parameter :: most_tiny_bounces = 1000
 
    !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
    real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
@@ -77,7 +73,7 @@ contains
          if (ending /= at_rest) exit
          ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
          if (motion%interval == first .and. motion%time - start <= shortest_motion*record%dt) &
-            & call leave_edge(scene, record, motion, trace)
+            & call cross_edge(scene, record, motion, trace)
       end do
 
       response%collapsed = ending == collapsed
@@ -185,9 +181,8 @@ contains
       ending = record_over
    end subroutine rock
 
-   !> Leave the edge of a threshold: nothing more starts on its side in this interval, so go on to where the
-   !> accelerogram changes its sign, or to the next sample
-   pure subroutine leave_edge(scene, record, motion, trace)
+   !> Leave the edge of a threshold
+   pure subroutine cross_edge(scene, record, motion, trace)
       !> What stays the same
       type(scene_type), intent(in) :: scene
       !> The accelerogram
@@ -197,18 +192,14 @@ contains
       !> Time history
       type(trace_type), intent(inout), optional :: trace
 
-      real(wp) :: crossing
+      integer :: first
 
-      associate (here => record%acceleration(motion%interval), next => record%acceleration(motion%interval + 1))
-         crossing = 0.0_wp
-         if (here > 0.0_wp .neqv. next > 0.0_wp) crossing = record%dt*(here/(here - next))
-      end associate
-      if (crossing > motion%time) then
-         motion%time = crossing
-      else
-         call next_interval(scene, record, motion, trace)
-      end if
-   end subroutine leave_edge
+      first = motion%interval
+      call leave_edge(record, motion%interval, motion%time)
+      if (motion%interval == first) return
+      call enter_interval(scene, record, motion)
+      if (present(trace)) call add_row(motion, record, scene%scale, trace)
+   end subroutine cross_edge
 
    !> Go on to the next sample
    pure subroutine next_interval(scene, record, motion, trace)
@@ -261,8 +252,7 @@ contains
       !> Time history
       type(trace_type), intent(inout), optional :: trace
 
-      real(wp) :: moment, flight
-      logical :: is_tiny
+      logical :: rests
 
       ending = 0
       motion%impacts = motion%impacts + 1
@@ -272,22 +262,12 @@ contains
       if (mechanism%two_sided) motion%excitation%side = -motion%excitation%side
       if (present(trace)) call add_row(motion, record, scene%scale, trace)
 
-      associate (rest => scene%rest, ground => motion%excitation)
-         is_tiny = 0.5_wp*rest%inertia*motion%v**2 < tiny_height*scene%q_unit*rest%moment
-         motion%tiny_bounces = merge(motion%tiny_bounces + 1, 0, is_tiny)
-         moment = rest%inward_moment(ground%side, ground%start + ground%slope*motion%time)
-         if (motion%v == 0.0_wp .or. motion%tiny_bounces > most_tiny_bounces) then
-            ending = at_rest
-         else if (moment > 0.0_wp) then
-            flight = 2.0_wp*motion%v*rest%inertia/moment
-            if (flight <= shortest_motion*record%dt) ending = at_rest
-            ! Only now and then where bounces have no number: each look may go through the whole record.
-            if (modulo(motion%impacts, rest%bounces_per_look) == 0) then
-               if (rest%chain_ends(record, scene%scale, motion%interval, motion%time, ground%side, motion%v, &
-                  & motion%peak)) ending = at_rest
-            end if
-         end if
+      associate (ground => motion%excitation)
+         call scene%rest%settle(record, scene%scale, motion%interval, motion%time, &
+            & ground%start + ground%slope*motion%time, ground%side, motion%v, motion%peak, motion%impacts, &
+            & motion%tiny_bounces, rests)
       end associate
+      if (rests) ending = at_rest
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine bounce
 

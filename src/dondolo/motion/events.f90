@@ -1,0 +1,72 @@
+!> What happens within a step: an impact, a turning point, the limit.
+!>
+!> The rotation in the step is a polynomial in Bernstein form, so that no event is missed and none is found that the
+!> polynomial does not have (docs/theory.md, section 5).
+module dondolo_events
+   use dondolo_bernstein, only : first_descent, nowhere
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: find_event
+   public :: no_event, impact, turning, limit_reached
+
+   !> Events within a step
+   integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
+
+contains
+
+   !> The first event within a step
+   pure subroutine find_event(b, peak, limit, event, x)
+      !> Bernstein coefficients of the rotation [rad]
+      real(wp), intent(in) :: b(0:)
+      !> Largest rotation so far [rad]
+      real(wp), intent(in) :: peak
+      !> Rotation that counts as collapse [rad]
+      real(wp), intent(in) :: limit
+      !> The event
+      integer, intent(out) :: event
+      !> Its place, as a part of the step
+      real(wp), intent(out) :: x
+
+      real(wp) :: d(0:ubound(b, 1) - 1), highest, place
+      integer :: n
+
+      n = ubound(b, 1)
+      highest = maxval(b)
+      event = no_event
+      x = nowhere
+      if (minval(b) <= 0.0_wp) then
+         x = first_descent(b)
+         if (x < nowhere) event = impact
+      end if
+      ! A turning point matters only where it may be a new peak.
+      if (highest > peak) then
+         d = b(1:) - b(:n - 1)
+         place = nowhere
+         if (any(d < 0.0_wp) .and. any(d > 0.0_wp)) place = first_descent(d*initial_sign(d))
+         if (place < x) then
+            x = place
+            event = turning
+         end if
+         if (highest >= limit) then
+            place = first_descent(limit - b)
+            if (place < x) then
+               x = place
+               event = limit_reached
+            end if
+         end if
+      end if
+   end subroutine find_event
+
+   !> Sign of the first coefficient that is not zero
+   pure function initial_sign(c) result(s)
+      !> Coefficients, not all zero
+      real(wp), intent(in) :: c(:)
+      !> +1 or -1
+      real(wp) :: s
+
+      s = sign(1.0_wp, c(findloc(c /= 0.0_wp, .true., dim=1)))
+   end function initial_sign
+
+end module dondolo_events

@@ -1,0 +1,516 @@
+!> One history in a lane: how it begins, what its events do to it, and what it leaves.
+!>
+!> The loop over lanes flags a lane where something may happen; what does happen is decided here, lane by lane, with the
+!> same rules as in every engine (dondolo_rest, dondolo_events, dondolo_tail; docs/theory.md, section 4).
+module dondolo_lane_history
+   use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
+   use dondolo_kinds, only : wp
+   use dondolo_lane_state, only : lanes_type
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_normal_form, only : normal_form_type, y_limit
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : response_type
+   use dondolo_rest, only : leave_edge, rest_type, shortest_motion
+   use dondolo_solver, only : solver_type
+   use dondolo_tail, only : free_motion, tail_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: history_type, stage_type, begin, resolve
+
+   !> What stays the same for all histories of a wall
+   type :: stage_type
+      !> The wall in normal form, and at rest
+      type(normal_form_type) :: form
+      type(rest_type) :: rest
+      !> Tolerances and limit
+      type(solver_type) :: solver
+      !> Absolute tolerance of the velocity of y [1/s]
+      real(wp) :: atol = 0.0_wp
+   end type stage_type
+
+   !> What a history is and where it is, besides the state in its lane
+   type :: history_type
+      !> Its number, its record and the factor on it, negative to reverse it
+      integer :: number = 0, record = 0
+      real(wp) :: scale = 0.0_wp
+      !> Side the wall is on
+      real(wp) :: side = 1.0_wp
+      !> Where it began to rock: sample interval and time in it [s]
+      integer :: start_interval = 0
+      real(wp) :: start_time = 0.0_wp
+      !> Time of the largest rotation so far [s]
+      real(wp) :: time_of_peak = 0.0_wp
+      !> Impacts so far, and tiny bounces in a row
+      integer :: impacts = 0, tiny_bounces = 0
+      !> Has it moved? Is it over, and how?
+      logical :: moved = .false., over = .false., collapsed = .false.
+   end type history_type
+
+   !> From the last term of a series to the step that the tolerance allows; shortest step / sample interval
+   real(wp), parameter :: safety = 0.9_wp, smallest_step = 2.0_wp**(-20)
+
+   !> Longer by a little, so that rounding never asks for one step more
+   real(wp), parameter :: slack = 1.0001_wp
+
+contains
+
+   !> Begin a history: at rest until its record first moves it, if it does
+   pure subroutine begin(stage, mechanism, record, set, lanes, i, history, response, work)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> Its mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The record of the history
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> Lane of the history
+      integer, intent(in) :: i
+      !> The history: number, record and scale are set
+      type(history_type), intent(inout) :: history
+      !> Its result, where it is over at once
+      type(response_type), intent(inout) :: response
+      !> Counts
+      type(work_type), intent(inout) :: work
+
+      work%histories = work%histories + 1
+      work%intervals = work%intervals + set%length(history%record) - 1
+      lanes%dt(i) = record%dt
+      lanes%rate(i) = 1.0_wp/record%dt
+      lanes%peak(i) = 0.0_wp
+      lanes%y(i) = 0.0_wp
+      lanes%v(i) = 0.0_wp
+      lanes%last(i) = set%offset(history%record) + set%length(history%record)
+      call wait(stage, record, set, lanes, i, history, 1, 0.0_wp, work)
+      if (history%over) call finish(stage, mechanism, record, set, lanes, i, history, response, work)
+   end subroutine begin
+
+   !> Take the step of a flagged lane, up to the first event in it
+   pure subroutine resolve(stage, mechanism, record, set, lanes, i, history, response, work)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> Its mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The record of the history
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(inout) :: history
+      !> Its result, where it is over
+      type(response_type), intent(inout) :: response
+      !> Counts
+      type(work_type), intent(inout) :: work
+
+      real(wp) :: y, v, d(0:7), h, x
+      integer :: event
+
+      if (lanes%flag(i) == 1) then
+         d = [lanes%y(i), lanes%v(i), lanes%series(i, :)]
+         ! A wall at rest begins to rock where its moment is zero: never inwards, whatever the rounding says.
+         if (d(0) == 0.0_wp .and. d(1) == 0.0_wp) d(2) = max(0.0_wp, d(2))
+         h = lanes%step(i)
+         call shorten(stage, lanes, i, d, h)
+         event = no_event
+         if (d(1) < 0.0_wp .and. falls_to_zero(d, h)) then
+            event = impact
+            h = time_of_zero(d, h)
+         else if (h > shortest_motion*lanes%dt(i)) then
+            call find_event(bernstein(d, h), lanes%peak(i), y_limit, event, x)
+            if (event /= no_event) h = x*h
+         end if
+         y = value(d, h)
+         v = rate(d, h)
+         lanes%y(i) = y
+         lanes%v(i) = v
+         if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
+            call next_sample(set, lanes, i)
+         else
+            call stop_between(stage, set, lanes, i, history, h, event /= no_event)
+         end if
+         select case (event)
+         case (impact)
+            call bounce(stage, record, set, lanes, i, history, work)
+         case (turning)
+            lanes%v(i) = 0.0_wp
+            call set_peak(lanes, i, history, record, set)
+            if (.not. y < y_limit) history%over = .true.
+            history%collapsed = history%over
+         case (limit_reached)
+            lanes%y(i) = y_limit
+            call set_peak(lanes, i, history, record, set)
+            history%over = .true.
+            history%collapsed = .true.
+         end select
+      end if
+      history%over = history%over .or. lanes%next(i) > lanes%last(i)
+      if (history%over) call finish(stage, mechanism, record, set, lanes, i, history, response, work)
+   end subroutine resolve
+
+   !> Shorten a step to what the tolerance allows
+   pure subroutine shorten(stage, lanes, i, d, h)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:)
+      !> The step [s]
+      real(wp), intent(inout) :: h
+
+      real(wp) :: error, tolerance, fourth
+
+      fourth = stage%form%fourth_a + stage%form%fourth_b*abs(lanes%u(i))
+      tolerance = stage%solver%rtol*abs(d(1)) + stage%atol
+      do while (h > smallest_step*lanes%dt(i))
+         error = 7.0_wp*abs(d(7))*h**6 + fourth*h*(abs(d(1))*h + abs(d(2))*h**2)**4
+         if (error < tolerance) return
+         h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/5.0_wp))
+         lanes%next_span(i) = h
+         lanes%span(i) = h
+      end do
+   end subroutine shorten
+
+   !> Does a motion fall all the way, to zero or below?
+   pure logical function falls_to_zero(d, h)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:)
+      !> The step [s]
+      real(wp), intent(in) :: h
+
+      real(wp) :: slowest
+
+      ! y' lies below the larger of its ends by no more than y''' h^2/8 takes away.
+      slowest = max(d(1), rate(d, h)) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
+      falls_to_zero = slowest < 0.0_wp .and. value(d, h) <= 0.0_wp
+   end function falls_to_zero
+
+   !> When a motion that falls all the way is at zero: Newton's method, in a bracket
+   pure real(wp) function time_of_zero(d, h) result(t)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:)
+      !> A time after it [s]
+      real(wp), intent(in) :: h
+
+      real(wp) :: before, after, change
+      integer :: iteration
+
+      before = 0.0_wp
+      after = h
+      t = h*d(0)/(d(0) - value(d, h))
+      do iteration = 1, 60
+         change = -value(d, t)/rate(d, t)
+         if (change > 0.0_wp) then
+            before = t
+         else
+            after = t
+         end if
+         t = t + change
+         if (abs(change) <= sqrt(epsilon(t))*t) exit
+         if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
+      end do
+      t = min(max(t, 0.0_wp), h)
+   end function time_of_zero
+
+   !> A series
+   pure real(wp) function value(d, t)
+      !> Coefficients of 1, t, t^2, ...
+      real(wp), intent(in) :: d(0:7)
+      !> Time [s]
+      real(wp), intent(in) :: t
+
+      value = d(0) + t*(d(1) + t*(d(2) + t*(d(3) + t*(d(4) + t*(d(5) + t*(d(6) + t*d(7)))))))
+   end function value
+
+   !> Rate of change of a series
+   pure real(wp) function rate(d, t)
+      !> Coefficients of 1, t, t^2, ...
+      real(wp), intent(in) :: d(0:7)
+      !> Time [s]
+      real(wp), intent(in) :: t
+
+      rate = d(1) + t*(2.0_wp*d(2) + t*(3.0_wp*d(3) + t*(4.0_wp*d(4) + t*(5.0_wp*d(5) + t*(6.0_wp*d(6) &
+         & + t*(7.0_wp*d(7)))))))
+   end function rate
+
+   !> Bernstein coefficients of a series over a step
+   pure function bernstein(d, h) result(b)
+      !> Coefficients of 1, t, t^2, ...
+      real(wp), intent(in) :: d(0:)
+      !> The step [s]
+      real(wp), intent(in) :: h
+      !> Coefficients
+      real(wp) :: b(0:ubound(d, 1))
+
+      integer :: j, k, n
+
+      ! Differences at 0 are d_k h^k/binomial(n, k); summing them gives the coefficients.
+      n = ubound(d, 1)
+      b(0) = 1.0_wp
+      do k = 1, n
+         b(k) = b(k - 1)*h*real(k, wp)/real(n - k + 1, wp)
+      end do
+      b = b*d
+      do k = n, 1, -1
+         do j = k, n
+            b(j) = b(j) + b(j - 1)
+         end do
+      end do
+   end function bernstein
+
+   !> The lane is on its next sample
+   pure subroutine next_sample(set, lanes, i)
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+
+      lanes%time(i) = 0.0_wp
+      lanes%next(i) = lanes%next(i) + 1
+      lanes%u(i) = lanes%u_next(i)
+      lanes%u_next(i) = lanes%factor(i)*set%samples(lanes%next(i))
+      lanes%slope(i) = (lanes%u_next(i) - lanes%u(i))*lanes%rate(i)
+      lanes%span(i) = lanes%next_span(i)
+   end subroutine next_sample
+
+   !> The lane is between two samples
+   pure subroutine stop_between(stage, set, lanes, i, history, h, at_event)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(in) :: history
+      !> Time since the last stop [s]
+      real(wp), intent(in) :: h
+      !> Is it an event?
+      logical, intent(in) :: at_event
+
+      lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
+      call aim(set, lanes, i, history)
+      if (at_event .and. stage%solver%steps_per_sample > 1) lanes%span(i) = min(lanes%next_span(i), &
+         & slack*(lanes%dt(i) - lanes%time(i))/real(stage%solver%steps_per_sample, wp))
+   end subroutine stop_between
+
+   !> The ground seen from the side of the wall, at the lane's time
+   pure subroutine aim(set, lanes, i, history)
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(in) :: history
+
+      associate (here => set%samples(lanes%next(i) - 1), next => set%samples(lanes%next(i)))
+         lanes%factor(i) = history%side*history%scale
+         lanes%u_next(i) = lanes%factor(i)*next
+         lanes%slope(i) = (lanes%u_next(i) - lanes%factor(i)*here)*lanes%rate(i)
+         lanes%u(i) = lanes%factor(i)*here + lanes%slope(i)*lanes%time(i)
+      end associate
+   end subroutine aim
+
+   !> An impact: the wall turns back, or rocks on to the other side, or comes to rest
+   pure subroutine bounce(stage, record, set, lanes, i, history, work)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> The record
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(inout) :: history
+      !> Counts
+      type(work_type), intent(inout) :: work
+
+      real(wp) :: acceleration
+      integer :: interval
+      logical :: at_rest
+
+      history%impacts = history%impacts + 1
+      acceleration = history%side*lanes%u(i)
+      lanes%y(i) = 0.0_wp
+      lanes%v(i) = -stage%rest%restitution*min(lanes%v(i), 0.0_wp)
+      if (stage%rest%two_sided) history%side = -history%side
+      interval = interval_of(set, lanes, i, history)
+      call stage%rest%settle(record, history%scale, interval, lanes%time(i), acceleration, history%side, &
+         & lanes%v(i)*stage%form%unit, stage%form%rotation(lanes%peak(i)), history%impacts, history%tiny_bounces, &
+         & at_rest)
+      if (.not. at_rest) then
+         call aim(set, lanes, i, history)
+         return
+      end if
+      work%rocked = work%rocked + interval - history%start_interval + 1
+      history%tiny_bounces = 0
+      lanes%v(i) = 0.0_wp
+      ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
+      associate (time => lanes%time(i))
+         if (interval == history%start_interval .and. time - history%start_time <= shortest_motion*record%dt) &
+            & call leave_edge(record, interval, time)
+         call wait(stage, record, set, lanes, i, history, interval, time, work)
+      end associate
+   end subroutine bounce
+
+   !> At rest: go to the instant at which rocking begins
+   pure subroutine wait(stage, record, set, lanes, i, history, from, since, work)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> The record
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(inout) :: history
+      !> Sample interval from which on it is at rest, and time in it [s]
+      integer, intent(in) :: from
+      real(wp), intent(in) :: since
+      !> Counts
+      type(work_type), intent(inout) :: work
+
+      integer :: interval, sample
+      real(wp) :: time, trigger, acceleration
+      logical :: found
+
+      interval = from
+      time = since
+      trigger = stage%rest%trigger()
+      associate (n => set%length(history%record), a => record%acceleration)
+         history%over = interval >= n
+         if (history%over) return
+         acceleration = history%scale*(a(interval) + (a(interval + 1) - a(interval))*(time/record%dt))
+         if (.not. (acceleration < -trigger .or. (stage%rest%two_sided .and. acceleration > trigger))) then
+            sample = set%next_outside(history%record, interval + 1, history%scale, -trigger, &
+               & merge(trigger, huge(trigger), stage%rest%two_sided))
+            history%over = sample > n
+            if (history%over) return
+            if (sample - 1 > interval) time = 0.0_wp
+            interval = sample - 1
+         end if
+      end associate
+      call stage%rest%next_start(record, history%scale, interval, time, history%side, found)
+      history%moved = .true.
+      history%start_interval = interval
+      history%start_time = time
+      lanes%next(i) = set%offset(history%record) + interval + 1
+      lanes%time(i) = time
+      lanes%next_span(i) = huge(time)
+      if (stage%solver%steps_per_sample > 1) &
+         & lanes%next_span(i) = slack*record%dt/real(stage%solver%steps_per_sample, wp)
+      lanes%span(i) = min(lanes%next_span(i), &
+         & slack*(record%dt - time)/real(stage%solver%steps_per_sample, wp))
+      call aim(set, lanes, i, history)
+   end subroutine wait
+
+   !> Sample interval of a lane
+   pure integer function interval_of(set, lanes, i, history) result(interval)
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(in) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(in) :: history
+
+      interval = lanes%next(i) - 1 - set%offset(history%record)
+   end function interval_of
+
+   !> The coordinate is a new peak
+   pure subroutine set_peak(lanes, i, history, record, set)
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> Its history
+      type(history_type), intent(inout) :: history
+      !> Its record
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+
+      lanes%peak(i) = lanes%y(i)
+      history%time_of_peak = real(interval_of(set, lanes, i, history) - 1, wp)*record%dt + lanes%time(i)
+   end subroutine set_peak
+
+   !> The history is over: its result
+   pure subroutine finish(stage, mechanism, record, set, lanes, i, history, response, work)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> Its mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The record
+      type(record_type), intent(in) :: record
+      !> All records
+      type(record_set_type), intent(in) :: set
+      !> Lanes
+      type(lanes_type), intent(in) :: lanes
+      !> The lane
+      integer, intent(in) :: i
+      !> The history
+      type(history_type), intent(in) :: history
+      !> Its result
+      type(response_type), intent(out) :: response
+      !> Counts
+      type(work_type), intent(inout) :: work
+
+      type(tail_type) :: tail
+      real(wp) :: q, v, peak, j, c, g, l, load
+      logical :: rocking
+
+      if (.not. history%moved) then
+         work%still = work%still + 1
+         return
+      end if
+      rocking = lanes%y(i) > 0.0_wp .or. lanes%v(i) > 0.0_wp
+      work%impacts = work%impacts + history%impacts
+      if (rocking) work%rocked = work%rocked - history%start_interval + 1 &
+         & + min(interval_of(set, lanes, i, history), set%length(history%record) - 1)
+      response%impacts = history%impacts
+      response%time_of_peak = history%time_of_peak
+      response%collapsed = history%collapsed
+      peak = stage%form%rotation(lanes%peak(i))
+      if (rocking .and. .not. history%collapsed) then
+         ! Rocking when the record ends
+         q = stage%form%rotation(lanes%y(i))
+         call mechanism%terms(q, j, c, g, l, load)
+         v = lanes%v(i)*stage%form%unit*sqrt(stage%rest%inertia/j)
+         call free_motion(mechanism, stage%solver%edp_limit*mechanism%capacity, q, v, tail)
+         response%collapsed = tail%collapsed
+         if (tail%peak > peak) then
+            peak = tail%peak
+            response%time_of_peak = record%duration() + tail%delay
+         end if
+      end if
+      response%edp = peak/mechanism%capacity
+      ! A peak that only rounding tells from the limit is a collapse too.
+      response%collapsed = response%collapsed .or. response%edp >= stage%solver%edp_limit
+      if (response%collapsed) response%edp = stage%solver%edp_limit
+   end subroutine finish
+
+end module dondolo_lane_history

@@ -1,0 +1,57 @@
+!> One step of every lane at once: the loop that an ensemble spends its time in.
+!>
+!> A Taylor step (docs/theory.md, section 5): a and b are expanded about the present y, and y'' = a + b u, with u linear
+!> in time, gives the series of the motion up to t^7. The step ends at the lane's next sample. Where an impact, a new
+!> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged.
+module dondolo_lane_kernel
+   use dondolo_kinds, only : wp
+   use dondolo_lane_state, only : lane_width, lanes_type
+   use dondolo_normal_form, only : degrees, highest_degree, normal_form_type, y_limit
+   implicit none
+   private
+
+   public :: step_lanes
+
+contains
+
+   !> One step of the first lanes
+   pure subroutine step_lanes(lanes, active, form, samples, rtol, atol)
+      !> The lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> Lanes to step
+      integer, intent(in) :: active
+      !> The wall
+      type(normal_form_type), intent(in) :: form
+      !> Samples of all records [m/s2]
+      real(wp), intent(in) :: samples(*)
+      !> Tolerances of the velocity: relative, and absolute [1/s]
+      real(wp), intent(in) :: rtol, atol
+
+      integer :: rounded
+
+      ! Whole vectors, so that a lane's arithmetic does not depend on its place
+      rounded = min(lane_width, (active + 7)/8*8)
+      if (form%degree == degrees(1)) then
+         call step_8(lanes, rounded, form, samples, rtol, atol)
+      else if (form%degree == degrees(2)) then
+         call step_14(lanes, rounded, form, samples, rtol, atol)
+      else
+         call step_22(lanes, rounded, form, samples, rtol, atol)
+      end if
+   end subroutine step_lanes
+
+#define LANE_STEP step_8
+#define LANE_DEGREE 8
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_14
+#define LANE_DEGREE 14
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_22
+#define LANE_DEGREE 22
+#include "lane_step.inc"
+
+end module dondolo_lane_kernel

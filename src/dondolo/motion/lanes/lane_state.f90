@@ -1,0 +1,36 @@
+!> Lanes: the state of many histories of one wall, each with its own time, in arrays that one loop runs over.
+module dondolo_lane_state
+   use, intrinsic :: iso_fortran_env, only : int32
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: lanes_type, lane_width
+
+   !> Number of lanes: several vectors, so that one of them computes while another waits for its own results
+   integer, parameter :: lane_width = 64
+
+   !> Lanes. y is the coordinate of dondolo_normal_form; u, the ground acceleration seen from the lane's side
+   type :: lanes_type
+      !> Coordinate and its velocity [1/s]
+      real(wp) :: y(lane_width) = 0.0_wp, v(lane_width) = 0.0_wp
+      !> Time since the last sample, and from sample to sample [s]; samples per time [1/s]
+      real(wp) :: time(lane_width) = 0.0_wp, dt(lane_width) = 1.0_wp, rate(lane_width) = 1.0_wp
+      !> u now and at the next sample [m/s2], and its slope [m/s3]
+      real(wp) :: u(lane_width) = 0.0_wp, u_next(lane_width) = 0.0_wp, slope(lane_width) = 0.0_wp
+      !> Factor from a sample of the record to u: side * scale
+      real(wp) :: factor(lane_width) = 0.0_wp
+      !> Longest step from here to the next sample, and from that sample on [s]
+      real(wp) :: span(lane_width) = 0.0_wp, next_span(lane_width) = 0.0_wp
+      !> Largest y so far at a turning point
+      real(wp) :: peak(lane_width) = 0.0_wp
+      !> Place of the next sample in the set of records, and of the record's last
+      integer(int32) :: next(lane_width) = 1, last(lane_width) = 1
+      !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 7, and its length [s]
+      real(wp) :: series(lane_width, 2:7) = 0.0_wp, step(lane_width) = 0.0_wp
+      !> 0: the step is taken; 1: it is not, since something may happen in it or it is too long; 2: it is taken, and the
+      !> record is over
+      integer(int32) :: flag(lane_width) = 0
+   end type lanes_type
+
+end module dondolo_lane_state

@@ -1,0 +1,147 @@
+!> The engine lanes: many histories of one wall in lockstep, a vector of them at a time.
+!>
+!> Each lane holds one history and has its own time. All lanes take a step at once (dondolo_lane_kernel); flagged ones
+!> are seen to one by one (dondolo_lane_history). A lane whose history is over takes the next from the queue, so that
+!> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
+module dondolo_lanes
+   use dondolo_kinds, only : wp
+   use dondolo_lane_history, only : begin, history_type, resolve, stage_type
+   use dondolo_lane_kernel, only : step_lanes
+   use dondolo_lane_state, only : lane_width, lanes_type
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_normal_form, only : new_normal_form
+   use dondolo_queue, only : queue_type
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : response_type
+   use dondolo_rest, only : new_rest
+   use dondolo_solver, only : solver_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: new_stage, simulate_lanes, stage_type
+
+contains
+
+   !> Prepare a wall. Check that its `form` exists before it is used
+   pure function new_stage(mechanism, solver) result(stage)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> The wall
+      type(stage_type) :: stage
+
+      stage%form = new_normal_form(mechanism, solver%edp_limit*mechanism%capacity)
+      stage%rest = new_rest(mechanism)
+      stage%solver = solver
+      if (stage%form%exists) &
+         & stage%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/stage%form%unit
+   end function new_stage
+
+   !> Histories of one wall, as long as the queue has some
+   subroutine simulate_lanes(stage, mechanism, records, set, record, scale, queue, response, work)
+      !> The wall, prepared
+      type(stage_type), intent(in) :: stage
+      !> Its mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The same, joined
+      type(record_set_type), intent(in) :: set
+      !> Record of each history, and the factor on it, negative to reverse it
+      integer, intent(in) :: record(:)
+      real(wp), intent(in) :: scale(:)
+      !> Numbers of the histories to run; shared with other threads
+      type(queue_type), intent(inout) :: queue
+      !> Result of each history
+      type(response_type), intent(inout) :: response(:)
+      !> Counts, added to
+      type(work_type), intent(inout) :: work
+
+      type(lanes_type) :: lanes
+      type(history_type) :: history(lane_width)
+      integer :: active, i
+
+      active = 0
+      do while (active < lane_width)
+         if (.not. is_filled(active + 1)) exit
+         active = active + 1
+      end do
+      do while (active > 0)
+         call step_lanes(lanes, active, stage%form, set%samples, stage%solver%rtol, stage%atol)
+         work%steps = work%steps + active
+         i = 1
+         do while (i <= active)
+            if (lanes%flag(i) /= 0) then
+               associate (h => history(i))
+                  call resolve(stage, mechanism, records(h%record), set, lanes, i, h, response(h%number), work)
+                  if (h%over) then
+                     call queue%report()
+                     if (.not. is_filled(i)) then
+                        ! The last lane moves in, so that those at work stay side by side.
+                        call move(lanes, history, active, i)
+                        active = active - 1
+                        cycle
+                     end if
+                  end if
+               end associate
+            end if
+            i = i + 1
+         end do
+      end do
+      work%evaluations = work%steps
+
+   contains
+
+      !> Put the next history that moves into a lane; false if there is none
+      logical function is_filled(i)
+         !> The lane
+         integer, intent(in) :: i
+
+         integer :: number
+
+         do
+            number = queue%next()
+            is_filled = number > 0
+            if (.not. is_filled) return
+            history(i) = history_type(number=number, record=record(number), scale=scale(number))
+            call begin(stage, mechanism, records(record(number)), set, lanes, i, history(i), response(number), work)
+            if (.not. history(i)%over) return
+            call queue%report()
+         end do
+      end function is_filled
+
+   end subroutine simulate_lanes
+
+   !> Move a lane
+   pure subroutine move(lanes, history, from, to)
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> Their histories
+      type(history_type), intent(inout) :: history(:)
+      !> The lane, and where it goes
+      integer, intent(in) :: from, to
+
+      history(to) = history(from)
+      lanes%y(to) = lanes%y(from)
+      lanes%v(to) = lanes%v(from)
+      lanes%time(to) = lanes%time(from)
+      lanes%dt(to) = lanes%dt(from)
+      lanes%rate(to) = lanes%rate(from)
+      lanes%u(to) = lanes%u(from)
+      lanes%u_next(to) = lanes%u_next(from)
+      lanes%slope(to) = lanes%slope(from)
+      lanes%factor(to) = lanes%factor(from)
+      lanes%span(to) = lanes%span(from)
+      lanes%next_span(to) = lanes%next_span(from)
+      lanes%peak(to) = lanes%peak(from)
+      lanes%next(to) = lanes%next(from)
+      lanes%last(to) = lanes%last(from)
+      lanes%series(to, :) = lanes%series(from, :)
+      lanes%step(to) = lanes%step(from)
+      lanes%flag(to) = lanes%flag(from)
+   end subroutine move
+
+end module dondolo_lanes

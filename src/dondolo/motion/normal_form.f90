@@ -1,0 +1,170 @@
+!> The equation of motion without its velocity: x'' = A(x) + B(x) u, whatever the mechanism.
+!>
+!> In the coordinate x = integral of sqrt(J/J(0)) dq the kinetic energy is J(0) x'^2/2, so that C q'^2 disappears
+!> (docs/theory.md, section 5):
+!>
+!>     A = -(G - Q)/sqrt(J J(0))        B = -L/sqrt(J J(0))        u = s u_g''
+!>
+!> A and B are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
+!> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
+module dondolo_normal_form
+   use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   implicit none
+   private
+
+   public :: normal_form_type, new_normal_form
+   public :: degrees, highest_degree
+
+   !> Degrees of the polynomials to choose from: a slender block, most walls, the rest
+   integer, parameter :: degrees(3) = [8, 14, 22]
+   integer, parameter :: highest_degree = degrees(3)
+
+   !> Nodes that the functions are sampled at
+   integer, parameter :: nodes = 40
+
+   !> Coefficients that rounding alone may leave, relative to the largest value
+   real(wp), parameter :: noise = 10.0_wp*epsilon(1.0_wp)
+
+   !> A mechanism up to its limit rotation
+   type :: normal_form_type
+      !> Do polynomials hold its terms to rounding? If not, the rest is undefined
+      logical :: exists = .false.
+      !> Their degree, one of `degrees`
+      integer :: degree = 0
+      !> y'' = a(z) + b(z) u: coefficients of 1, z, z^2, ... [1/s2] and [1/m]
+      real(wp) :: a(0:highest_degree) = 0.0_wp, b(0:highest_degree) = 0.0_wp
+      !> Bounds of the fourth derivatives of a and b, divided by 4!
+      real(wp) :: fourth_a = 0.0_wp, fourth_b = 0.0_wp
+      !> x at y = 1 [rad]
+      real(wp) :: unit = 0.0_wp
+      !> Are x and q the same?
+      logical, private :: is_identity = .false.
+      !> Series of the rotation [rad] over z
+      real(wp), private :: q(0:nodes) = 0.0_wp
+   contains
+      !> Rotation q
+      procedure :: rotation
+   end type normal_form_type
+
+   !> y at the limit rotation
+   real(wp), parameter, public :: y_limit = 2.0_wp
+
+contains
+
+   !> The normal form of a mechanism up to a rotation
+   pure function new_normal_form(mechanism, limit) result(form)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotation up to which it is wanted [rad]
+      real(wp), intent(in) :: limit
+      !> The normal form
+      type(normal_form_type) :: form
+
+      real(wp), dimension(nodes) :: z, q, stretch, a, b
+      real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
+      integer :: i, iteration, needed
+
+      z = chebyshev_nodes(nodes)
+      q = 0.5_wp*limit*(1.0_wp + z)
+      call sample(mechanism, q, inertia, stretch, a, b)
+      form%is_identity = all(stretch == 1.0_wp)
+      if (form%is_identity) then
+         form%unit = 0.5_wp*limit
+      else
+         ! x(q), and the rotations at the nodes in x by Newton's method
+         series = chebyshev_series(stretch)
+         if (degree_of(series) > highest_degree) return
+         x = 0.5_wp*limit*chebyshev_integral(series)
+         form%unit = 0.5_wp*sum(x)
+         do i = 1, nodes
+            target = form%unit*(1.0_wp + z(i))
+            do iteration = 1, 10
+               q(i) = q(i) - (chebyshev_value(x, 2.0_wp*q(i)/limit - 1.0_wp) - target) &
+                  & /chebyshev_value(series, 2.0_wp*q(i)/limit - 1.0_wp)
+               q(i) = min(max(q(i), 0.0_wp), limit)
+            end do
+         end do
+         form%q(:nodes - 1) = chebyshev_series(q)
+         call sample(mechanism, q, inertia, stretch, a, b)
+      end if
+      a = a/form%unit
+      b = b/form%unit
+      needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
+      form%exists = needed <= highest_degree
+      if (.not. form%exists) return
+      form%degree = minval(degrees, degrees >= needed)
+      call expand(a, form%degree, form%a, form%fourth_a)
+      call expand(b, form%degree, form%b, form%fourth_b)
+   end function new_normal_form
+
+   !> Values at rotations
+   pure subroutine sample(mechanism, q, inertia, stretch, a, b)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotations [rad]
+      real(wp), intent(in) :: q(:)
+      !> Inertia J(0) [kg m2]
+      real(wp), intent(out) :: inertia
+      !> dx/dq, A [rad/s2] and B [rad/m] there
+      real(wp), intent(out) :: stretch(:), a(:), b(:)
+
+      real(wp) :: j, c, g, l, load
+      integer :: i
+
+      call mechanism%terms(0.0_wp, inertia, c, g, l, load)
+      do i = 1, size(q)
+         call mechanism%terms(q(i), j, c, g, l, load)
+         stretch(i) = sqrt(j/inertia)
+         a(i) = -(g - load)/(stretch(i)*inertia)
+         b(i) = -l/(stretch(i)*inertia)
+      end do
+   end subroutine sample
+
+   !> Degree beyond which a series is nothing but rounding
+   pure integer function degree_of(series)
+      !> Coefficients
+      real(wp), intent(in) :: series(0:)
+
+      degree_of = findloc(abs(series) > noise*maxval(abs(series)), .true., dim=1, back=.true.) - 1
+   end function degree_of
+
+   !> Powers of z through values at the nodes, and a bound of their fourth derivative / 4!
+   pure subroutine expand(values, degree, powers, fourth)
+      !> Values
+      real(wp), intent(in) :: values(:)
+      !> Degree to keep
+      integer, intent(in) :: degree
+      !> Coefficients of 1, z, z^2, ...
+      real(wp), intent(out) :: powers(0:)
+      !> sum of |coefficient| k!/(4! (k - 4)!)
+      real(wp), intent(out) :: fourth
+
+      real(wp) :: series(0:size(values) - 1)
+      integer :: k
+
+      series = chebyshev_series(values)
+      powers = 0.0_wp
+      powers(:degree) = as_powers(series(:degree))
+      fourth = 0.0_wp
+      do k = 4, ubound(powers, 1)
+         fourth = fourth + abs(powers(k))*real(k*(k - 1)*(k - 2)*(k - 3)/24, wp)
+      end do
+   end subroutine expand
+
+   !> Rotation q [rad]
+   pure real(wp) function rotation(self, y)
+      !> The normal form
+      class(normal_form_type), intent(in) :: self
+      !> Coordinate, 0 <= y <= y_limit
+      real(wp), intent(in) :: y
+
+      if (self%is_identity) then
+         rotation = self%unit*y
+      else
+         rotation = chebyshev_value(self%q, y - 1.0_wp)
+      end if
+   end function rotation
+
+end module dondolo_normal_form

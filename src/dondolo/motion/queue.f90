@@ -1,0 +1,66 @@
+!> A queue of histories that several threads take from.
+module dondolo_queue
+   use, intrinsic :: omp_lib, only : omp_get_thread_num
+   implicit none
+   private
+
+   public :: queue_type, progress_interface
+
+   abstract interface
+      !> Hears how far the work is; called by one thread only
+      subroutine progress_interface(done, total)
+         !> Histories computed
+         integer, intent(in) :: done
+         !> Histories in all
+         integer, intent(in) :: total
+      end subroutine progress_interface
+   end interface
+
+   !> Numbers from a last one down to a first
+   type :: queue_type
+      !> The next number; less than the first: no more are left
+      integer :: last = 0
+      !> The first number
+      integer :: first = 1
+      !> Histories in all, and those that are done
+      integer :: total = 0, done = 0
+      !> Hears how far the work is
+      procedure(progress_interface), nopass, pointer :: progress => null()
+   contains
+      !> Take a number
+      procedure :: next
+      !> One more is done
+      procedure :: report
+   end type queue_type
+
+contains
+
+   !> Take a number; 0 if none is left
+   integer function next(self)
+      !> The queue
+      class(queue_type), intent(inout) :: self
+
+      !$omp atomic capture
+      next = self%last
+      self%last = self%last - 1
+      !$omp end atomic
+      if (next < self%first) next = 0
+   end function next
+
+   !> One more is done
+   subroutine report(self)
+      !> The queue
+      class(queue_type), intent(inout) :: self
+
+      integer :: now
+
+      !$omp atomic capture
+      self%done = self%done + 1
+      now = self%done
+      !$omp end atomic
+      if (associated(self%progress)) then
+         if (omp_get_thread_num() == 0) call self%progress(now, self%total)
+      end if
+   end subroutine report
+
+end module dondolo_queue

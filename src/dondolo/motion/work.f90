@@ -1,0 +1,42 @@
+!> What was computed, and what was not: counts that show that nothing is integrated that a result does not need.
+module dondolo_work
+   use, intrinsic :: iso_fortran_env, only : int64
+   implicit none
+   private
+
+   public :: work_type
+
+   !> Counts over histories
+   type :: work_type
+      !> Histories, and those that never move, of which nothing is integrated
+      integer(int64) :: histories = 0, still = 0
+      !> Sample intervals of all records of the histories, and those in which the wall rocks
+      integer(int64) :: intervals = 0, rocked = 0
+      !> Steps taken, and evaluations of the terms of the mechanism
+      integer(int64) :: steps = 0, evaluations = 0
+      !> Impacts that were located
+      integer(int64) :: impacts = 0
+   contains
+      !> Add other counts
+      procedure :: add
+   end type work_type
+
+contains
+
+   !> Add other counts
+   pure subroutine add(self, other)
+      !> The sum
+      class(work_type), intent(inout) :: self
+      !> Counts to add
+      type(work_type), intent(in) :: other
+
+      self%histories = self%histories + other%histories
+      self%still = self%still + other%still
+      self%intervals = self%intervals + other%intervals
+      self%rocked = self%rocked + other%rocked
+      self%steps = self%steps + other%steps
+      self%evaluations = self%evaluations + other%evaluations
+      self%impacts = self%impacts + other%impacts
+   end subroutine add
+
+end module dondolo_work

@@ -1,0 +1,107 @@
+!> Accelerograms side by side, for many histories at once: all samples in one array, and where it is worth looking.
+module dondolo_record_set
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : record_type
+   implicit none
+   private
+
+   public :: record_set_type, new_record_set
+
+   !> Samples in a block
+   integer, parameter :: block_size = 64
+
+   !> Samples of all records
+   type :: record_set_type
+      !> Samples of all records one after another, with two zeros after each: the ground after the record [m/s2]
+      real(wp), allocatable :: samples(:)
+      !> Samples before the first of each record
+      integer, allocatable :: offset(:)
+      !> Number of samples of each record
+      integer, allocatable :: length(:)
+      !> Smallest and largest sample of each block [m/s2]
+      real(wp), allocatable, private :: lowest(:), highest(:)
+      !> Blocks before the first of each record
+      integer, allocatable, private :: first_block(:)
+   contains
+      !> The next sample outside a range
+      procedure :: next_outside
+   end type record_set_type
+
+contains
+
+   !> Join records
+   pure function new_record_set(records) result(set)
+      !> The records
+      type(record_type), intent(in) :: records(:)
+      !> Their samples together
+      type(record_set_type) :: set
+
+      integer :: i, j, k, samples, blocks, n
+
+      allocate(set%offset(size(records)), set%length(size(records)), set%first_block(size(records)))
+      samples = 0
+      blocks = 0
+      do i = 1, size(records)
+         set%offset(i) = samples
+         set%first_block(i) = blocks
+         set%length(i) = size(records(i)%acceleration)
+         samples = samples + set%length(i) + 2
+         blocks = blocks + (set%length(i) - 1)/block_size + 1
+      end do
+      allocate(set%samples(samples), set%lowest(blocks), set%highest(blocks))
+      k = 0
+      do i = 1, size(records)
+         associate (a => records(i)%acceleration, before => set%offset(i))
+            n = set%length(i)
+            set%samples(before + 1:before + n) = a
+            set%samples(before + n + 1:before + n + 2) = 0.0_wp
+            do j = 1, n, block_size
+               k = k + 1
+               set%lowest(k) = minval(a(j:min(j + block_size - 1, n)))
+               set%highest(k) = maxval(a(j:min(j + block_size - 1, n)))
+            end do
+         end associate
+      end do
+   end function new_record_set
+
+   !> The next sample that, scaled, lies outside a range
+   pure integer function next_outside(self, record, first, scale, low, high) result(sample)
+      !> The set
+      class(record_set_type), intent(in) :: self
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Sample to begin with, from 1
+      integer, intent(in) :: first
+      !> Factor on the samples
+      real(wp), intent(in) :: scale
+      !> The range [m/s2]
+      real(wp), intent(in) :: low, high
+
+      integer :: block
+
+      sample = first
+      do while (sample <= self%length(record))
+         block = self%first_block(record) + (sample - 1)/block_size + 1
+         if (is_outside(self%lowest(block)) .or. is_outside(self%highest(block))) then
+            do sample = sample, min(((sample - 1)/block_size + 1)*block_size, self%length(record))
+               if (is_outside(self%samples(self%offset(record) + sample))) return
+            end do
+         else
+            sample = ((sample - 1)/block_size + 1)*block_size + 1
+         end if
+      end do
+      sample = self%length(record) + 1
+
+   contains
+
+      !> Does a sample lie outside? Multiplication keeps the order of samples, so that a block's extremes tell of all
+      pure logical function is_outside(acceleration)
+         !> Sample [m/s2]
+         real(wp), intent(in) :: acceleration
+
+         is_outside = scale*acceleration < low .or. scale*acceleration > high
+      end function is_outside
+
+   end function next_outside
+
+end module dondolo_record_set
