@@ -35,14 +35,18 @@ contains
       real(wp) :: c(0:size(values) - 1)
 
       real(wp), parameter :: pi = acos(-1.0_wp)
+      real(wp) :: cosine(0:4*size(values) - 1)
       integer :: i, k, n
 
+      ! Angles are multiples of a part of a turn, in integers, so that each cosine has all its digits.
       n = size(values)
+      do i = 0, 4*n - 1
+         cosine(i) = cos(pi*real(i, wp)/real(2*n, wp))
+      end do
       do k = 0, n - 1
          c(k) = 0.0_wp
          do i = 1, n
-            ! The angle modulo a turn, in integers, so that the cosine has all its digits
-            c(k) = c(k) + values(i)*cos(pi*real(modulo(k*(2*i - 1), 4*n), wp)/real(2*n, wp))
+            c(k) = c(k) + values(i)*cosine(modulo(k*(2*i - 1), 4*n))
          end do
          c(k) = 2.0_wp*c(k)/real(n, wp)
       end do

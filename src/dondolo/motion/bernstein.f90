@@ -8,7 +8,10 @@ module dondolo_bernstein
    implicit none
    private
 
-   public :: first_descent, nowhere
+   public :: first_descent, nowhere, most_coefficients
+
+   !> Most coefficients of a polynomial here; rooms of fixed size are on the stack, where they cost nothing
+   integer, parameter :: most_coefficients = 8
 
    !> Answer of first_descent where the polynomial stays positive
    real(wp), parameter :: nowhere = 2.0_wp
@@ -26,11 +29,11 @@ contains
       !> The place, or `nowhere`
       real(wp) :: x
 
-      real(wp) :: c(0:ubound(coefficients, 1))
+      real(wp) :: c(0:most_coefficients - 1)
       integer :: j, n
 
-      n = ubound(c, 1)
-      c = coefficients
+      n = ubound(coefficients, 1)
+      c(:n) = coefficients
       do while (c(0) == 0.0_wp .and. n > 0)
          do j = 0, n - 1
             c(j) = c(j + 1)*real(n, wp)/real(j + 1, wp)
@@ -51,7 +54,7 @@ contains
       !> The place, or `nowhere`
       real(wp) :: x
 
-      real(wp) :: left(0:ubound(c, 1)), right(0:ubound(c, 1))
+      real(wp) :: left(0:most_coefficients - 1), right(0:most_coefficients - 1)
       integer :: j, n
 
       n = ubound(c, 1)
@@ -63,13 +66,13 @@ contains
          x = start + width*single_root(c)
       else
          ! de Casteljau at the middle
-         right = c
+         right(:n) = c
          do j = 0, n
             left(j) = right(0)
             right(:n - j - 1) = 0.5_wp*(right(:n - j - 1) + right(1:n - j))
          end do
-         x = descent_between(left, start, 0.5_wp*width)
-         if (x >= nowhere) x = descent_between(right, start + 0.5_wp*width, 0.5_wp*width)
+         x = descent_between(left(:n), start, 0.5_wp*width)
+         if (x >= nowhere) x = descent_between(right(:n), start + 0.5_wp*width, 0.5_wp*width)
       end if
    end function descent_between
 
@@ -81,7 +84,7 @@ contains
       !> The root
       real(wp) :: x
 
-      real(wp) :: below, above, next, b(0:ubound(c, 1)), slope
+      real(wp) :: below, above, next, b(0:most_coefficients - 1), slope
       integer :: j, n, iteration
 
       n = ubound(c, 1)
@@ -89,7 +92,7 @@ contains
       above = 1.0_wp
       x = c(0)/(c(0) - c(n))
       do iteration = 1, 2*digits(x)
-         b = c
+         b(:n) = c
          slope = 0.0_wp
          do j = n, 1, -1
             if (j == 1) slope = real(n, wp)*(b(1) - b(0))

@@ -3,7 +3,7 @@
 !> The rotation in the step is a polynomial in Bernstein form, so that no event is missed and none is found that the
 !> polynomial does not have (docs/theory.md, section 5).
 module dondolo_events
-   use dondolo_bernstein, only : first_descent, nowhere
+   use dondolo_bernstein, only : first_descent, most_coefficients, nowhere
    use dondolo_kinds, only : wp
    implicit none
    private
@@ -29,22 +29,24 @@ contains
       !> Its place, as a part of the step
       real(wp), intent(out) :: x
 
-      real(wp) :: d(0:ubound(b, 1) - 1), highest, place
+      real(wp) :: d(0:most_coefficients - 2), highest, place
       integer :: n
 
       n = ubound(b, 1)
       highest = maxval(b)
       event = no_event
       x = nowhere
-      if (minval(b) <= 0.0_wp) then
+      ! Where no coefficient is negative there are no roots but at the ends; that at the start is no event.
+      if (any(b < 0.0_wp) .or. b(n) <= 0.0_wp) then
          x = first_descent(b)
          if (x < nowhere) event = impact
       end if
       ! A turning point matters only where it may be a new peak.
       if (highest > peak) then
-         d = b(1:) - b(:n - 1)
+         d(:n - 1) = b(1:) - b(:n - 1)
          place = nowhere
-         if (any(d < 0.0_wp) .and. any(d > 0.0_wp)) place = first_descent(d*initial_sign(d))
+         if (any(d(:n - 1) < 0.0_wp) .and. any(d(:n - 1) > 0.0_wp)) &
+            & place = first_descent(d(:n - 1)*initial_sign(d(:n - 1)))
          if (place < x) then
             x = place
             event = turning

@@ -44,8 +44,8 @@ module dondolo_rest
       procedure :: settle
       !> Does a chain of bounces end at rest, whatever happens in between?
       procedure, private :: chain_ends
-      !> Lower bound of the inward moment within the height of a chain
-      procedure, private :: least_moment
+      !> Lower bounds of the inward moments within the height of a chain
+      procedure, private :: least_moments
    end type rest_type
 
    !> Largest relative change of the terms within the height of a chain
@@ -246,51 +246,55 @@ contains
       !> True only if it is certain
       logical :: ends
 
-      real(wp) :: from(2), to(2), least(2), growth, elapsed, duration, rise
+      real(wp) :: push, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
       integer :: i
 
       ends = .false.
       associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution)
          growth = 1.0_wp
          elapsed = -time
-         from = 0.0_wp
-         if (interval < n) from = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
-         from = self%least_moment(side, from(1))
-         least = from
+         energy = 0.5_wp*margin*self%inertia*speed**2
+         highest = min(self%height, peak)
+         push = 0.0_wp
+         if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
+         call self%least_moments(push, here, other)
+         least_here = here
+         least_other = other
          do i = min(interval, n), n
-            to = self%least_moment(side, 0.0_wp)
-            if (i < n) to = self%least_moment(side, scale*a(i + 1))
-            least = min(least, to)
-            if (.not. all(least > 0.0_wp)) return
-            growth = growth*max(1.0_wp, to(1)/from(1), to(2)/from(2))
-            rise = 0.5_wp*speed**2*margin*growth*self%inertia/minval(least)
-            if (rise > min(self%height, peak) .or. growth > largest_growth) return
-            duration = 2.0_wp*speed*sqrt(margin*growth)*self%inertia*(1.0_wp/least(1) + e/least(2))/(1.0_wp - e**2)
+            push = 0.0_wp
+            if (i < n) push = side*scale*self%lever*a(i + 1)
+            call self%least_moments(push, here_next, other_next)
+            least_here = min(least_here, here_next)
+            least_other = min(least_other, other_next)
+            if (.not. min(least_here, least_other) > 0.0_wp) return
+            if (here_next > here) growth = growth*max(here_next/here, other_next/other)
+            if (here_next <= here .and. other_next > other) growth = growth*(other_next/other)
+            if (energy*growth > highest*min(least_here, least_other) .or. growth > largest_growth) return
             elapsed = elapsed + dt
-            if (duration <= elapsed) exit
-            from = to
+            ! The square of duration <= elapsed, without a quotient
+            if (8.0_wp*energy*growth*self%inertia*(least_other + e*least_here)**2 &
+               & <= (elapsed*(1.0_wp - e**2)*least_here*least_other)**2) exit
+            here = here_next
+            other = other_next
          end do
          ends = .true.
       end associate
    end function chain_ends
 
    !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
-   pure function least_moment(self, side, acceleration) result(moments)
+   pure subroutine least_moments(self, push, here, other)
       !> The wall
       class(rest_type), intent(in) :: self
-      !> Side now active
-      real(wp), intent(in) :: side
-      !> Ground acceleration [m/s2]
-      real(wp), intent(in) :: acceleration
-      !> Moment of this side, moment of the other; the same one twice for a one-sided wall [N m]
-      real(wp) :: moments(2)
+      !> Inward moment of the ground on the side now active [N m]
+      real(wp), intent(in) :: push
+      !> Moment of this side, moment of the other; the same for a one-sided wall [N m]
+      real(wp), intent(out) :: here, other
 
-      real(wp) :: push
+      real(wp) :: least
 
-      push = side*self%lever*acceleration
-      moments(1) = (1.0_wp - self%slack)*self%moment + push - self%slack*abs(push)
-      moments(2) = moments(1)
-      if (self%two_sided) moments(2) = moments(1) - 2.0_wp*push
-   end function least_moment
+      least = (1.0_wp - self%slack)*self%moment - self%slack*abs(push)
+      here = least + push
+      other = merge(least - push, here, self%two_sided)
+   end subroutine least_moments
 
 end module dondolo_rest

@@ -30,11 +30,11 @@ module dondolo_record_set
 contains
 
    !> Join records
-   pure function new_record_set(records) result(set)
+   pure subroutine new_record_set(set, records)
+      !> Their samples together
+      type(record_set_type), intent(out) :: set
       !> The records
       type(record_type), intent(in) :: records(:)
-      !> Their samples together
-      type(record_set_type) :: set
 
       integer :: i, j, k, samples, blocks, n
 
@@ -62,7 +62,7 @@ contains
             end do
          end associate
       end do
-   end function new_record_set
+   end subroutine new_record_set
 
    !> The next sample that, scaled, lies outside a range
    pure integer function next_outside(self, record, first, scale, low, high) result(sample)

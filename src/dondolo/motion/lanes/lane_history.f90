@@ -41,8 +41,8 @@ module dondolo_lane_history
       !> Where it began to rock: sample interval and time in it [s]
       integer :: start_interval = 0
       real(wp) :: start_time = 0.0_wp
-      !> Time of the largest rotation so far [s]
-      real(wp) :: time_of_peak = 0.0_wp
+      !> Largest rotation so far [rad] and its time [s]
+      real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
       !> Impacts so far, and tiny bounces in a row
       integer :: impacts = 0, tiny_bounces = 0
       !> Has it moved? Is it over, and how?
@@ -51,6 +51,9 @@ module dondolo_lane_history
 
    !> From the last term of a series to the step that the tolerance allows; shortest step / sample interval
    real(wp), parameter :: safety = 0.9_wp, smallest_step = 2.0_wp**(-20)
+
+   !> Most steps of Newton's method or of bisection
+   integer, parameter :: most_iterations = 60
 
    !> Longer by a little, so that rounding never asks for one step more
    real(wp), parameter :: slack = 1.0001_wp
@@ -111,7 +114,7 @@ contains
       !> Counts
       type(work_type), intent(inout) :: work
 
-      real(wp) :: y, v, d(0:7), h, x
+      real(wp) :: y, v, d(0:7), h
       integer :: event
 
       if (lanes%flag(i) == 1) then
@@ -121,13 +124,7 @@ contains
          h = lanes%step(i)
          call shorten(stage, lanes, i, d, h)
          event = no_event
-         if (d(1) < 0.0_wp .and. falls_to_zero(d, h)) then
-            event = impact
-            h = time_of_zero(d, h)
-         else if (h > shortest_motion*lanes%dt(i)) then
-            call find_event(bernstein(d, h), lanes%peak(i), y_limit, event, x)
-            if (event /= no_event) h = x*h
-         end if
+         if (h > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), h, event)
          y = value(d, h)
          v = rate(d, h)
          lanes%y(i) = y
@@ -142,12 +139,12 @@ contains
             call bounce(stage, record, set, lanes, i, history, work)
          case (turning)
             lanes%v(i) = 0.0_wp
-            call set_peak(lanes, i, history, record, set)
+            call set_peak(stage, lanes, i, history, record, set)
             if (.not. y < y_limit) history%over = .true.
             history%collapsed = history%over
          case (limit_reached)
             lanes%y(i) = y_limit
-            call set_peak(lanes, i, history, record, set)
+            call set_peak(stage, lanes, i, history, record, set)
             history%over = .true.
             history%collapsed = .true.
          end select
@@ -182,46 +179,111 @@ contains
       end do
    end subroutine shorten
 
-   !> Does a motion fall all the way, to zero or below?
-   pure logical function falls_to_zero(d, h)
+   !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
+   pure subroutine find_first(d, peak, h, event)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:)
-      !> The step [s]
-      real(wp), intent(in) :: h
+      real(wp), intent(in) :: d(0:7)
+      !> Largest y so far
+      real(wp), intent(in) :: peak
+      !> In: the step; out: the time of the event [s]
+      real(wp), intent(inout) :: h
+      !> The event
+      integer, intent(out) :: event
 
-      real(wp) :: slowest
+      real(wp) :: y, v, fastest, bend, turn, x
 
-      ! y' lies below the larger of its ends by no more than y''' h^2/8 takes away.
-      slowest = max(d(1), rate(d, h)) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
-      falls_to_zero = slowest < 0.0_wp .and. value(d, h) <= 0.0_wp
-   end function falls_to_zero
+      y = value(d, h)
+      v = rate(d, h)
+      ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
+      fastest = max(d(1), v) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
+      bend = max(2.0_wp*d(2), 2.0_wp*d(2) + h*(6.0_wp*d(3) + h*(12.0_wp*d(4) + h*20.0_wp*d(5)))) &
+         & + h**2*(3.0_wp*abs(d(4)) + h*16.0_wp*(abs(d(5)) + h*3.0_wp*abs(d(6))))
+      event = no_event
+      if (fastest < 0.0_wp) then
+         ! It falls all the way.
+         if (y > 0.0_wp) return
+         event = impact
+         h = time_of_zero(d, h)
+         return
+      end if
+      if (bend < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
+         ! It rises and then falls.
+         turn = time_of_turn(d, h)
+         x = value(d, turn)
+         if (x < y_limit) then
+            if (x > peak) then
+               event = turning
+               h = turn
+            else if (y <= 0.0_wp) then
+               event = impact
+               h = time_of_zero(d, h)
+            end if
+            return
+         end if
+      end if
+      call find_event(bernstein(d, h), peak, y_limit, event, x)
+      if (event /= no_event) h = x*h
+   end subroutine find_first
 
-   !> When a motion that falls all the way is at zero: Newton's method, in a bracket
+   !> When a motion that falls all the way, or rises and then falls, is at zero: Newton's method, in a bracket
    pure real(wp) function time_of_zero(d, h) result(t)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:)
+      real(wp), intent(in) :: d(0:7)
       !> A time after it [s]
       real(wp), intent(in) :: h
 
-      real(wp) :: before, after, change
+      real(wp) :: before, after, y, v, change
       integer :: iteration
 
       before = 0.0_wp
       after = h
-      t = h*d(0)/(d(0) - value(d, h))
-      do iteration = 1, 60
-         change = -value(d, t)/rate(d, t)
-         if (change > 0.0_wp) then
+      t = h
+      if (d(1) < 0.0_wp) t = h*d(0)/(d(0) - value(d, h))
+      do iteration = 1, most_iterations
+         y = value(d, t)
+         v = rate(d, t)
+         if (y > 0.0_wp) then
             before = t
          else
             after = t
          end if
+         change = huge(change)
+         if (v < 0.0_wp) change = -y/v
          t = t + change
          if (abs(change) <= sqrt(epsilon(t))*t) exit
          if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
       end do
       t = min(max(t, 0.0_wp), h)
    end function time_of_zero
+
+   !> When a motion that rises and then falls turns: Newton's method, in a bracket
+   pure real(wp) function time_of_turn(d, h) result(t)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:7)
+      !> A time after it [s]
+      real(wp), intent(in) :: h
+
+      real(wp) :: before, after, v, bend, change
+      integer :: iteration
+
+      before = 0.0_wp
+      after = h
+      t = h*d(1)/(d(1) - rate(d, h))
+      do iteration = 1, most_iterations
+         v = rate(d, t)
+         if (v > 0.0_wp) then
+            before = t
+         else
+            after = t
+         end if
+         bend = 2.0_wp*d(2) + t*(6.0_wp*d(3) + t*(12.0_wp*d(4) + t*20.0_wp*d(5)))
+         change = -v/bend
+         t = t + change
+         if (abs(change) <= sqrt(epsilon(t))*t) exit
+         if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
+      end do
+      t = min(max(t, 0.0_wp), h)
+   end function time_of_turn
 
    !> A series
    pure real(wp) function value(d, t)
@@ -356,7 +418,7 @@ contains
       if (stage%rest%two_sided) history%side = -history%side
       interval = interval_of(set, lanes, i, history)
       call stage%rest%settle(record, history%scale, interval, lanes%time(i), acceleration, history%side, &
-         & lanes%v(i)*stage%form%unit, stage%form%rotation(lanes%peak(i)), history%impacts, history%tiny_bounces, &
+         & lanes%v(i)*stage%form%unit, history%peak, history%impacts, history%tiny_bounces, &
          & at_rest)
       if (.not. at_rest) then
          call aim(set, lanes, i, history)
@@ -442,7 +504,9 @@ contains
    end function interval_of
 
    !> The coordinate is a new peak
-   pure subroutine set_peak(lanes, i, history, record, set)
+   pure subroutine set_peak(stage, lanes, i, history, record, set)
+      !> The wall
+      type(stage_type), intent(in) :: stage
       !> Lanes
       type(lanes_type), intent(inout) :: lanes
       !> The lane
@@ -455,6 +519,7 @@ contains
       type(record_set_type), intent(in) :: set
 
       lanes%peak(i) = lanes%y(i)
+      history%peak = stage%form%rotation(lanes%y(i))
       history%time_of_peak = real(interval_of(set, lanes, i, history) - 1, wp)*record%dt + lanes%time(i)
    end subroutine set_peak
 
@@ -494,7 +559,7 @@ contains
       response%impacts = history%impacts
       response%time_of_peak = history%time_of_peak
       response%collapsed = history%collapsed
-      peak = stage%form%rotation(lanes%peak(i))
+      peak = history%peak
       if (rocking .and. .not. history%collapsed) then
          ! Rocking when the record ends
          q = stage%form%rotation(lanes%y(i))
