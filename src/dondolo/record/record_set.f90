@@ -20,6 +20,8 @@ module dondolo_record_set
       integer, allocatable :: length(:)
       !> Smallest and largest sample of each block [m/s2]
       real(wp), allocatable, private :: lowest(:), highest(:)
+      !> The same from each block to the end of its record [m/s2]
+      real(wp), allocatable, private :: lowest_left(:), highest_left(:)
       !> Blocks before the first of each record
       integer, allocatable, private :: first_block(:)
    contains
@@ -48,7 +50,8 @@ contains
          samples = samples + set%length(i) + 2
          blocks = blocks + (set%length(i) - 1)/block_size + 1
       end do
-      allocate(set%samples(samples), set%lowest(blocks), set%highest(blocks))
+      allocate(set%samples(samples), set%lowest(blocks), set%highest(blocks), set%lowest_left(blocks), &
+         & set%highest_left(blocks))
       k = 0
       do i = 1, size(records)
          associate (a => records(i)%acceleration, before => set%offset(i))
@@ -59,6 +62,12 @@ contains
                k = k + 1
                set%lowest(k) = minval(a(j:min(j + block_size - 1, n)))
                set%highest(k) = maxval(a(j:min(j + block_size - 1, n)))
+            end do
+            set%lowest_left(k) = set%lowest(k)
+            set%highest_left(k) = set%highest(k)
+            do j = k - 1, set%first_block(i) + 1, -1
+               set%lowest_left(j) = min(set%lowest(j), set%lowest_left(j + 1))
+               set%highest_left(j) = max(set%highest(j), set%highest_left(j + 1))
             end do
          end associate
       end do
@@ -86,6 +95,8 @@ contains
             do sample = sample, min(((sample - 1)/block_size + 1)*block_size, self%length(record))
                if (is_outside(self%samples(self%offset(record) + sample))) return
             end do
+         else if (.not. (is_outside(self%lowest_left(block)) .or. is_outside(self%highest_left(block)))) then
+            exit
          else
             sample = ((sample - 1)/block_size + 1)*block_size + 1
          end if

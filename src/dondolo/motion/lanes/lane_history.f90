@@ -52,7 +52,10 @@ module dondolo_lane_history
    !> From the last term of a series to the step that the tolerance allows; shortest step / sample interval
    real(wp), parameter :: safety = 0.9_wp, smallest_step = 2.0_wp**(-20)
 
-   !> Most steps of Newton's method or of bisection
+   !> Relative change after which an iteration of second or third order has nothing left to gain
+   real(wp), parameter :: second_order = epsilon(1.0_wp)**0.5_wp, third_order = epsilon(1.0_wp)**0.35_wp
+
+   !> Most steps of an iteration, or of the bisection that guards it
    integer, parameter :: most_iterations = 60
 
    !> Longer by a little, so that rounding never asks for one step more
@@ -190,15 +193,17 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, bend, turn, x
+      real(wp) :: y, v, fastest, most_bent, turn, x
 
+      event = no_event
+      ! A start: y''' > 0 rules.
+      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
       y = value(d, h)
       v = rate(d, h)
       ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
       fastest = max(d(1), v) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
-      bend = max(2.0_wp*d(2), 2.0_wp*d(2) + h*(6.0_wp*d(3) + h*(12.0_wp*d(4) + h*20.0_wp*d(5)))) &
+      most_bent = max(2.0_wp*d(2), bend(d, h)) &
          & + h**2*(3.0_wp*abs(d(4)) + h*16.0_wp*(abs(d(5)) + h*3.0_wp*abs(d(6))))
-      event = no_event
       if (fastest < 0.0_wp) then
          ! It falls all the way.
          if (y > 0.0_wp) return
@@ -206,7 +211,7 @@ contains
          h = time_of_zero(d, h)
          return
       end if
-      if (bend < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
+      if (most_bent < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
          ! It rises and then falls.
          turn = time_of_turn(d, h)
          x = value(d, turn)
@@ -225,7 +230,7 @@ contains
       if (event /= no_event) h = x*h
    end subroutine find_first
 
-   !> When a motion that falls all the way, or rises and then falls, is at zero: Newton's method, in a bracket
+   !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
    pure real(wp) function time_of_zero(d, h) result(t)
       !> The series of the motion
       real(wp), intent(in) :: d(0:7)
@@ -237,8 +242,10 @@ contains
 
       before = 0.0_wp
       after = h
-      t = h
-      if (d(1) < 0.0_wp) t = h*d(0)/(d(0) - value(d, h))
+      ! From the zero of the parabola at the start
+      t = d(1)**2 - 4.0_wp*d(0)*d(2)
+      if (t > 0.0_wp) t = merge(2.0_wp*d(0)/(sqrt(t) - d(1)), -(d(1) + sqrt(t))/(2.0_wp*d(2)), d(1) < 0.0_wp)
+      if (.not. (t > 0.0_wp .and. t < h)) t = h
       do iteration = 1, most_iterations
          y = value(d, t)
          v = rate(d, t)
@@ -248,9 +255,12 @@ contains
             after = t
          end if
          change = huge(change)
-         if (v < 0.0_wp) change = -y/v
+         if (v < 0.0_wp) then
+            change = -y/v
+            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)/v)
+         end if
          t = t + change
-         if (abs(change) <= sqrt(epsilon(t))*t) exit
+         if (abs(change) <= third_order*t) exit
          if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
       end do
       t = min(max(t, 0.0_wp), h)
@@ -263,7 +273,7 @@ contains
       !> A time after it [s]
       real(wp), intent(in) :: h
 
-      real(wp) :: before, after, v, bend, change
+      real(wp) :: before, after, v, change
       integer :: iteration
 
       before = 0.0_wp
@@ -276,10 +286,9 @@ contains
          else
             after = t
          end if
-         bend = 2.0_wp*d(2) + t*(6.0_wp*d(3) + t*(12.0_wp*d(4) + t*20.0_wp*d(5)))
-         change = -v/bend
+         change = -v/bend(d, t)
          t = t + change
-         if (abs(change) <= sqrt(epsilon(t))*t) exit
+         if (abs(change) <= second_order*t) exit
          if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
       end do
       t = min(max(t, 0.0_wp), h)
@@ -305,6 +314,16 @@ contains
       rate = d(1) + t*(2.0_wp*d(2) + t*(3.0_wp*d(3) + t*(4.0_wp*d(4) + t*(5.0_wp*d(5) + t*(6.0_wp*d(6) &
          & + t*(7.0_wp*d(7)))))))
    end function rate
+
+   !> Second derivative of a series, up to what matters for the next step of an iteration
+   pure real(wp) function bend(d, t)
+      !> Coefficients of 1, t, t^2, ...
+      real(wp), intent(in) :: d(0:7)
+      !> Time [s]
+      real(wp), intent(in) :: t
+
+      bend = 2.0_wp*d(2) + t*(6.0_wp*d(3) + t*(12.0_wp*d(4) + t*(20.0_wp*d(5) + t*(30.0_wp*d(6)))))
+   end function bend
 
    !> Bernstein coefficients of a series over a step
    pure function bernstein(d, h) result(b)
