@@ -35,8 +35,8 @@ module dondolo_normal_form
       integer :: degree = 0
       !> y'' = a(z) + b(z) u: coefficients of 1, z, z^2, ... [1/s2] and [1/m]
       real(wp) :: a(0:highest_degree) = 0.0_wp, b(0:highest_degree) = 0.0_wp
-      !> Bounds of the fourth derivatives of a and b, divided by 4!
-      real(wp) :: fourth_a = 0.0_wp, fourth_b = 0.0_wp
+      !> Bounds of the fifth derivatives of a and b, divided by 5!
+      real(wp) :: fifth_a = 0.0_wp, fifth_b = 0.0_wp
       !> x at y = 1 [rad]
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
@@ -95,8 +95,8 @@ contains
       form%exists = needed <= highest_degree
       if (.not. form%exists) return
       form%degree = minval(degrees, degrees >= needed)
-      call expand(a, form%degree, form%a, form%fourth_a)
-      call expand(b, form%degree, form%b, form%fourth_b)
+      call expand(a, form%degree, form%a, form%fifth_a)
+      call expand(b, form%degree, form%b, form%fifth_b)
    end function new_normal_form
 
    !> Values at rotations
@@ -130,16 +130,16 @@ contains
       degree_of = findloc(abs(series) > noise*maxval(abs(series)), .true., dim=1, back=.true.) - 1
    end function degree_of
 
-   !> Powers of z through values at the nodes, and a bound of their fourth derivative / 4!
-   pure subroutine expand(values, degree, powers, fourth)
+   !> Powers of z through values at the nodes, and a bound of their fifth derivative / 5!
+   pure subroutine expand(values, degree, powers, fifth)
       !> Values
       real(wp), intent(in) :: values(:)
       !> Degree to keep
       integer, intent(in) :: degree
       !> Coefficients of 1, z, z^2, ...
       real(wp), intent(out) :: powers(0:)
-      !> sum of |coefficient| k!/(4! (k - 4)!)
-      real(wp), intent(out) :: fourth
+      !> sum of |coefficient| k!/(5! (k - 5)!)
+      real(wp), intent(out) :: fifth
 
       real(wp) :: series(0:size(values) - 1)
       integer :: k
@@ -147,9 +147,9 @@ contains
       series = chebyshev_series(values)
       powers = 0.0_wp
       powers(:degree) = as_powers(series(:degree))
-      fourth = 0.0_wp
-      do k = 4, ubound(powers, 1)
-         fourth = fourth + abs(powers(k))*real(k*(k - 1)*(k - 2)*(k - 3)/24, wp)
+      fifth = 0.0_wp
+      do k = 5, ubound(powers, 1)
+         fifth = fifth + abs(powers(k))*real(k*(k - 1)*(k - 2)*(k - 3)*(k - 4)/120, wp)
       end do
    end subroutine expand
 

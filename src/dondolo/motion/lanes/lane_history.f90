@@ -49,7 +49,7 @@ module dondolo_lane_history
       logical :: moved = .false., over = .false., collapsed = .false.
    end type history_type
 
-   !> From the last term of a series to the step that the tolerance allows; shortest step / sample interval
+   !> From the last term but one of a series to the step that the tolerance allows; shortest step / sample interval
    real(wp), parameter :: safety = 0.9_wp, smallest_step = 2.0_wp**(-20)
 
    !> Relative change after which an iteration of second or third order has nothing left to gain
@@ -117,7 +117,7 @@ contains
       !> Counts
       type(work_type), intent(inout) :: work
 
-      real(wp) :: y, v, d(0:7), h
+      real(wp) :: y, v, d(0:8), h
       integer :: event
 
       if (lanes%flag(i) == 1) then
@@ -169,14 +169,14 @@ contains
       !> The step [s]
       real(wp), intent(inout) :: h
 
-      real(wp) :: error, tolerance, fourth
+      real(wp) :: error, tolerance, fifth
 
-      fourth = stage%form%fourth_a + stage%form%fourth_b*abs(lanes%u(i))
+      fifth = stage%form%fifth_a + stage%form%fifth_b*abs(lanes%u(i))
       tolerance = stage%solver%rtol*abs(d(1)) + stage%atol
       do while (h > smallest_step*lanes%dt(i))
-         error = 7.0_wp*abs(d(7))*h**6 + fourth*h*(abs(d(1))*h + abs(d(2))*h**2)**4
+         error = 7.0_wp*abs(d(7))*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
          if (error < tolerance) return
-         h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/5.0_wp))
+         h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/6.0_wp))
          lanes%next_span(i) = h
          lanes%span(i) = h
       end do
@@ -185,7 +185,7 @@ contains
    !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
    pure subroutine find_first(d, peak, h, event)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> Largest y so far
       real(wp), intent(in) :: peak
       !> In: the step; out: the time of the event [s]
@@ -233,7 +233,7 @@ contains
    !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
    pure real(wp) function time_of_zero(d, h) result(t)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> A time after it [s]
       real(wp), intent(in) :: h
 
@@ -269,7 +269,7 @@ contains
    !> When a motion that rises and then falls turns: Newton's method, in a bracket
    pure real(wp) function time_of_turn(d, h) result(t)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> A time after it [s]
       real(wp), intent(in) :: h
 
@@ -297,28 +297,28 @@ contains
    !> A series
    pure real(wp) function value(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> Time [s]
       real(wp), intent(in) :: t
 
-      value = d(0) + t*(d(1) + t*(d(2) + t*(d(3) + t*(d(4) + t*(d(5) + t*(d(6) + t*d(7)))))))
+      value = d(0) + t*(d(1) + t*(d(2) + t*(d(3) + t*(d(4) + t*(d(5) + t*(d(6) + t*(d(7) + t*d(8))))))))
    end function value
 
    !> Rate of change of a series
    pure real(wp) function rate(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> Time [s]
       real(wp), intent(in) :: t
 
       rate = d(1) + t*(2.0_wp*d(2) + t*(3.0_wp*d(3) + t*(4.0_wp*d(4) + t*(5.0_wp*d(5) + t*(6.0_wp*d(6) &
-         & + t*(7.0_wp*d(7)))))))
+         & + t*(7.0_wp*d(7) + t*(8.0_wp*d(8))))))))
    end function rate
 
    !> Second derivative of a series, up to what matters for the next step of an iteration
    pure real(wp) function bend(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:7)
+      real(wp), intent(in) :: d(0:8)
       !> Time [s]
       real(wp), intent(in) :: t
 

@@ -26,8 +26,8 @@ module dondolo_lane_state
       real(wp) :: peak(lane_width) = 0.0_wp
       !> Place of the next sample in the set of records, and of the record's last
       integer(int32) :: next(lane_width) = 1, last(lane_width) = 1
-      !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 7, and its length [s]
-      real(wp) :: series(lane_width, 2:7) = 0.0_wp, step(lane_width) = 0.0_wp
+      !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 8, and its length [s]
+      real(wp) :: series(lane_width, 2:8) = 0.0_wp, step(lane_width) = 0.0_wp
       !> 0: the step is taken; 1: it is not, since something may happen in it or it is too long; 2: it is taken, and the
       !> record is over
       integer(int32) :: flag(lane_width) = 0
