@@ -2,7 +2,7 @@
 module dondolo_arguments
    use dondolo_error, only : error_type, raise_input
    use dondolo_job_group, only : task_names
-   use dondolo_stripes, only : largest_threads
+   use dondolo_ensemble, only : largest_threads
    use dondolo_numbers, only : parse_integer
    use dondolo_text, only : join, to_text
    implicit none

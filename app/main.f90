@@ -11,7 +11,7 @@ program dondolo_main
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_run_case, only : results_type, run_case
-   use dondolo_stripes, only : available_threads
+   use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : stderr_is_terminal
    use dondolo_template, only : print_template

@@ -31,9 +31,10 @@ module dondolo
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_run_case, only : results_type, run_case
    use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
+   use dondolo_queue, only : progress_interface
    use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
-   use dondolo_stripes, only : multiple_stripe, polarity_names, progress_interface, stripes_type
+   use dondolo_stripes, only : multiple_stripe, polarity_names, stripes_type
    use dondolo_synthetic, only : synthetic_record
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_version, only : dondolo_version_text

@@ -2,8 +2,9 @@
 !> that are integrated one by one.
 program test_chains
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, impact, motion_type, scene_type
+   use dondolo_adaptive_step, only : advance, motion_type, scene_type
    use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_events, only : impact
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : one_sided_restitution

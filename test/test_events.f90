@@ -3,8 +3,9 @@
 !> All is compared to the closed forms of the linear block, under an outward push x = -s u_g''/(alpha g).
 program test_events
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, impact, motion_type, scene_type
+   use dondolo_adaptive_step, only : advance, motion_type, scene_type
    use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_events, only : impact
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type, trace_type
    use dondolo_rest, only : new_rest

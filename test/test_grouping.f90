@@ -7,6 +7,7 @@ program test_grouping
    use dondolo_kinds, only : wp
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : solver_type
    use dondolo_stripes, only : measure_records, multiple_stripe, plan_stripes, run_histories, stripes_type
@@ -36,6 +37,7 @@ contains
       type(record_type) :: records(5)
       type(solver_type) :: solver
       type(scaling_type) :: scaling
+      type(record_set_type) :: set
       type(stripes_type) :: one, other
       type(error_type), allocatable :: error
       character(len=:), allocatable :: what
@@ -70,11 +72,12 @@ contains
       call plan_stripes(other, wall, records, levels, scaling, measure_records(scaling%measure, records, 1), 'both', &
          & solver, error)
       call check_ok(error, what)
+      call new_record_set(set, records)
       total = size(other%response)
       first = 1
       do while (first <= total)
          last = min(total, first + choice(random, total/2) - 1)
-         call run_histories(other, wall, records, solver, first, last, choice(random, 3))
+         call run_histories(other, wall, records, set, solver, first, last, choice(random, 3))
          first = last + 1
       end do
       call check(all(is_same(one%response, other%response)), what//' in pieces')

@@ -1,8 +1,9 @@
 !> After the record: the closed form of free motion against stepping on (docs/theory.md, section 4).
 program test_tail
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, impact, limit_reached, motion_type, scene_type
+   use dondolo_adaptive_step, only : advance, motion_type, scene_type
    use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_events, only : impact, limit_reached
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_response, only : response_type

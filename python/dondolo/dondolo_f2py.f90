@@ -401,7 +401,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_simulate, only : simulate_wall => simulate
+   use dondolo_simulate, only : check_history, simulate_wall => simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
@@ -429,6 +429,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    solver = as_solver(engine, settings)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
+   if (.not. allocated(error)) call check_history(solver, walls(1)%mechanism, history == 1, error)
    if (.not. allocated(error)) then
       call set_records(records, name, [n], [dt], acceleration)
       if (.not. abs(scale)*records(1)%pga() <= largest_acceleration) call raise_input(error, 'scale = '// &
@@ -527,6 +528,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_wall, only : wall_type
@@ -540,6 +542,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
+   type(record_set_type) :: set
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(error_type), allocatable :: error
@@ -554,6 +557,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
+   if (.not. allocated(error)) call new_record_set(set, records)
    before = 0
    done = 0
    do i = 1, w
@@ -562,7 +566,8 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
       if (allocated(error)) exit
       from = max(first - before, 1)
       to = min(first + count - 1 - before, size(stripes%response))
-      if (from <= to) call run_histories(stripes, walls(i), records, as_solver(engine, settings), from, to, threads)
+      if (from <= to) call run_histories(stripes, walls(i), records, set, as_solver(engine, settings), from, to, &
+         & threads)
       do k = from - 1, to - 1
          j = k/size(stripes%record) + 1
          done = done + 1
@@ -579,10 +584,11 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
       & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, check_threads, pack_response, report, set_records, set_walls
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_stripes, only : run_histories, stripes_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    implicit none
@@ -596,7 +602,8 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    type(wall_type) :: walls(1)
    type(record_type), allocatable :: records(:)
    type(solver_type) :: solver
-   type(stripes_type) :: histories
+   type(ensemble_type) :: ensemble
+   type(record_set_type) :: set
    type(error_type), allocatable :: error
    real(c_double) :: edp_error(k)
    integer :: i
@@ -611,6 +618,7 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
       & [gravity], error)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
+   if (.not. allocated(error)) call check_engine(solver, walls(1)%mechanism, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
       do i = 1, k
@@ -621,12 +629,11 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
       end do
    end if
    if (.not. allocated(error)) then
-      histories%record = record
-      histories%polarity = spread(1, 1, k)
-      histories%scale = reshape(scale, [k, 1])
-      allocate (histories%response(k, 1))
-      call run_histories(histories, walls(1), records, solver, 1, k, threads)
-      call pack_response(histories%response(:, 1), edp, collapsed, impacts, time_of_peak, edp_error)
+      ensemble%record = record
+      ensemble%scale = scale
+      call new_record_set(set, records)
+      call run_ensemble(ensemble, walls(1)%mechanism, records, set, solver, threads)
+      call pack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
    end if
    call report(error, stat, message)
 end subroutine run_scaled

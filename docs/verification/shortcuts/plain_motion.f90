@@ -4,14 +4,13 @@
 !> rocking, the chain of bounces and the free motion after the record with the library, but neither the control of
 !> the steps nor the order in which things happen.
 module plain_motion
-   use dondolo_adaptive_step, only : shortest_motion
    use dondolo_bernstein, only : first_descent, nowhere
    use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_rest, only : new_rest, rest_type, shortest_motion
    use dondolo_solver, only : solver_type
    use dondolo_tail, only : free_motion, tail_type
    use straddling_step, only : ground_acceleration, step_over_samples

@@ -14,6 +14,7 @@ module dondolo_case
    use dondolo_population_group, only : echo_population, read_population_group
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
+   use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
    use dondolo_stripes, only : measure_records
@@ -162,6 +163,8 @@ contains
       group = namelist%group('solver')
       do i = 1, size(case%population%walls)
          call check_limit(case%solver%solver, case%population%walls(i)%mechanism, error)
+         if (.not. allocated(error)) call check_history(case%solver%solver, case%population%walls(i)%mechanism, &
+            & case%job%task == 'history', error)
          if (.not. allocated(error)) cycle
          call add_place(error, group%place())
          error%message = error%message//' (wall '''//case%population%walls(i)%input%name//''')'

@@ -5,9 +5,11 @@ module dondolo_run_case
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_queue, only : progress_interface
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : plan_stripes, progress_interface, run_histories, stripes_type
+   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_fits, &
@@ -83,9 +85,11 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(scale_warning_type) :: scales
+      type(record_set_type) :: set
 
       call make_room(case, results)
-      call run_wall(case, 1, results, results%stripes, error, team, progress)
+      call new_record_set(set, case%records)
+      call run_wall(case, set, 1, results, results%stripes, error, team, progress)
       if (allocated(error)) return
       call warn_of_records(case%records, results%warnings)
       call scales%look(results%stripes, case%records)
@@ -109,13 +113,15 @@ contains
 
       type(scale_warning_type) :: scales
       type(stripes_type) :: stripes
+      type(record_set_type) :: set
       character(len=len(mechanism_names)), allocatable :: mechanisms(:)
       integer :: i, levels
 
       call make_room(case, results)
       levels = size(case%stripes%levels)
+      call new_record_set(set, case%records)
       do i = 1, size(case%population%walls)
-         call run_wall(case, i, results, stripes, error, team)
+         call run_wall(case, set, i, results, stripes, error, team)
          if (allocated(error)) return
          call scales%look(stripes, case%records)
          if (present(progress)) call progress(levels*sum(results%histories(:i)), levels*sum(results%histories))
@@ -147,9 +153,11 @@ contains
    end subroutine make_room
 
    !> Stripes and curve of one wall
-   subroutine run_wall(case, wall, results, stripes, error, team, progress)
+   subroutine run_wall(case, set, wall, results, stripes, error, team, progress)
       !> The case
       type(case_type), intent(in) :: case
+      !> Its accelerograms, joined
+      type(record_set_type), intent(in) :: set
       !> Number of the wall
       integer, intent(in) :: wall
       !> Results: counts and curve of the wall are set
@@ -168,7 +176,7 @@ contains
       call plan_stripes(stripes, case%population%walls(wall), case%records, case%stripes%levels, &
          & case%stripes%scaling, case%values, case%records_input%polarity, case%solver%solver, error)
       if (.not. allocated(error)) then
-         call run_histories(stripes, case%population%walls(wall), case%records, case%solver%solver, 1, &
+         call run_histories(stripes, case%population%walls(wall), case%records, set, case%solver%solver, 1, &
             & size(stripes%response), team, progress)
          results%collapses(:, wall) = stripes%collapses()
          histories = real(results%histories(wall), wp)

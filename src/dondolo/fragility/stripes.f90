@@ -1,31 +1,28 @@
 !> Multiple stripe analysis: every record at every level of intensity, and who collapses.
 !>
-!> Section 3.3 of Nale et al. Histories are independent, so they run in parallel; each is computed by one thread
-!> from data that no thread changes, so the result is the same to the bit for any number of threads.
+!> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
-   use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_thread_num
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble, team_of
    use dondolo_error, only : error_type, raise_input
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
+   use dondolo_queue, only : progress_interface
    use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type
    use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : join, to_text
    use dondolo_wall, only : wall_type
+   use dondolo_work, only : work_type
    implicit none
    private
 
    public :: stripes_type, multiple_stripe, measure_records, plan_stripes, run_histories
-   public :: check_levels, check_polarity, polarity_names, progress_interface
-   public :: largest_threads, available_threads
+   public :: check_levels, check_polarity, polarity_names
 
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
-
-   !> Most threads that are asked for
-   integer, parameter :: largest_threads = 1024
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -41,20 +38,12 @@ module dondolo_stripes
       real(wp), allocatable :: scale(:, :)
       !> Responses (histories, levels)
       type(response_type), allocatable :: response(:, :)
+      !> What was computed for them
+      type(work_type) :: work
    contains
       !> Collapses in each stripe
       procedure :: collapses
    end type stripes_type
-
-   abstract interface
-      !> Hears how far the work is; called by one thread only
-      subroutine progress_interface(done, total)
-         !> Histories computed
-         integer, intent(in) :: done
-         !> Histories in all
-         integer, intent(in) :: total
-      end subroutine progress_interface
-   end interface
 
 contains
 
@@ -82,12 +71,14 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(scaling_type) :: scaling
+      type(record_set_type) :: set
 
       call new_scaling(scaling, im, error)
       if (.not. allocated(error)) call plan_stripes(stripes, wall, records, levels, scaling, &
          & measure_records(scaling%measure, records, threads), polarity, solver, error)
       if (allocated(error)) return
-      call run_histories(stripes, wall, records, solver, 1, size(stripes%response), threads, progress)
+      call new_record_set(set, records)
+      call run_histories(stripes, wall, records, set, solver, 1, size(stripes%response), threads, progress)
    end subroutine multiple_stripe
 
    !> Values of a measure for records as they stand
@@ -138,6 +129,7 @@ contains
       if (.not. allocated(error)) call check_polarity(polarity, error)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
+      if (.not. allocated(error)) call check_engine(solver, wall%mechanism, error)
       if (allocated(error)) return
       stripes%im = scaling%name
       stripes%levels = levels
@@ -148,13 +140,15 @@ contains
    end subroutine plan_stripes
 
    !> Run some of the histories of a plan; they are numbered stripe by stripe, from the lowest level
-   subroutine run_histories(stripes, wall, records, solver, first, last, threads, progress)
+   subroutine run_histories(stripes, wall, records, set, solver, first, last, threads, progress)
       !> The plan; the responses of these histories are set
       type(stripes_type), intent(inout) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
+      !> The same, joined
+      type(record_set_type), intent(in) :: set
       !> Engine, tolerances and limit
       type(solver_type), intent(in) :: solver
       !> The first history to run, from 1
@@ -166,49 +160,23 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
-      integer :: i, j, k, histories, total, done, now, team
+      type(ensemble_type) :: ensemble
+      integer :: i, j, k, histories
 
       histories = size(stripes%record)
-      total = last - first + 1
-      team = team_of(threads, total)
-      done = 0
-      ! High levels take longest: they go first, so that no thread is left alone with them at the end.
-      !$omp parallel do schedule(dynamic) num_threads(team) default(none) private(i, j, now) &
-      !$omp & shared(stripes, records, wall, solver, histories, first, last, total, done)
-      do k = last - 1, first - 1, -1
-         i = modulo(k, histories) + 1
-         j = k/histories + 1
-         call simulate(wall%mechanism, records(stripes%record(i)), &
-            & real(stripes%polarity(i), wp)*stripes%scale(i, j), solver, stripes%response(i, j))
-         !$omp atomic capture
-         done = done + 1
-         now = done
-         !$omp end atomic
-         if (present(progress)) then
-            if (omp_get_thread_num() == 0) call progress(now, total)
-         end if
+      allocate(ensemble%record(last - first + 1), ensemble%scale(last - first + 1))
+      do k = first, last
+         i = modulo(k - 1, histories) + 1
+         j = (k - 1)/histories + 1
+         ensemble%record(k - first + 1) = stripes%record(i)
+         ensemble%scale(k - first + 1) = real(stripes%polarity(i), wp)*stripes%scale(i, j)
       end do
-      !$omp end parallel do
-      if (present(progress)) call progress(total, total)
+      call run_ensemble(ensemble, wall%mechanism, records, set, solver, threads, progress)
+      do k = first, last
+         stripes%response(modulo(k - 1, histories) + 1, (k - 1)/histories + 1) = ensemble%response(k - first + 1)
+      end do
+      call stripes%work%add(ensemble%work)
    end subroutine run_histories
-
-   !> Threads that share some work
-   integer function team_of(threads, pieces)
-      !> Number of threads that are asked for; 0: all that OpenMP gives
-      integer, intent(in) :: threads
-      !> Pieces of work
-      integer, intent(in) :: pieces
-
-      team_of = threads
-      if (threads == 0) team_of = available_threads()
-      team_of = max(1, min(team_of, pieces))
-   end function team_of
-
-   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
-   integer function available_threads()
-
-      available_threads = min(omp_get_max_threads(), largest_threads)
-   end function available_threads
 
    !> Which records run with which polarity
    subroutine choose_polarities(stripes, records, polarity, two_sided)

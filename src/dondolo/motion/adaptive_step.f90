@@ -16,6 +16,9 @@ module dondolo_adaptive_step
 
    public :: motion_type, scene_type, advance
 
+   !> Evaluations of the terms in a step, the first of which the step before has done
+   integer, parameter :: stages = 6
+
    !> Smallest step / sample interval
    real(wp), parameter :: smallest_step = 2.0_wp**(-20)
 
@@ -45,6 +48,8 @@ module dondolo_adaptive_step
       integer :: impacts = 0
       !> Tiny bounces in a row
       integer :: tiny_bounces = 0
+      !> Steps taken, and evaluations of the terms
+      integer :: steps = 0, evaluations = 0
    contains
       !> Take note of a sample or an event
       procedure :: limit_steps
@@ -94,6 +99,7 @@ contains
          h = remaining/real(parts, wp)
          call dormand_prince_step(mechanism, motion%excitation, motion%time, h, motion%q, motion%v, motion%f, &
             & q, v, f, q_error, v_error)
+         motion%evaluations = motion%evaluations + stages
          ! The sum, since unlike the maximum it is never deaf to a value that is not a number.
          error = abs(q_error)/(scene%solver%atol*scene%q_unit + scene%solver%rtol*max(abs(motion%q), abs(q))) &
             & + abs(v_error)/(scene%solver%atol*scene%v_unit + scene%solver%rtol*max(abs(motion%v), abs(v)))
@@ -103,6 +109,7 @@ contains
          call control_step(error, h, smallest_step*dt, motion, accepted)
          if (accepted) exit
       end do
+      motion%steps = motion%steps + 1
 
       ! In a step too short to be told from none, signs are rounding; what happened shows in the next.
       if (h > shortest_motion*dt) &
@@ -175,7 +182,7 @@ contains
       !> What stays the same
       type(scene_type), intent(in) :: scene
       !> Start of the step
-      type(motion_type), intent(in) :: motion
+      type(motion_type), intent(inout) :: motion
       !> In: the whole step; out: the step to the event [s]
       real(wp), intent(inout) :: h
       !> The event; `no_event` if the step, taken again, only grazes it
@@ -199,6 +206,7 @@ contains
       do i = 1, most_trials
          call dormand_prince_step(mechanism, motion%excitation, motion%time, trial, motion%q, motion%v, motion%f, &
             & q, v, f, q_error, v_error)
+         motion%evaluations = motion%evaluations + stages
          ! The gap is positive before the event and falls to zero at it.
          select case (event)
          case (impact)

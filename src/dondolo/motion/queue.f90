@@ -22,10 +22,8 @@ module dondolo_queue
       integer :: last = 0
       !> The first number
       integer :: first = 1
-      !> Histories in all, and those that are done
-      integer :: total = 0, done = 0
-      !> Hears how far the work is
-      procedure(progress_interface), nopass, pointer :: progress => null()
+      !> Histories that are done, and all that make up the work, which may be more than those in the queue
+      integer :: done = 0, total = 0
    contains
       !> Take a number
       procedure :: next
@@ -48,9 +46,11 @@ contains
    end function next
 
    !> One more is done
-   subroutine report(self)
+   subroutine report(self, progress)
       !> The queue
       class(queue_type), intent(inout) :: self
+      !> Hears of it
+      procedure(progress_interface), optional :: progress
 
       integer :: now
 
@@ -58,8 +58,8 @@ contains
       self%done = self%done + 1
       now = self%done
       !$omp end atomic
-      if (associated(self%progress)) then
-         if (omp_get_thread_num() == 0) call self%progress(now, self%total)
+      if (present(progress)) then
+         if (omp_get_thread_num() == 0) call progress(now, self%total)
       end if
    end subroutine report
 

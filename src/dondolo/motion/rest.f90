@@ -40,10 +40,12 @@ module dondolo_rest
       procedure :: trigger
       !> When rocking begins
       procedure :: next_start
+      !> Moment that pushes the wall back to rest
+      procedure :: inward_moment
       !> Does the wall come to rest after an impact?
       procedure :: settle
       !> Does a chain of bounces end at rest, whatever happens in between?
-      procedure, private :: chain_ends
+      procedure :: chain_ends
       !> Lower bounds of the inward moments within the height of a chain
       procedure, private :: least_moments
    end type rest_type
@@ -100,6 +102,20 @@ contains
 
       trigger = self%moment/self%lever
    end function trigger
+
+   !> Moment at q = 0 that pushes the wall back to rest: G(0) - Q(0) + s L(0) u_g''
+   elemental function inward_moment(self, side, acceleration) result(moment)
+      !> The wall
+      class(rest_type), intent(in) :: self
+      !> Side, +1 or -1
+      real(wp), intent(in) :: side
+      !> Ground acceleration [m/s2]
+      real(wp), intent(in) :: acceleration
+      !> Inward moment; negative: the wall is pushed out [N m]
+      real(wp) :: moment
+
+      moment = self%moment + side*self%lever*acceleration
+   end function inward_moment
 
    !> The instant at which a wall at rest begins to rock: where the inward moment of one of its sides first falls
    !> below zero, in closed form inside a sample interval
@@ -205,7 +221,7 @@ contains
 
       energy = 0.5_wp*self%inertia*speed**2
       tiny_bounces = merge(tiny_bounces + 1, 0, energy < self%tiny_energy)
-      moment = self%moment + side*self%lever*acceleration
+      moment = self%inward_moment(side, acceleration)
       at_rest = speed == 0.0_wp .or. tiny_bounces > most_tiny_bounces
       if (at_rest .or. moment <= 0.0_wp) return
       at_rest = 2.0_wp*speed*self%inertia <= shortest_motion*record%dt*moment

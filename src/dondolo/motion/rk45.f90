@@ -13,6 +13,7 @@ module dondolo_rk45
    use dondolo_rest, only : leave_edge, new_rest, shortest_motion
    use dondolo_solver, only : solver_type
    use dondolo_tail, only : free_motion, tail_type
+   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -27,7 +28,7 @@ module dondolo_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release)
+   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The accelerogram
@@ -42,13 +43,16 @@ contains
       type(trace_type), intent(inout), optional :: trace
       !> Rotation from which the wall is released at the start, less than the limit [rad]; absent: it starts at rest
       real(wp), intent(in), optional :: release
+      !> Counts, added to
+      type(work_type), intent(inout), optional :: work
 
       type(scene_type) :: scene
       type(motion_type) :: motion
       type(tail_type) :: tail
       real(wp) :: start
-      integer :: last, ending, first
+      integer :: last, ending, first, rocked
 
+      rocked = 0
       scene%rest = new_rest(mechanism)
       scene%scale = scale
       scene%solver = solver
@@ -70,6 +74,7 @@ contains
          first = motion%interval
          start = motion%time
          call rock(mechanism, scene, record, last, motion, ending, trace)
+         rocked = rocked + min(motion%interval, last) - first + 1
          if (ending /= at_rest) exit
          ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
          if (motion%interval == first .and. motion%time - start <= shortest_motion*record%dt) &
@@ -92,6 +97,8 @@ contains
       response%impacts = motion%impacts
       response%time_of_peak = motion%time_of_peak
 
+      if (present(work)) call work%add(work_type(histories=1, still=merge(1, 0, rocked == 0), intervals=last, &
+         & rocked=rocked, steps=motion%steps, evaluations=motion%evaluations, impacts=motion%impacts))
       if (present(trace)) then
          if (ending == record_over) then
             last = last + ceiling(min(trace_after/record%dt, most_after))

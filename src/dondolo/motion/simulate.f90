@@ -4,28 +4,31 @@
 !> So the history is run once more with halved steps, which leave about a 32nd of the error of a fifth-order method:
 !> the difference tells the size of the error of the first run, and is no bound (docs/theory.md, section 5).
 module dondolo_simulate
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : other_steps, solver_type
    implicit none
    private
 
-   public :: simulate
+   public :: simulate, check_history
 
 contains
 
    !> The motion of a wall, at rest at the start
-   pure subroutine simulate(mechanism, record, scale, solver, response, trace)
+   subroutine simulate(mechanism, record, scale, solver, response, trace)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The accelerogram
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
       real(wp), intent(in) :: scale
-      !> Engine, tolerances and limit; whether the error of the EDP is to be estimated
+      !> Engine ('lanes' only without a trace), tolerances and limit; whether the error of the EDP is to be estimated
       type(solver_type), intent(in) :: solver
       !> Result
       type(response_type), intent(out) :: response
@@ -33,11 +36,37 @@ contains
       type(trace_type), intent(inout), optional :: trace
 
       type(response_type) :: other
+      type(ensemble_type) :: ensemble
+      type(record_set_type) :: set
 
+      if (solver%engine == 'lanes' .and. .not. present(trace)) then
+         ensemble%record = [1]
+         ensemble%scale = [scale]
+         call new_record_set(set, [record])
+         call run_ensemble(ensemble, mechanism, [record], set, solver, 1)
+         response = ensemble%response(1)
+         return
+      end if
       call simulate_rk45(mechanism, record, scale, solver, response, trace)
       if (.not. solver%estimate_error) return
       call simulate_rk45(mechanism, record, scale, other_steps(solver), other)
       response%edp_error = abs(other%edp - response%edp)
    end subroutine simulate
+
+   !> Check that an engine can compute one history
+   subroutine check_history(solver, mechanism, with_trace, error)
+      !> Settings
+      type(solver_type), intent(in) :: solver
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Is its time history wanted?
+      logical, intent(in) :: with_trace
+      !> The engine lanes was asked for, and cannot
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_engine(solver, mechanism, error)
+      if (allocated(error) .or. .not. (with_trace .and. solver%engine == 'lanes')) return
+      call raise_input(error, 'engine = ''lanes'': gives no time history; must be ''auto'' or ''rk45''')
+   end subroutine check_history
 
 end module dondolo_simulate

@@ -11,7 +11,7 @@ module dondolo_solver
    public :: engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
-   character(len=4), parameter :: engine_names(2) = [character(len=4) :: 'auto', 'rk45']
+   character(len=5), parameter :: engine_names(3) = [character(len=5) :: 'auto', 'rk45', 'lanes']
 
    !> Settings of the computation
    type :: solver_type

@@ -5,31 +5,20 @@
 module dondolo_lane_history
    use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
+   use dondolo_lane_stage, only : stage_type
    use dondolo_lane_state, only : lanes_type
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : normal_form_type, y_limit
+   use dondolo_normal_form, only : y_limit
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : leave_edge, rest_type, shortest_motion
-   use dondolo_solver, only : solver_type
+   use dondolo_rest, only : leave_edge, shortest_motion
    use dondolo_tail, only : free_motion, tail_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: history_type, stage_type, begin, resolve
-
-   !> What stays the same for all histories of a wall
-   type :: stage_type
-      !> The wall in normal form, and at rest
-      type(normal_form_type) :: form
-      type(rest_type) :: rest
-      !> Tolerances and limit
-      type(solver_type) :: solver
-      !> Absolute tolerance of the velocity of y [1/s]
-      real(wp) :: atol = 0.0_wp
-   end type stage_type
+   public :: history_type, begin, resolve
 
    !> What a history is and where it is, besides the state in its lane
    type :: history_type

@@ -5,43 +5,25 @@
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_lanes
    use dondolo_kinds, only : wp
-   use dondolo_lane_history, only : begin, history_type, resolve, stage_type
+   use dondolo_lane_history, only : begin, history_type, resolve
    use dondolo_lane_kernel, only : step_lanes
+   use dondolo_lane_stage, only : stage_type
    use dondolo_lane_state, only : lane_width, lanes_type
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : new_normal_form
-   use dondolo_queue, only : queue_type
+   use dondolo_queue, only : progress_interface, queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest
-   use dondolo_solver, only : solver_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: new_stage, simulate_lanes, stage_type
+   public :: simulate_lanes
 
 contains
 
-   !> Prepare a wall. Check that its `form` exists before it is used
-   pure function new_stage(mechanism, solver) result(stage)
-      !> The mechanism
-      class(mechanism_type), intent(in) :: mechanism
-      !> Tolerances and limit
-      type(solver_type), intent(in) :: solver
-      !> The wall
-      type(stage_type) :: stage
-
-      stage%form = new_normal_form(mechanism, solver%edp_limit*mechanism%capacity)
-      stage%rest = new_rest(mechanism)
-      stage%solver = solver
-      if (stage%form%exists) &
-         & stage%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/stage%form%unit
-   end function new_stage
-
    !> Histories of one wall, as long as the queue has some
-   subroutine simulate_lanes(stage, mechanism, records, set, record, scale, queue, response, work)
+   subroutine simulate_lanes(stage, mechanism, records, set, record, scale, queue, response, work, progress)
       !> The wall, prepared
       type(stage_type), intent(in) :: stage
       !> Its mechanism
@@ -59,6 +41,8 @@ contains
       type(response_type), intent(inout) :: response(:)
       !> Counts, added to
       type(work_type), intent(inout) :: work
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
 
       type(lanes_type) :: lanes
       type(history_type) :: history(lane_width)
@@ -72,13 +56,14 @@ contains
       do while (active > 0)
          call step_lanes(lanes, active, stage%form, set%samples, stage%solver%rtol, stage%atol)
          work%steps = work%steps + active
+         work%evaluations = work%evaluations + active
          i = 1
          do while (i <= active)
             if (lanes%flag(i) /= 0) then
                associate (h => history(i))
                   call resolve(stage, mechanism, records(h%record), set, lanes, i, h, response(h%number), work)
                   if (h%over) then
-                     call queue%report()
+                     call queue%report(progress)
                      if (.not. is_filled(i)) then
                         ! The last lane moves in, so that those at work stay side by side.
                         call move(lanes, history, active, i)
@@ -91,7 +76,6 @@ contains
             i = i + 1
          end do
       end do
-      work%evaluations = work%steps
 
    contains
 
@@ -109,7 +93,7 @@ contains
             history(i) = history_type(number=number, record=record(number), scale=scale(number))
             call begin(stage, mechanism, records(record(number)), set, lanes, i, history(i), response(number), work)
             if (.not. history(i)%over) return
-            call queue%report()
+            call queue%report(progress)
          end do
       end function is_filled
 

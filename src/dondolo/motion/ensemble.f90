@@ -1,0 +1,161 @@
+!> Many histories of one wall, on several threads, by the engine that suits them.
+!>
+!> Histories are independent, and each is computed by one thread from data that no thread changes: results are the same
+!> to the bit for any number of threads and any grouping.
+module dondolo_ensemble
+   use, intrinsic :: omp_lib, only : omp_get_max_threads
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_lane_stage, only : new_stage, stage_type
+   use dondolo_lanes, only : simulate_lanes
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : response_type
+   use dondolo_rk45, only : simulate_rk45
+   use dondolo_solver, only : other_steps, solver_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: ensemble_type, run_ensemble, check_engine
+   public :: largest_threads, available_threads, team_of
+
+   !> Most threads that are asked for
+   integer, parameter :: largest_threads = 1024
+
+   !> Histories of one wall
+   type :: ensemble_type
+      !> Record of each history
+      integer, allocatable :: record(:)
+      !> Factor on it, negative to reverse it
+      real(wp), allocatable :: scale(:)
+      !> Results
+      type(response_type), allocatable :: response(:)
+      !> What was computed
+      type(work_type) :: work
+   end type ensemble_type
+
+contains
+
+   !> Run the histories of an ensemble
+   subroutine run_ensemble(ensemble, mechanism, records, set, solver, threads, progress)
+      !> The histories: records and factors are given, results and counts set
+      type(ensemble_type), intent(inout) :: ensemble
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The same, joined
+      type(record_set_type), intent(in) :: set
+      !> Engine, tolerances and limit; whether errors are to be estimated
+      type(solver_type), intent(in) :: solver
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      type(response_type), allocatable :: other(:)
+      type(queue_type) :: queue
+      integer :: histories
+
+      histories = size(ensemble%record)
+      if (allocated(ensemble%response)) deallocate(ensemble%response)
+      allocate(ensemble%response(histories))
+      queue%total = merge(2, 1, solver%estimate_error)*histories
+      call run_queue(ensemble, mechanism, records, set, solver, threads, queue, ensemble%response, progress)
+      if (.not. solver%estimate_error) return
+      allocate(other(histories))
+      call run_queue(ensemble, mechanism, records, set, other_steps(solver), threads, queue, other, progress)
+      ensemble%response%edp_error = abs(other%edp - ensemble%response%edp)
+   end subroutine run_ensemble
+
+   !> Run every history once
+   subroutine run_queue(ensemble, mechanism, records, set, solver, threads, queue, response, progress)
+      !> The histories; counts are added to
+      type(ensemble_type), intent(inout) :: ensemble
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The same, joined
+      type(record_set_type), intent(in) :: set
+      !> Engine, tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> What is done so far, of all
+      type(queue_type), intent(inout) :: queue
+      !> Results
+      type(response_type), intent(inout) :: response(:)
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      type(stage_type) :: stage
+      type(work_type) :: work, own
+      integer :: number
+
+      ! High levels take longest: they stand last and go first, so that no thread is left alone with them at the end.
+      queue%last = size(response)
+      if (solver%engine /= 'rk45') stage = new_stage(mechanism, solver)
+      !$omp parallel num_threads(team_of(threads, size(response))) default(none) private(own, number) &
+      !$omp & shared(stage, mechanism, records, set, solver, ensemble, queue, response, work)
+      own = work_type()
+      if (stage%form%exists) then
+         call simulate_lanes(stage, mechanism, records, set, ensemble%record, ensemble%scale, queue, response, own, &
+            & progress)
+      else
+         do
+            number = queue%next()
+            if (number == 0) exit
+            call simulate_rk45(mechanism, records(ensemble%record(number)), ensemble%scale(number), solver, &
+               & response(number), work=own)
+            call queue%report(progress)
+         end do
+      end if
+      !$omp critical (add_work)
+      call work%add(own)
+      !$omp end critical (add_work)
+      !$omp end parallel
+      call ensemble%work%add(work)
+      if (present(progress)) call progress(queue%done, queue%total)
+   end subroutine run_queue
+
+   !> Check that an engine can compute a mechanism
+   subroutine check_engine(solver, mechanism, error)
+      !> Settings
+      type(solver_type), intent(in) :: solver
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> The engine lanes was asked for, and cannot
+      type(error_type), allocatable, intent(out) :: error
+
+      type(stage_type) :: stage
+
+      if (solver%engine /= 'lanes') return
+      stage = new_stage(mechanism, solver)
+      if (stage%form%exists) return
+      call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
+         & 'must be ''auto'' or ''rk45'', or edp_limit smaller')
+   end subroutine check_engine
+
+   !> Threads that share some work
+   integer function team_of(threads, pieces)
+      !> Number of threads that are asked for; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Pieces of work
+      integer, intent(in) :: pieces
+
+      team_of = threads
+      if (threads == 0) team_of = available_threads()
+      team_of = max(1, min(team_of, pieces))
+   end function team_of
+
+   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
+   integer function available_threads()
+
+      available_threads = min(omp_get_max_threads(), largest_threads)
+   end function available_threads
+
+end module dondolo_ensemble
