@@ -109,12 +109,12 @@ contains
       real(wp) :: y, v, d(0:8), h
       integer :: event
 
-      if (lanes%flag(i) == 1) then
+      if (lanes%flag(i) > 1) then
          d = [lanes%y(i), lanes%v(i), lanes%series(i, :)]
          ! A wall at rest begins to rock where its moment is zero: never inwards, whatever the rounding says.
          if (d(0) == 0.0_wp .and. d(1) == 0.0_wp) d(2) = max(0.0_wp, d(2))
          h = lanes%step(i)
-         call shorten(stage, lanes, i, d, h)
+         if (lanes%flag(i) == 3) call shorten(stage, lanes, i, d, h)
          event = no_event
          if (h > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), h, event)
          y = value(d, h)
@@ -124,7 +124,7 @@ contains
          if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
             call next_sample(set, lanes, i)
          else
-            call stop_between(stage, set, lanes, i, history, h, event /= no_event)
+            call stop_between(stage, lanes, i, h, event /= no_event)
          end if
          select case (event)
          case (impact)
@@ -182,7 +182,7 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, most_bent, turn, x
+      real(wp) :: y, v, fastest, most_bent, turn, x, b(0:8)
 
       event = no_event
       ! A start: y''' > 0 rules.
@@ -215,8 +215,16 @@ contains
             return
          end if
       end if
-      call find_event(bernstein(d, h), peak, y_limit, event, x)
-      if (event /= no_event) h = x*h
+      b = bernstein(d, h)
+      if (maxval(b) <= peak .and. b(8) < 0.0_wp .and. count(b(:7) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
+         & .and. .not. any(b(:7) < 0.0_wp .and. b(1:) > 0.0_wp)) then
+         ! One change of sign: it falls to zero once.
+         event = impact
+         h = time_of_zero(d, h)
+      else
+         call find_event(b, peak, y_limit, event, x)
+         if (event /= no_event) h = x*h
+      end if
    end subroutine find_first
 
    !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
@@ -357,24 +365,20 @@ contains
    end subroutine next_sample
 
    !> The lane is between two samples
-   pure subroutine stop_between(stage, set, lanes, i, history, h, at_event)
+   pure subroutine stop_between(stage, lanes, i, h, at_event)
       !> The wall
       type(stage_type), intent(in) :: stage
-      !> All records
-      type(record_set_type), intent(in) :: set
       !> Lanes
       type(lanes_type), intent(inout) :: lanes
       !> The lane
       integer, intent(in) :: i
-      !> Its history
-      type(history_type), intent(in) :: history
       !> Time since the last stop [s]
       real(wp), intent(in) :: h
       !> Is it an event?
       logical, intent(in) :: at_event
 
       lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
-      call aim(set, lanes, i, history)
+      lanes%u(i) = lanes%u(i) + lanes%slope(i)*h
       if (at_event .and. stage%solver%steps_per_sample > 1) lanes%span(i) = min(lanes%next_span(i), &
          & slack*(lanes%dt(i) - lanes%time(i))/real(stage%solver%steps_per_sample, wp))
    end subroutine stop_between

@@ -28,8 +28,8 @@ module dondolo_lane_state
       integer(int32) :: next(lane_width) = 1, last(lane_width) = 1
       !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 8, and its length [s]
       real(wp) :: series(lane_width, 2:8) = 0.0_wp, step(lane_width) = 0.0_wp
-      !> 0: the step is taken; 1: it is not, since something may happen in it or it is too long; 2: it is taken, and the
-      !> record is over
+      !> 0: the step is taken; 1: it is taken, and the record is over; 2: it is not, since something may happen in it;
+      !> 3: it is not, since it is too long for the tolerance
       integer(int32) :: flag(lane_width) = 0
    end type lanes_type
 
