@@ -77,7 +77,8 @@ contains
       work%intervals = work%intervals + set%length(history%record) - 1
       lanes%dt(i) = record%dt
       lanes%rate(i) = 1.0_wp/record%dt
-      lanes%peak(i) = 0.0_wp
+      lanes%peak(i) = stage%first_peak
+      history%peak = stage%first_rotation
       lanes%y(i) = 0.0_wp
       lanes%v(i) = 0.0_wp
       lanes%last(i) = set%offset(history%record) + set%length(history%record)
@@ -584,7 +585,7 @@ contains
             response%time_of_peak = record%duration() + tail%delay
          end if
       end if
-      response%edp = peak/mechanism%capacity
+      if (.not. stage%solver%collapses_only) response%edp = peak/mechanism%capacity
       ! A peak that only rounding tells from the limit is a collapse too.
       response%collapsed = response%collapsed .or. response%edp >= stage%solver%edp_limit
       if (response%collapsed) response%edp = stage%solver%edp_limit
