@@ -7,8 +7,9 @@ module dondolo_lane_state
 
    public :: lanes_type, lane_width
 
-   !> Number of lanes: several vectors, so that one of them computes while another waits for its own results
-   integer, parameter :: lane_width = 64
+   !> Number of lanes: two vectors at least, so that one computes while the other waits for its own results; no more, so
+   !> that threads at the end of their work still have full ones
+   integer, parameter :: lane_width = 16
 
    !> Lanes. y is the coordinate of dondolo_normal_form; u, the ground acceleration seen from the lane's side
    type :: lanes_type
