@@ -15,6 +15,7 @@ from problem import Histories, Motions, read_table, write_case
 FOLDER = Path(__file__).resolve().parent
 BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
 PYTHON = ENVIRONMENT / "bin" / "python"
+PATIENCE = 400  # seconds for one setting of a peer
 LARGE = 1e-6  # an EDP that is off by more is counted
 
 
@@ -145,7 +146,10 @@ def run_peer(peer, problem, path, weights):
         for setting in settings:
             command = [*peer.command, path, method.split(",")[0], setting, peer.repeats, every]
             try:
-                done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+                done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=PATIENCE)
+            except subprocess.TimeoutExpired:
+                say(f"{peer.name}, {method}, {setting:g} is skipped: not done after {PATIENCE} s")
+                continue
             except OSError:
                 done = None
             if done is None or done.returncode:

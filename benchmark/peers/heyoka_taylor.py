@@ -11,6 +11,7 @@ from wall import IMPACT, LIMIT, NONE, PEAK, SHORTEST, next_start, peak_after, ru
 
 hy.set_logger_level_error()  # its warnings of multiple roots would go to standard output
 
+LOWEST = 1e-20  # a rotation [rad] that stands still below this is rest
 LANES = 32  # several vectors, to spread what a step costs in Python
 OUTCOMES = {hy.taylor_outcome(-1): IMPACT, hy.taylor_outcome(-2): PEAK, hy.taylor_outcome(-3): LIMIT}
 
@@ -78,7 +79,10 @@ def scalar(wall, tolerance):
                 q = float(state[0])
                 if q > peak:
                     peak = q
-                event = OUTCOMES.get(outcome, NONE)
+                # Half of half of a step: the impact is now, to rounding.
+                event = OUTCOMES.get(outcome, IMPACT if q < 0.0 else NONE)
+                if event == PEAK and h == 0.0 and q < LOWEST:
+                    event = IMPACT
                 if event in (IMPACT, LIMIT):
                     return event, i, t, q, float(state[1]), peak
             i, t, here = i + 1, 0.0, following
@@ -169,8 +173,12 @@ def turn(wall, lanes, samples, ends, steps, before, state, pars, remaining, done
                 lane["halved"] = True
                 remaining[k] = 0.5 * done[k]
                 continue
+            # Half of half of a step: the impact is now, to rounding.
+            event = IMPACT if events[k] == NONE and state[0, k] < 0.0 else events[k]
+            if event == PEAK and done[k] == 0.0 and state[0, k] < LOWEST:
+                event = IMPACT
             whole = done[k] == remaining[k] and not lane["halved"]
-            alive = follow(wall, lane, a, dt, state, k, events[k], whole, done[k])
+            alive = follow(wall, lane, a, dt, state, k, event, whole, done[k])
             lane["halved"] = False
         while not alive:
             if lane["history"] >= 0:

@@ -2,6 +2,7 @@
 % Methods: ode45, from an event to the next over the rest of the record; ode45/sample: with steps no longer than a
 % sample interval. The setting is the relative tolerance. Physics: theory.md, sections 1 to 4.
 1;
+warning ("off", "all");  % ode45 warns of every event that ends it
 
 function [i, t, side] = next_start (wall, a, dt, i, t)
   last = numel (a);
@@ -156,13 +157,13 @@ function [edp, collapsed, impacts] = simulate (wall, a, dt, rtol, by_sample)
   endwhile
 endfunction
 
-arguments = argv ();
-file = fopen (arguments{1}, "r");
+words = argv ();
+file = fopen (words{1}, "r");
 numbers = fread (file, Inf, "double");
 fclose (file);
-rtol = str2double (arguments{3});
-repeats = str2double (arguments{4});
-every = str2double (arguments{5});
+rtol = str2double (words{3});
+repeats = str2double (words{4});
+every = str2double (words{5});
 wall = struct ("capacity", numbers(1), "p2", numbers(2), "restitution", numbers(4), "two_sided", numbers(5) != 0);
 wall.moment = wall.p2 * sin (wall.capacity);
 wall.lever = wall.p2 * cos (wall.capacity);
@@ -187,7 +188,7 @@ for repeat = 1:repeats
   for k = 1:every:numbers(7)
     r = pairs(1, k) + 1;
     a = pairs(2, k) * numbers(ends(r)-sizes(2, r)+1:ends(r)) / numbers(3);
-    [edp, collapsed, impacts] = simulate (wall, a, sizes(1, r), rtol, strcmp (arguments{2}, "ode45/sample"));
+    [edp, collapsed, impacts] = simulate (wall, a, sizes(1, r), rtol, strcmp (words{2}, "ode45/sample"));
     outcomes(end+1, :) = [edp, collapsed, impacts];
   endfor
   printf ("seconds %.6f\n", toc);
