@@ -3,6 +3,7 @@
 Tables go into out/benchmark; without --quick docs/performance.md is written from them.
 """
 
+import os
 import platform
 import re
 import sys
@@ -10,8 +11,10 @@ import tempfile
 import time
 from pathlib import Path
 
+import page
 from problem import ROOT, SINGLE_BLOCKS, problem
 from programs import BUILD, PEERS, run_engines, run_peer, say, weights, write_results
+from scaling import measure
 
 OUT = ROOT / "out" / "benchmark"
 
@@ -43,7 +46,7 @@ def machine():
     if information.is_file():
         match = re.search(r"model name\s*: (.*)", information.read_text())
         model = match.group(1) if match else model
-    lines.append(f"processor: {model}, {__import__('os').cpu_count()} cores, {platform.machine()}")
+    lines.append(f"processor: {model}, {os.cpu_count()} cores, {platform.machine()}")
     lines.append(f"system: {platform.system()} {platform.release().split('-')[0]}, Python {platform.python_version()}")
     lines.append(f"peers in C++: {(BUILD / 'compiler').read_text().strip()}")
     return lines
@@ -56,7 +59,10 @@ def main():
     start = time.monotonic()
     OUT.mkdir(parents=True, exist_ok=True)
     write_results(OUT / "programs.csv", compare(executable, records, quick))
+    measure(executable, OUT / "scaling.csv", 1 if quick else 5)
     (OUT / "machine.txt").write_text("\n".join(machine()) + "\n", encoding="utf-8")
+    if not quick:
+        page.write(OUT)
     say(f"{time.monotonic() - start:.0f} s; the tables are in {OUT}")
 
 
