@@ -20,7 +20,7 @@ OUT = ROOT / "out" / "benchmark"
 
 
 def compare(executable, records, quick):
-    """dondolo and its peers on the same histories."""
+    """Run dondolo and its peers on the same histories."""
     found = []
     repeats = 1 if quick else 5
     for wall in SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS:

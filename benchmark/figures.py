@@ -88,13 +88,15 @@ def scaling(rows):
         figure, axes = plt.subplots(2, 3, figsize=(9.6, 5.6), layout="constrained")
         for ax, (kind, xlabel, ylabel) in zip(axes.flat, panels, strict=True):
             if kind == "threads":
-                for which, look in (("strong", {"marker": "o", "color": BLUE}), ("weak", {"marker": "s", "color": RED})):
+                looks = {"strong": {"marker": "o", "color": BLUE}, "weak": {"marker": "s", "color": RED}}
+                for which, look in looks.items():
                     size, value = sped_up(rows, which)
                     ax.plot(size, value, label=which, markersize=4.5, **look)
                 ax.plot(size, size, color=GREY, linewidth=1, zorder=0)
                 ax.legend()
             else:
-                size, value = (np.array([row[what] for row in rows if row["kind"] == kind]) for what in ("size", "value"))
+                own = [row for row in rows if row["kind"] == kind]
+                size, value = (np.array([row[what] for row in own]) for what in ("size", "value"))
                 if kind in ("walls", "levels"):
                     value = value / size / (value[0] / size[0])
                 elif kind != "memory":

@@ -13,7 +13,8 @@ def write(folder):
     results = read_results(folder / "programs.csv")
     machine = (folder / "machine.txt").read_text(encoding="utf-8").splitlines()
     with open(folder / "scaling.csv", newline="", encoding="utf-8") as file:
-        rows = [row | {what: float(row[what]) for what in ("size", "histories", "value")} for row in csv.DictReader(file)]
+        numbers = ("size", "histories", "value")
+        rows = [row | {what: float(row[what]) for what in numbers} for row in csv.DictReader(file)]
     lines = [
         "# Performance",
         "",

@@ -50,8 +50,11 @@ class Problem:
         return Errors(Histories(exact.record, exact.level, edp, collapsed, None), exact)
 
     def write(self, path):
-        """Write the file: float64 throughout; wall, numbers of records and histories, dt and samples of each record,
-        all samples [m/s2], record (from 0) and scale of each history."""
+        """Write the file, float64 throughout.
+
+        The wall, the numbers of records and histories, time step and number of samples of each record, all samples
+        [m/s2], record (from 0) and scale of each history.
+        """
         case = self.case()
         wall, records = case.population[0], case.records
         largest = np.array([np.abs(record.acceleration).max() for record in records])

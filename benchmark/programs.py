@@ -147,15 +147,16 @@ def run_peer(peer, problem, path, weights):
             command = [*peer.command, path, method.split(",")[0], setting, peer.repeats, every]
             try:
                 done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=PATIENCE)
+            except OSError:
+                say(f"{peer.name} is skipped: it is not here, and needs {peer.needs}")
+                return found
             except subprocess.TimeoutExpired:
                 say(f"{peer.name}, {method}, {setting:g} is skipped: not done after {PATIENCE} s")
                 continue
-            except OSError:
-                done = None
-            if done is None or done.returncode:
-                why = done.stderr.strip().splitlines()[-1:] if done else ["it is not here"]
-                say(f"{peer.name} is skipped ({' '.join(why)}); it needs {peer.needs}")
-                return []
+            if done.returncode:
+                why = " ".join(done.stderr.strip().splitlines()[-1:])
+                say(f"{peer.name}, {method}, {setting:g} is skipped: it fails with '{why}'; it needs {peer.needs}")
+                continue
             version, seconds, outcomes = parse(done.stdout)
             weight = weights[every]
             arguments = (seconds, outcomes[:, 0], outcomes[:, 1] == 1.0)

@@ -57,7 +57,7 @@ def typology(executable, count, threads, folder):
 
 
 def threads(executable, repeats):
-    """(kind, threads, walls, seconds): strong scaling on a fixed population, weak on one that grows with the threads."""
+    """Strong scaling, on a fixed population, and weak scaling, on one that grows with the threads."""
     cores = os.cpu_count()
     counts = sorted({*(2**k for k in range(20) if 2**k <= cores), cores})
     rows = []

@@ -11,8 +11,8 @@ METHODS = [
     "*Boost.odeint*: its Dormand-Prince stepper, controlled and cut at every sample, or with free steps and dense "
     "output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding, stopped at "
     "every sample, or free. Debian's builds of the library.",
-    "*heyoka*: Taylor's method with its own events, from Python, one history after the other or in lanes. *numbalsoda*: "
-    "compiled by Numba as a whole, sample by sample.",
+    "*heyoka*: Taylor's method with its own events, from Python, one history after the other or in lanes. "
+    "*numbalsoda*: compiled by Numba as a whole, sample by sample.",
     "*SciPy*: `solve_ivp` with events, from sample to sample, or over the whole record; the right-hand side compiled. "
     "*GNU Octave*: `ode45` with events over the whole record, and with steps no longer than a sample.",
 ]
@@ -67,13 +67,15 @@ def programs(results, machine):
         "",
         *paragraph(
             "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
-            "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, the "
-            "peak where q' = 0, the motion after the record by its energy. Those of one language share the source of what "
-            "is not integration. All run on one core; times are medians, of the integration alone."
+            "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
+            "the peak where q' = 0, the motion after the record by its energy. Those of one language share the source of "
+            "what is not integration. All run on one core; times are medians, of the integration alone."
         ),
         *bullets(METHODS),
-        *paragraph(f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are a hundredth of the "
-                   "relative ones, in units of the capacity."),
+        *paragraph(
+            f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are a hundredth of the "
+            "relative ones, in units of the capacity."
+        ),
         *paragraph(
             "Slow programs run on a part of the histories. Their times are divided by how much longer rk45, which runs "
             "history by history, takes for a history of that part than for one of all."
@@ -108,9 +110,9 @@ def ratios(results):
         )
     return [
         *paragraph(
-            f"Each program's cheapest setting with at most {100 * SHARE:g} % of the EDPs off by more than 1e-6 and at most "
-            f"{many(WRONG, 'wrong flag')}, or, if it has none, its most accurate one; and how many times the time of "
+            f"Each program's cheapest setting with at most {100 * SHARE:g} % of the EDPs off by more than 1e-6 and at "
+            f"most {many(WRONG, 'wrong flag')}, or, if it has none, its most accurate one; and how many times the time of "
             "dondolo's engines at their defaults it takes:"
         ),
-        *table(["program", "setting", "ms a history", "errors", *(f"times `{each.method}`" for each in defaults)], rows),
+        *table(["program", "setting", "ms", "errors", *(f"times `{each.method}`" for each in defaults)], rows),
     ]

@@ -11,8 +11,8 @@ def scaling(rows):
         "## 2. Threads, sizes, memory",
         "",
         *paragraph(
-            "The default engine on the embedded synthetic accelerograms, 20 levels unless said otherwise. Strong: a fixed "
-            "population of walls; weak: one that grows with the threads."
+            "The default engine on the embedded synthetic accelerograms, 20 levels unless said otherwise. Strong: a "
+            "fixed population of walls; weak: one that grows with the threads."
         ),
         "![threads, sizes, memory](figures/performance_scaling.png)",
         "",
@@ -24,7 +24,8 @@ def scaling(rows):
         own = [row for row in rows if row["kind"] == kind]
         for row, n, each in zip(own, size, gain, strict=True):
             rate = row["histories"] / row["value"]
-            body.append([kind, f"{n:g}", f"{row['histories']:g}", f"{row['value']:.3g}", f"{rate:.3g}", f"{each / n:.2f}"])
+            work = [f"{row['histories']:g}", f"{row['value']:.3g}", f"{rate:.3g}"]
+            body.append([kind, f"{n:g}", *work, f"{each / n:.2f}"])
     lines += table(head, body)
     names = {
         "walls": "walls",
@@ -33,9 +34,9 @@ def scaling(rows):
         "samples": "so many samples for one of the record, on the same straight lines",
     }
     body = [
-        [names[row["kind"]], f"{row['size']:g}", f"{row['histories']:g}", f"{1e3 * row['value'] / row['histories']:.3g}"]
-        for row in rows
-        if row["kind"] in names
+        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", f"{1e3 * r['value'] / r['histories']:.3g}"]
+        for r in rows
+        if r["kind"] in names
     ]
     lines += table(["what grows", "size", "histories", "ms a history"], body)
     body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
