@@ -68,8 +68,8 @@ def programs(results, machine):
         *paragraph(
             "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
             "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
-            "the peak where q' = 0, the motion after the record by its energy. Those of one language share the source of "
-            "what is not integration. All run on one core; times are medians, of the integration alone."
+            "the peak where q' = 0, the motion after the record by its energy. Those of one language share the source "
+            "of what is not integration. All run on one core; times are medians, of the integration alone."
         ),
         *bullets(METHODS),
         *paragraph(
@@ -111,8 +111,8 @@ def ratios(results):
     return [
         *paragraph(
             f"Each program's cheapest setting with at most {100 * SHARE:g} % of the EDPs off by more than 1e-6 and at "
-            f"most {many(WRONG, 'wrong flag')}, or, if it has none, its most accurate one; and how many times the time of "
-            "dondolo's engines at their defaults it takes:"
+            f"most {many(WRONG, 'wrong flag')}, or, if it has none, its most accurate one; and how many times the time "
+            "of dondolo's engines at their defaults it takes:"
         ),
         *table(["program", "setting", "ms", "errors", *(f"times `{each.method}`" for each in defaults)], rows),
     ]

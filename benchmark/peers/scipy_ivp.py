@@ -1,7 +1,7 @@
 """SciPy's solve_ivp with its events.
 
-Methods: RK45, DOP853, LSODA, from sample to sample; with /record: over the whole record. The right-hand side is compiled
-by Numba. The setting is the relative tolerance.
+Methods: RK45, DOP853, LSODA, from sample to sample; with /record: over the whole record. The right-hand side is
+compiled by Numba. The setting is the relative tolerance.
 """
 
 import math

@@ -120,8 +120,8 @@ def peak_after(wall, q, v):
 def simulate(wall, a, dt, flight):
     """EDP, collapse and impacts of one history.
 
-    flight(wall, a, dt, i, t, side, q, v, peak) integrates from time t after sample i to the next impact, collapse or the
-    last sample, and returns event, i, t, q, v and the peak so far.
+    flight(wall, a, dt, i, t, side, q, v, peak) integrates from time t after sample i to the next impact, collapse or
+    the last sample, and returns event, i, t, q, v and the peak so far.
     """
     i, t, peak, impacts = 0, 0.0, 0.0, 0
     while True:
