@@ -50,11 +50,14 @@ int roots(double, N_Vector y, double *gap, void *data) {
    const double *state = N_VGetArrayPointer(y);
    gap[0] = state[0];
    gap[1] = state[1];
-   gap[2] = state[0] - static_cast<Scene *>(data)->wall.capacity;
+   const double capacity = static_cast<Scene *>(data)->wall.capacity;
+   gap[2] = state[0] - capacity;
+   // A root at the start hides those that follow at once: a wall that starts on the very edge and falls back.
+   gap[3] = state[0] + 1e-9 * capacity;
    return 0;
 }
 
-int fall_turn_reach[] = {-1, -1, 1};  // directions of the roots
+int directions[] = {-1, -1, 1, -1};  // directions of the roots
 
 class Cvode {
  public:
@@ -64,8 +67,8 @@ class Cvode {
       check(CVodeSVtolerances(memory, rtol, atol), "CVodeSVtolerances");
       check(CVodeSetNonlinearSolver(memory, iteration), "CVodeSetNonlinearSolver");
       check(CVodeSetUserData(memory, scene), "CVodeSetUserData");
-      check(CVodeRootInit(memory, 3, roots), "CVodeRootInit");
-      check(CVodeSetRootDirection(memory, fall_turn_reach), "CVodeSetRootDirection");
+      check(CVodeRootInit(memory, 4, roots), "CVodeRootInit");
+      check(CVodeSetRootDirection(memory, directions), "CVodeSetRootDirection");
       check(CVodeSetNoInactiveRootWarn(memory), "CVodeSetNoInactiveRootWarn");
       check(CVodeSetMaxNumSteps(memory, 1000000), "CVodeSetMaxNumSteps");
    }
@@ -87,8 +90,8 @@ class ErkStep {
       check(ERKStepSVtolerances(memory, rtol, atol), "ERKStepSVtolerances");
       check(ERKStepSetTableNum(memory, ARKODE_DORMAND_PRINCE_7_4_5), "ERKStepSetTableNum");
       check(ERKStepSetUserData(memory, scene), "ERKStepSetUserData");
-      check(ERKStepRootInit(memory, 3, roots), "ERKStepRootInit");
-      check(ERKStepSetRootDirection(memory, fall_turn_reach), "ERKStepSetRootDirection");
+      check(ERKStepRootInit(memory, 4, roots), "ERKStepRootInit");
+      check(ERKStepSetRootDirection(memory, directions), "ERKStepSetRootDirection");
       check(ERKStepSetNoInactiveRootWarn(memory), "ERKStepSetNoInactiveRootWarn");
       check(ERKStepSetMaxNumSteps(memory, 1000000), "ERKStepSetMaxNumSteps");
       // Its steps end where it is asked for results, and it knows an interpolant of order five.
@@ -120,6 +123,7 @@ class Flight {
    }
 
    void begin(const Ground &ground, const Motion &m) {
+      fresh = true;
       scene->ground = &ground;
       scene->entered = m.interval * ground.record.dt;
       N_VGetArrayPointer(y)[0] = m.now.q;
@@ -130,6 +134,17 @@ class Flight {
    Event fly(Ground &ground, Motion &m) {
       const double dt = ground.record.dt;
       const double end = (scene->free ? ground.last() : m.interval + 1) * dt;
+      const double remaining = end - (m.interval * dt + m.time);
+      if (fresh && remaining <= 1e-15 * end) {
+         // Too short for SUNDIALS to start: on to the sample, to rounding.
+         m.now.q = std::max(0.0, m.now.q + remaining * m.now.v);
+         ++m.interval;
+         m.time = 0.0;
+         if (m.interval < ground.last()) ground.enter(m.interval);
+         begin(ground, m);
+         return Event::none;
+      }
+      fresh = false;
       solver->stop_at(end);
       double t;
       const int flag = solver->go(end, y, &t);
@@ -137,11 +152,11 @@ class Flight {
       m.now.q = N_VGetArrayPointer(y)[0];
       m.now.v = N_VGetArrayPointer(y)[1];
       if (flag == Solver::at_root) {
-         int which[3];
+         int which[4];
          solver->found(which);
          if (scene->free) m.interval = std::min(static_cast<int>(t / dt), ground.last() - 1);
          m.time = std::min(t - m.interval * dt, dt);
-         return which[0] ? Event::impact : which[2] ? Event::limit : Event::peak;
+         return which[0] || which[3] ? Event::impact : which[2] ? Event::limit : Event::peak;
       }
       m.interval = scene->free ? ground.last() : m.interval + 1;
       m.time = 0.0;
@@ -152,6 +167,7 @@ class Flight {
 
  private:
    std::unique_ptr<Scene> scene;
+   bool fresh = true;  // restarted, and not gone on since?
    N_Vector y;
    std::unique_ptr<Solver> solver;
 };
