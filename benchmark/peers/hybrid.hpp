@@ -37,12 +37,17 @@ struct Motion {
    State now{0.0, 0.0, 0.0};
    double peak = 0.0;
    int impacts = 0;
+   int tiny_bounces = 0;  // in a row
 };
 
 enum class Event { none, impact, peak, limit };
 
 // Flights shorter than this part of a sample interval are rounding
 constexpr double shortest = 2.2e-13;
+
+// So many bounces in a row that would rise less than this part of q_c in still ground are rest
+constexpr int most_tiny_bounces = 1000;
+constexpr double tiny_height = 1e-12;
 
 // The wall at rest, and what may return it there
 class Rest {
@@ -102,8 +107,10 @@ class Rest {
    }
 
    // After an impact: is the wall at rest?
-   bool ends(const Ground &ground, const Motion &m) const {
-      if (m.now.v == 0.0) return true;
+   bool ends(const Ground &ground, Motion &m) const {
+      const bool tiny = 0.5 * m.now.v * m.now.v < tiny_height * wall.capacity * moment;
+      m.tiny_bounces = tiny ? m.tiny_bounces + 1 : 0;
+      if (m.now.v == 0.0 || m.tiny_bounces > most_tiny_bounces) return true;
       const double inward = -m.now.f;
       if (!(inward > 0.0)) return false;
       return 2.0 * m.now.v / inward <= shortest * ground.record.dt || chain_ends(ground, m);
@@ -144,6 +151,7 @@ Outcome simulate(const Wall &wall, const Rest &rest, const History &history, Fli
    while (rest.next_start(ground, m)) {
       const int first = m.interval;
       const double start = m.time;
+      m.tiny_bounces = 0;
       ground.enter(m.interval);
       m.now = {0.0, 0.0, std::max(0.0, acceleration(wall, 0.0, ground.push(m.time)))};
       flight.begin(ground, m);

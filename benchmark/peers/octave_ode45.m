@@ -119,6 +119,7 @@ function [edp, collapsed, impacts] = simulate (wall, a, dt, rtol, by_sample)
     first = i;
     start = t;
     y = [0; 0];
+    tiny = 0;  # bounces in a row
     while (true)
       now = (i - 1) * dt + t;
       [times, states, te, ye, ie] = ode45 (@(t, y) right_side (t, y, wall, a, dt, side), [now, finish], y, options);
@@ -145,7 +146,8 @@ function [edp, collapsed, impacts] = simulate (wall, a, dt, rtol, by_sample)
       if (wall.two_sided)
         side = -side;
       endif
-      if (stays (wall, a, dt, i, t, side, y(2), peak))
+      tiny = (tiny + 1) * (0.5 * y(2)^2 < 1e-12 * wall.capacity * wall.moment);
+      if (tiny > 1000 || stays (wall, a, dt, i, t, side, y(2), peak))
         break;
       endif
     endwhile

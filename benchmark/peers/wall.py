@@ -14,6 +14,7 @@ from numba import njit
 from numba.extending import register_jitable
 
 SHORTEST = 2.2e-13  # flights shorter than this part of a sample interval are rounding
+TINY_HEIGHT, MOST_TINY = 1e-12, 1000  # so many bounces in a row that rise less, in units of q_c, are rest
 NONE, IMPACT, PEAK, LIMIT = 0, 1, 2, 3  # events
 
 
@@ -130,6 +131,7 @@ def simulate(wall, a, dt, flight):
             return peak / wall.capacity, False, impacts
         first, start = i, t
         q = v = 0.0
+        tiny = 0
         while True:
             event, i, t, q, v, peak = flight(wall, a, dt, i, t, side, q, v, peak)
             if event == LIMIT:
@@ -141,7 +143,8 @@ def simulate(wall, a, dt, flight):
             q, v = 0.0, wall.restitution * max(0.0, -v)
             if wall.two_sided:
                 side = -side
-            if stays(wall, a, dt, i, t, side, v, peak):
+            tiny = tiny + 1 if 0.5 * v * v < TINY_HEIGHT * wall.capacity * wall.moment else 0
+            if tiny > MOST_TINY or stays(wall, a, dt, i, t, side, v, peak):
                 break
         # A start on the very edge that rounding undoes at once is not tried again.
         if i == first and t - start <= SHORTEST * dt:
