@@ -7,6 +7,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.style import BLACK, BLUE, GREY, RC, RED
+from matplotlib.ticker import NullFormatter
 from problem import ROOT
 
 FOLDER = ROOT / "docs" / "figures"
@@ -69,6 +70,7 @@ def work(results):
         axes[1, 1].axhline(1.0, color=GREY, linewidth=1, zorder=0)
         for ax in axes[1]:
             ax.set(xlabel="time per history [ms]")
+            ax.xaxis.set_minor_formatter(NullFormatter())
         handles = axes[0, 0].get_legend_handles_labels()
         figure.legend(*handles, loc="outside lower center", ncols=4)
     save(figure, "work")
@@ -102,7 +104,7 @@ def scaling(rows):
                 elif kind != "memory":
                     value = value / value[0]
                 ax.plot(size, value, marker="o", markersize=4.5, color=BLUE)
-                ax.set_ylim(bottom=0.0)
+                ax.set_ylim(0.0, 1.1 * max(value))
                 ax.set_xscale("log")
             ax.set_xticks(size, [f"{each:g}" for each in size])
             ax.set_xticks([], minor=True)

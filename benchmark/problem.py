@@ -11,8 +11,8 @@ import dondolo as dd
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# The histories, their reference and the count of errors are those of docs/verification.
-sys.path.insert(0, str(ROOT / "docs" / "verification"))
+# The histories, their reference and the count of errors are those of docs/verification; modules here come first.
+sys.path.append(str(ROOT / "docs" / "verification"))
 
 from cases import TABLES, Motions, motions, read_table, write_case  # noqa: E402
 from histories import Errors, Histories  # noqa: E402

@@ -61,7 +61,9 @@ def programs(results, machine):
     wall = results[0].wall
     first = [each for each in results if each.wall == wall]
     figures.work(first)
-    versions = dict.fromkeys(f"{each.program} ({each.version})" for each in results)
+    versions = dict.fromkeys(
+        f"dondolo {each.version}" if each.program == "dondolo" else each.version for each in results
+    )
     lines = [
         "## 1. Other programs",
         "",
