@@ -60,8 +60,7 @@ contains
             set%samples(before + n + 1:before + n + 2) = 0.0_wp
             do j = 1, n, block_size
                k = k + 1
-               set%lowest(k) = minval(a(j:min(j + block_size - 1, n)))
-               set%highest(k) = maxval(a(j:min(j + block_size - 1, n)))
+               call find_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
             end do
             set%lowest_left(k) = set%lowest(k)
             set%highest_left(k) = set%highest(k)
@@ -72,6 +71,33 @@ contains
          end associate
       end do
    end subroutine new_record_set
+
+   !> Smallest and largest sample: several chains at once, since one alone waits for itself
+   pure subroutine find_extremes(samples, lowest, highest)
+      !> Samples [m/s2]
+      real(wp), intent(in) :: samples(:)
+      !> The smallest and the largest [m/s2]
+      real(wp), intent(out) :: lowest, highest
+
+      integer, parameter :: chains = 8
+      real(wp) :: low(chains), high(chains)
+      integer :: i, j
+
+      low = samples(1)
+      high = samples(1)
+      do i = 1, size(samples) - chains + 1, chains
+         do j = 1, chains
+            low(j) = min(low(j), samples(i + j - 1))
+            high(j) = max(high(j), samples(i + j - 1))
+         end do
+      end do
+      lowest = minval(low)
+      highest = maxval(high)
+      do i = size(samples) - modulo(size(samples), chains) + 1, size(samples)
+         lowest = min(lowest, samples(i))
+         highest = max(highest, samples(i))
+      end do
+   end subroutine find_extremes
 
    !> The next sample that, scaled, lies outside a range
    pure integer function next_outside(self, record, first, scale, low, high) result(sample)

@@ -6,7 +6,7 @@ module dondolo_lane_history
    use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_lane_stage, only : stage_type
-   use dondolo_lane_state, only : lanes_type
+   use dondolo_lane_state, only : event_possible, lanes_type, step_too_long
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_record, only : record_type
@@ -110,12 +110,12 @@ contains
       real(wp) :: y, v, d(0:8), h
       integer :: event
 
-      if (lanes%flag(i) > 1) then
+      if (lanes%flag(i) >= event_possible) then
          d = [lanes%y(i), lanes%v(i), lanes%series(i, :)]
          ! A wall at rest begins to rock where its moment is zero: never inwards, whatever the rounding says.
          if (d(0) == 0.0_wp .and. d(1) == 0.0_wp) d(2) = max(0.0_wp, d(2))
          h = lanes%step(i)
-         if (lanes%flag(i) == 3) call shorten(stage, lanes, i, d, h)
+         if (lanes%flag(i) == step_too_long) call shorten(stage, lanes, i, d, h)
          event = no_event
          if (h > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), h, event)
          y = value(d, h)
@@ -513,7 +513,7 @@ contains
       !> Its history
       type(history_type), intent(in) :: history
 
-      interval = lanes%next(i) - 1 - set%offset(history%record)
+      interval = int(lanes%next(i)) - 1 - set%offset(history%record)
    end function interval_of
 
    !> The coordinate is a new peak
