@@ -94,7 +94,8 @@ contains
 
       type(stage_type) :: stage
       type(work_type) :: work, own
-      character(len=:), allocatable :: variant
+      ! Of a fixed length: gfortran 12 does not hand a deferred one on to the threads.
+      character(len=16) :: variant
       integer :: number
 
       ! High levels take longest: they stand last and go first, so that no thread is left alone with them at the end.
