@@ -13,7 +13,7 @@ module dondolo_help
       & '   dondolo CASE.nml             run a case and write its result files', &
       & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
-      & '   dondolo --version            print the version', &
+      & '   dondolo --version            print the version, and the build variant for this processor', &
       & '   dondolo --help               print this page', &
       & '', &
       & 'Options of a run:', &

@@ -6,6 +6,7 @@ program dondolo_main
    use dondolo_error, only : error_type
    use dondolo_help, only : print_help
    use dondolo_kinds, only : wp
+   use dondolo_lane_variants, only : build_variant
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
@@ -27,7 +28,7 @@ program dondolo_main
    case ('help')
       call print_help()
    case ('version')
-      write (output_unit, '(a)') 'dondolo '//dondolo_version_text
+      write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//build_variant()
    case ('template')
       call print_template(arguments%task)
    case default

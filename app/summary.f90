@@ -2,6 +2,7 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
+   use dondolo_ensemble, only : engine_text
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -72,7 +73,8 @@ contains
       crew = ' threads'
       if (threads == 1) crew = ' thread'
       write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
-         & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew
+         & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
+         & ', engine '//engine_text(results%work)
    end subroutine print_work
 
    !> Print the response of a time history

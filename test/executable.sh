@@ -135,6 +135,7 @@ check "stripes: a name with a comma is quoted" contains out/deep/wall_walls.csv 
 check "stripes: frequency parameter" contains out/deep/wall_walls.csv ',2.210895054992'
 check "stripes: version in the head" contains out/deep/wall_walls.csv '# dondolo '
 check "stripes: compiler in the head" contains out/deep/wall_walls.csv '# compiler: '
+check "stripes: engine in the head" grep -qE '^# engine and build variant: lanes \([a-z0-9]+\)$' out/deep/wall_walls.csv
 check "stripes: title in the head" contains out/deep/wall_walls.csv "title = 'It''s a wall'"
 check "stripes: levels in the head" contains out/deep/wall_walls.csv 'levels = 0.1, 0.2, 0.4, 0.6, 1 /'
 check "stripes: tolerances in the head" contains out/deep/wall_walls.csv 'rtol = 1e-8, atol = 1e-10'
@@ -148,6 +149,7 @@ check "stripes: some history collapses, some survives" test \
 check "stripes: both polarities" equal "$(grep -c ',reversed,' out/deep/wall_histories.csv)" 20
 check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
 check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
+check "stripes: summary names the engine" grep -qE ' threads, engine lanes \([a-z0-9]+\)$' stdout
 check "stripes: no escape sequence where there is no terminal" lacks stderr $'\033'
 run --quiet good.nml
 check "quiet: exit code" equal "$rc" 0
@@ -318,7 +320,8 @@ for option in --check --template --threads --quiet --version --help; do
 done
 run --version
 check "version: exit code" equal "$rc" 0
-check "version: as in fpm.toml" equal "$(cat stdout)" "dondolo $(sed -n 's/^version = "\(.*\)"/\1/p' "$root/fpm.toml")"
+check "version: as in fpm.toml" equal "$(head -n 1 stdout)" "dondolo $(sed -n 's/^version = "\(.*\)"/\1/p' "$root/fpm.toml")"
+check "version: names the build variant" grep -qE '^build variant (baseline|native|avx2|avx512)$' stdout
 before=$(listing)
 run good.nml --check
 check "check: exit code" equal "$rc" 0

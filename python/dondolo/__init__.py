@@ -7,6 +7,7 @@
 >>> curve = stripes.fit()                                               # doctest: +SKIP
 """
 
+from dondolo._binding import build_variant
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.comparison import Comparison, compare
@@ -68,6 +69,7 @@ __all__ = [
     "__version__",
     "animate_history",
     "band_pass",
+    "build_variant",
     "compare",
     "compare_intensities",
     "correct_baseline",

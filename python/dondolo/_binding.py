@@ -145,6 +145,18 @@ def constants() -> Constants:
     )
 
 
+def build_variant() -> str:
+    """The build variant that the engine lanes runs here.
+
+    Returns
+    -------
+    str
+        "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
+        DONDOLO_VARIANT names, if it can; "native" in a build for one processor. Variants differ by rounding only.
+    """
+    return _core.variant().decode().strip()
+
+
 def check(stat: int, message: bytes) -> None:
     """Raise what a status says."""
     if stat == 0:

@@ -29,6 +29,16 @@ subroutine constants(defaults, version, statuses)
    end do
 end subroutine constants
 
+! Build variant that the engine lanes runs; the environment may change it from call to call
+subroutine variant(name)
+   use dondolo_lane_variants, only : build_variant
+   implicit none
+   !f2py threadsafe
+   character(len=32), intent(out) :: name
+
+   name = build_variant()
+end subroutine variant
+
 ! Contents of a parcel that another procedure has sent
 subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t

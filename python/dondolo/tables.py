@@ -57,7 +57,8 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
     """
     target = Path(path)
     part = target.with_name(target.name + ".part")
-    lines = [f"# dondolo {_binding.constants().version}", *(f"# {comment}" for comment in comments), ",".join(table)]
+    head = (f"# dondolo {_binding.constants().version}", f"# build variant: {_binding.build_variant()}")
+    lines = [*head, *(f"# {comment}" for comment in comments), ",".join(table)]
     lines += [",".join(map(cell, row)) for row in zip(*table.values(), strict=True)]
     try:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -2,6 +2,7 @@
 module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version
    use dondolo_case, only : case_type
+   use dondolo_ensemble, only : engine_text
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -67,7 +68,7 @@ contains
       do i = 1, size(names)
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
-         call write_head(case, results%warnings, files)
+         call write_head(case, results, files)
          select case (names(i))
          case ('_walls.csv')
             call write_walls(case, files)
@@ -90,11 +91,11 @@ contains
    end subroutine write_reports
 
    !> Comment lines: which program, which case, and what to beware of
-   subroutine write_head(case, warnings, files)
+   subroutine write_head(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
-      !> Warnings
-      type(lines_type), intent(in) :: warnings
+      !> Its results
+      type(results_type), intent(in) :: results
       !> Files
       type(result_files_type), intent(inout) :: files
 
@@ -103,13 +104,14 @@ contains
 
       call files%line('# dondolo '//dondolo_version_text)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
+      call files%line('# engine and build variant: '//engine_text(results%work))
       call case%echo(echo)
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)
       end do
       if (case%job%task /= 'history') call files%line('# unit of im_level and theta: '//unit_of_levels(case))
-      do i = 1, warnings%count
-         call files%line('# warning: '//warnings%line(i)%text)
+      do i = 1, results%warnings%count
+         call files%line('# warning: '//results%warnings%line(i)%text)
       end do
    end subroutine write_head
 

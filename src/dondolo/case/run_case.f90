@@ -14,6 +14,7 @@ module dondolo_run_case
    use dondolo_wall, only : mechanism_names
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_fits, &
       & warn_of_records
+   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -35,6 +36,8 @@ module dondolo_run_case
       type(response_type) :: response
       !> Its time history
       type(trace_type) :: trace
+      !> What was computed: tasks 'stripes' and 'typology'
+      type(work_type) :: work
       !> What the user should know
       type(lines_type) :: warnings
    end type results_type
@@ -178,6 +181,7 @@ contains
       if (.not. allocated(error)) then
          call run_histories(stripes, case%population%walls(wall), case%records, set, case%solver%solver, 1, &
             & size(stripes%response), team, progress)
+         call results%work%add(stripes%work)
          results%collapses(:, wall) = stripes%collapses()
          histories = real(results%histories(wall), wp)
          call fit_fragility(results%fragility(wall), case%stripes%levels, &

@@ -7,7 +7,7 @@ module dondolo_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lane_stage, only : new_stage, stage_type
-   use dondolo_lanes, only : simulate_lanes
+   use dondolo_lane_variants, only : build_variant, first_variant, simulate_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
    use dondolo_record, only : record_type
@@ -19,7 +19,7 @@ module dondolo_ensemble
    implicit none
    private
 
-   public :: ensemble_type, run_ensemble, check_engine
+   public :: ensemble_type, run_ensemble, check_engine, engine_text
    public :: largest_threads, available_threads, team_of
 
    !> Most threads that are asked for
@@ -94,17 +94,21 @@ contains
 
       type(stage_type) :: stage
       type(work_type) :: work, own
+      ! Of a fixed length: gfortran 12 does not hand a deferred one on to the threads.
+      character(len=16) :: variant
       integer :: number
 
       ! High levels take longest: they stand last and go first, so that no thread is left alone with them at the end.
       queue%last = size(response)
+      variant = build_variant()
       if (solver%engine /= 'rk45') stage = new_stage(mechanism, solver)
       !$omp parallel num_threads(team_of(threads, size(response))) default(none) private(own, number) &
-      !$omp & shared(stage, mechanism, records, set, solver, ensemble, queue, response, work)
+      !$omp & shared(variant, stage, mechanism, records, set, solver, ensemble, queue, response, work)
       own = work_type()
       if (stage%form%exists) then
-         call simulate_lanes(stage, mechanism, records, set, ensemble%record, ensemble%scale, queue, response, own, &
-            & progress)
+         call simulate_variant(variant, stage, mechanism, records, set, ensemble%record, ensemble%scale, queue, &
+            & response, own, progress)
+         own%in_lanes = own%histories
       else
          do
             number = queue%next()
@@ -121,6 +125,23 @@ contains
       call ensemble%work%add(work)
       if (present(progress)) call progress(queue%done, queue%total)
    end subroutine run_queue
+
+   !> The engines that have computed histories, each with the build variant that ran
+   function engine_text(work) result(text)
+      !> What was computed
+      type(work_type), intent(in) :: work
+      !> `lanes (avx512)`, `rk45 (baseline)` or both
+      character(len=:), allocatable :: text
+
+      text = 'rk45 ('//first_variant//')'
+      if (work%in_lanes == 0) return
+      if (work%in_lanes < work%histories) then
+         text = ' and '//text
+      else
+         text = ''
+      end if
+      text = 'lanes ('//build_variant()//')'//text
+   end function engine_text
 
    !> Check that an engine can compute a mechanism
    subroutine check_engine(solver, mechanism, error)

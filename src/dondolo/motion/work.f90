@@ -8,8 +8,8 @@ module dondolo_work
 
    !> Counts over histories
    type :: work_type
-      !> Histories, and those that never move, of which nothing is integrated
-      integer(int64) :: histories = 0, still = 0
+      !> Histories, those that never move, of which nothing is integrated, and those that the engine lanes computed
+      integer(int64) :: histories = 0, still = 0, in_lanes = 0
       !> Sample intervals of all records of the histories, and those in which the wall rocks
       integer(int64) :: intervals = 0, rocked = 0
       !> Steps taken, and evaluations of the terms of the mechanism
@@ -32,6 +32,7 @@ contains
 
       self%histories = self%histories + other%histories
       self%still = self%still + other%still
+      self%in_lanes = self%in_lanes + other%in_lanes
       self%intervals = self%intervals + other%intervals
       self%rocked = self%rocked + other%rocked
       self%steps = self%steps + other%steps

@@ -1,0 +1,113 @@
+"""The build variants of the engine lanes: each is forced, and gives the same but for rounding."""
+
+import os
+import subprocess
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+NAMES = ("baseline", "native", "avx2", "avx512")
+
+
+def available():
+    """Variants that this build and this processor have."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in NAMES:
+            patch.setenv("DONDOLO_VARIANT", name)
+            if dd.build_variant() == name:
+                yield name
+
+
+@pytest.fixture(scope="module")
+def case(root):
+    return dd.read_case(root / "data/cases/parapet.nml")
+
+
+@pytest.fixture(scope="module")
+def by_variant(case):
+    """Stripes of a parapet by each variant."""
+    results = {}
+    with pytest.MonkeyPatch.context() as patch:
+        for name in available():
+            patch.setenv("DONDOLO_VARIANT", name)
+            results[name] = run(case, threads=1)
+    return results
+
+
+def run(case, threads):
+    wall = case.population[0]
+    return dd.multiple_stripe(wall, case.records, case.levels, engine="lanes", threads=threads, progress=False)
+
+
+def test_the_best_is_taken(monkeypatch):
+    names = list(available())
+    assert ("baseline" in names) != ("native" in names)
+    monkeypatch.delenv("DONDOLO_VARIANT", raising=False)
+    assert dd.build_variant() == names[-1]
+    for wrong in ("", "sse2", "AVX2", "baseline, avx2"):
+        monkeypatch.setenv("DONDOLO_VARIANT", wrong)
+        assert dd.build_variant() == names[-1]
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_variants_agree(by_variant):
+    first, *others = by_variant.values()
+    assert 0.1 < first.fraction.mean() < 0.9
+    for other in others:
+        assert np.array_equal(first.collapsed, other.collapsed)
+        assert np.abs(first.edp - other.edp).max() < 1e-6
+        # Fused operations round differently; equal bits would mean that the same variant has run again.
+        assert not np.array_equal(first.edp, other.edp)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_threads_change_no_bit_of_a_variant(case, by_variant, monkeypatch):
+    for name, stripes in by_variant.items():
+        monkeypatch.setenv("DONDOLO_VARIANT", name)
+        for threads in (2, 3):
+            assert np.array_equal(run(case, threads).edp, stripes.edp), (name, threads)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_the_executable_names_and_runs_the_variant(executable, case, by_variant, root, tmp_path):
+    for name, stripes in by_variant.items():
+        environment = os.environ | {"DONDOLO_VARIANT": name}
+
+        def printed(*arguments, environment=environment):
+            command = [executable, *arguments]
+            done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+            return done.stdout.splitlines()
+
+        assert printed("--version")[1] == f"build variant {name}"
+        assert any(line.endswith(f"engine lanes ({name})") for line in printed(root / "data/cases/parapet.nml"))
+        text = (tmp_path / "out/parapet_histories.csv").read_text()
+        assert f"\n# engine and build variant: lanes ({name})\n" in text
+        assert np.array_equal(dd.read_results(tmp_path / "out/parapet").stripes.edp, stripes.edp)
+
+
+SLENDER, SQUAT = "slender,one_sided,3.0,0.25\n", "squat,two_block,1.0,0.6\n"
+
+
+@pytest.mark.parametrize(
+    ("walls", "engine", "expected"),
+    [
+        (SLENDER, "auto", "lanes ({best})"),
+        (SLENDER, "rk45", "rk45 ({first})"),
+        (SQUAT, "auto", "rk45 ({first})"),
+        (SLENDER + SQUAT, "auto", "lanes ({best}) and rk45 ({first})"),
+    ],
+)
+def test_the_engines_that_ran_are_told(executable, root, tmp_path, walls, engine, expected):
+    names = list(available())
+    expected = expected.format(first=names[0], best=dd.build_variant())
+    (tmp_path / "walls.csv").write_text("name,mechanism,height,thickness\n" + walls)
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology' output = 'result' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes levels = 0.3, 0.6 /\n"
+        f"&solver engine = '{engine}' /\n"
+    )
+    done = subprocess.run([executable, "case.nml"], cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert f", engine {expected}\n" in done.stdout
+    assert f"\n# engine and build variant: {expected}\n" in (tmp_path / "result_stripes.csv").read_text()

@@ -1,0 +1,97 @@
+!> The build variants of the engine lanes: the same sources compiled for several processors, and the choice among them.
+!>
+!> Variants differ by rounding only. A build by meson has 'baseline', which runs anywhere, and on x86-64 'avx2' and
+!> 'avx512' (DONDOLO_VARIANTS); a build for one processor has 'native' alone (DONDOLO_NATIVE); other builds 'baseline'.
+!> The best that the processor can run is taken, or what the environment variable DONDOLO_VARIANT names, if it can.
+module dondolo_lane_variants
+   use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_kinds, only : wp
+   use dondolo_lane_stage, only : stage_type
+   use dondolo_lanes, only : simulate_first => simulate_lanes
+#ifdef DONDOLO_VARIANTS
+   use dondolo_lanes_avx2, only : simulate_avx2 => simulate_lanes
+   use dondolo_lanes_avx512, only : simulate_avx512 => simulate_lanes
+#endif
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : response_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: build_variant, first_variant, simulate_variant
+
+   !> Variant that everything but the engine lanes is compiled for
+#ifdef DONDOLO_NATIVE
+   character(len=*), parameter :: first_variant = 'native'
+#else
+   character(len=*), parameter :: first_variant = 'baseline'
+#endif
+
+   !> Names of the variants, each for a better processor than the one before
+   character(len=8), parameter :: variant_names(3) = [character(len=8) :: first_variant, 'avx2', 'avx512']
+
+   interface
+      !> Number of the best variant that the processor and this build have
+      function processor_level() bind(c, name='dondolo_processor_level')
+         import :: c_int
+         !> Number
+         integer(c_int) :: processor_level
+      end function processor_level
+   end interface
+
+contains
+
+   !> Name of the variant that the engine lanes runs
+   function build_variant() result(name)
+      !> Name
+      character(len=:), allocatable :: name
+
+      character(len=len(variant_names)) :: wish
+      integer :: best, status
+
+      best = processor_level()
+      name = trim(variant_names(best))
+      call get_environment_variable('DONDOLO_VARIANT', wish, status=status)
+      if (status == 0 .and. any(wish == variant_names(:best))) name = trim(wish)
+   end function build_variant
+
+   !> Histories of one wall, as long as the queue has some, by a variant
+   subroutine simulate_variant(variant, stage, mechanism, records, set, record, scale, queue, response, work, progress)
+      !> What build_variant has named
+      character(len=*), intent(in) :: variant
+      !> The wall, prepared
+      type(stage_type), intent(in) :: stage
+      !> Its mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The same, joined
+      type(record_set_type), intent(in) :: set
+      !> Record of each history, and the factor on it, negative to reverse it
+      integer, intent(in) :: record(:)
+      real(wp), intent(in) :: scale(:)
+      !> Numbers of the histories to run; shared with other threads
+      type(queue_type), intent(inout) :: queue
+      !> Result of each history
+      type(response_type), intent(inout) :: response(:)
+      !> Counts, added to
+      type(work_type), intent(inout) :: work
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      select case (variant)
+#ifdef DONDOLO_VARIANTS
+      case ('avx2')
+         call simulate_avx2(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+      case ('avx512')
+         call simulate_avx512(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+#endif
+      case default
+         call simulate_first(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+      end select
+   end subroutine simulate_variant
+
+end module dondolo_lane_variants
