@@ -30,6 +30,8 @@ module dondolo_lane_history
       !> Where it began to rock: sample interval and time in it [s]
       integer :: start_interval = 0
       real(wp) :: start_time = 0.0_wp
+      !> Last sample interval in which it rocked before
+      integer :: last_rocked = 0
       !> Largest rotation so far [rad] and its time [s]
       real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
       !> Impacts so far, and tiny bounces in a row
@@ -132,7 +134,8 @@ contains
             call bounce(stage, record, set, lanes, i, history, work)
          case (turning)
             lanes%v(i) = 0.0_wp
-            call set_peak(stage, lanes, i, history, record, set)
+            ! Between two impacts it may turn below the peak.
+            if (y > lanes%peak(i)) call set_peak(stage, lanes, i, history, record, set)
             if (.not. y < y_limit) history%over = .true.
             history%collapsed = history%over
          case (limit_reached)
@@ -162,9 +165,10 @@ contains
       real(wp) :: error, tolerance, fifth
 
       fifth = stage%form%fifth_a + stage%form%fifth_b*abs(lanes%u(i))
-      tolerance = stage%solver%rtol*abs(d(1)) + stage%atol
       do while (h > smallest_step*lanes%dt(i))
-         error = 7.0_wp*abs(d(7))*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
+         ! Where it turns the velocity at one end alone would ask for no step at all.
+         tolerance = stage%solver%rtol*max(abs(d(1)), abs(rate(d, h))) + stage%atol
+         error = (7.0_wp*abs(d(7)) + 8.0_wp*abs(d(8))*h)*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
          if (error < tolerance) return
          h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/6.0_wp))
          lanes%next_span(i) = h
@@ -186,9 +190,10 @@ contains
       real(wp) :: y, v, fastest, most_bent, turn, x, b(0:8)
 
       event = no_event
-      ! A start: y''' > 0 rules.
-      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
       y = value(d, h)
+      ! A start: y''' > 0 rules.
+      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. y < y_limit .and. &
+         & d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
       v = rate(d, h)
       ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
       fastest = max(d(1), v) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
@@ -437,7 +442,8 @@ contains
          call aim(set, lanes, i, history)
          return
       end if
-      work%rocked = work%rocked + interval - history%start_interval + 1
+      work%rocked = work%rocked + interval - max(history%start_interval - 1, history%last_rocked)
+      history%last_rocked = interval
       history%tiny_bounces = 0
       lanes%v(i) = 0.0_wp
       ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
@@ -567,7 +573,7 @@ contains
       end if
       rocking = lanes%y(i) > 0.0_wp .or. lanes%v(i) > 0.0_wp
       work%impacts = work%impacts + history%impacts
-      if (rocking) work%rocked = work%rocked - history%start_interval + 1 &
+      if (rocking) work%rocked = work%rocked - max(history%start_interval - 1, history%last_rocked) &
          & + min(interval_of(set, lanes, i, history), set%length(history%record) - 1)
       response%impacts = history%impacts
       response%time_of_peak = history%time_of_peak
