@@ -1,7 +1,7 @@
 !> Accelerograms side by side, for many histories at once: all samples in one array, and where it is worth looking.
 module dondolo_record_set
    use dondolo_kinds, only : wp
-   use dondolo_record, only : record_type
+   use dondolo_record, only : find_extremes, record_type
    implicit none
    private
 
@@ -71,33 +71,6 @@ contains
          end associate
       end do
    end subroutine new_record_set
-
-   !> Smallest and largest sample: several chains at once, since one alone waits for itself
-   pure subroutine find_extremes(samples, lowest, highest)
-      !> Samples [m/s2]
-      real(wp), intent(in) :: samples(:)
-      !> The smallest and the largest [m/s2]
-      real(wp), intent(out) :: lowest, highest
-
-      integer, parameter :: chains = 8
-      real(wp) :: low(chains), high(chains)
-      integer :: i, j
-
-      low = samples(1)
-      high = samples(1)
-      do i = 1, size(samples) - chains + 1, chains
-         do j = 1, chains
-            low(j) = min(low(j), samples(i + j - 1))
-            high(j) = max(high(j), samples(i + j - 1))
-         end do
-      end do
-      lowest = minval(low)
-      highest = maxval(high)
-      do i = size(samples) - modulo(size(samples), chains) + 1, size(samples)
-         lowest = min(lowest, samples(i))
-         highest = max(highest, samples(i))
-      end do
-   end subroutine find_extremes
 
    !> The next sample that, scaled, lies outside a range
    pure integer function next_outside(self, record, first, scale, low, high) result(sample)
