@@ -240,14 +240,18 @@ contains
       !> A time after it [s]
       real(wp), intent(in) :: h
 
-      real(wp) :: before, after, y, v, change
+      real(wp) :: before, after, y, v, slowness, change
       integer :: iteration
 
       before = 0.0_wp
       after = h
       ! From the zero of the parabola at the start
-      t = d(1)**2 - 4.0_wp*d(0)*d(2)
-      if (t > 0.0_wp) t = merge(2.0_wp*d(0)/(sqrt(t) - d(1)), -(d(1) + sqrt(t))/(2.0_wp*d(2)), d(1) < 0.0_wp)
+      t = sqrt(max(0.0_wp, d(1)**2 - 4.0_wp*d(0)*d(2)))
+      if (d(1) < 0.0_wp) then
+         t = 2.0_wp*d(0)/(t - d(1))
+      else if (d(2) < 0.0_wp) then
+         t = -(d(1) + t)/(2.0_wp*d(2))
+      end if
       if (.not. (t > 0.0_wp .and. t < h)) t = h
       do iteration = 1, most_iterations
          y = value(d, t)
@@ -259,8 +263,9 @@ contains
          end if
          change = huge(change)
          if (v < 0.0_wp) then
-            change = -y/v
-            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)/v)
+            slowness = 1.0_wp/v
+            change = -y*slowness
+            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)*slowness)
          end if
          t = t + change
          if (abs(change) <= third_order*t) exit
@@ -297,14 +302,18 @@ contains
       t = min(max(t, 0.0_wp), h)
    end function time_of_turn
 
-   !> A series
+   !> A series. Estrin's scheme here and below: half the waiting of Horner's
    pure real(wp) function value(d, t)
       !> Coefficients of 1, t, t^2, ...
       real(wp), intent(in) :: d(0:8)
       !> Time [s]
       real(wp), intent(in) :: t
 
-      value = d(0) + t*(d(1) + t*(d(2) + t*(d(3) + t*(d(4) + t*(d(5) + t*(d(6) + t*(d(7) + t*d(8))))))))
+      real(wp) :: t2, t4
+
+      t2 = t*t
+      t4 = t2*t2
+      value = (d(0) + t*d(1)) + t2*(d(2) + t*d(3)) + t4*((d(4) + t*d(5)) + t2*(d(6) + t*d(7)) + t4*d(8))
    end function value
 
    !> Rate of change of a series
@@ -314,8 +323,12 @@ contains
       !> Time [s]
       real(wp), intent(in) :: t
 
-      rate = d(1) + t*(2.0_wp*d(2) + t*(3.0_wp*d(3) + t*(4.0_wp*d(4) + t*(5.0_wp*d(5) + t*(6.0_wp*d(6) &
-         & + t*(7.0_wp*d(7) + t*(8.0_wp*d(8))))))))
+      real(wp) :: t2, t4
+
+      t2 = t*t
+      t4 = t2*t2
+      rate = (d(1) + 2.0_wp*d(2)*t) + t2*(3.0_wp*d(3) + 4.0_wp*d(4)*t) &
+         & + t4*((5.0_wp*d(5) + 6.0_wp*d(6)*t) + t2*(7.0_wp*d(7) + 8.0_wp*d(8)*t))
    end function rate
 
    !> Second derivative of a series, up to what matters for the next step of an iteration
@@ -325,7 +338,10 @@ contains
       !> Time [s]
       real(wp), intent(in) :: t
 
-      bend = 2.0_wp*d(2) + t*(6.0_wp*d(3) + t*(12.0_wp*d(4) + t*(20.0_wp*d(5) + t*(30.0_wp*d(6)))))
+      real(wp) :: t2
+
+      t2 = t*t
+      bend = (2.0_wp*d(2) + 6.0_wp*d(3)*t) + t2*((12.0_wp*d(4) + 20.0_wp*d(5)*t) + t2*(30.0_wp*d(6)))
    end function bend
 
    !> Bernstein coefficients of a series over a step
