@@ -77,6 +77,8 @@ contains
             & share(work%rocked, work%intervals)//' sample intervals'
          write (output_unit, '(a)') 'for each history that moved: '//mean(work%steps)//' steps, '// &
             & mean(work%evaluations)//' evaluations, '//mean(work%impacts)//' impacts'
+         if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
+            & '(to estimate errors every history was run a second time, with halved steps)'
       end associate
 
    contains
