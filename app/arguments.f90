@@ -65,8 +65,8 @@ contains
          else if (word == '--threads' .or. index(word, '--threads=') == 1) then
             call take_threads(word, i, arguments, error)
          else if (index(word, '-') == 1) then
-            call raise_input(error, word//': no such option; there are --check, --template, --benchmark, --threads, '// &
-               & '--quiet, --version, --help')
+            call raise_input(error, word//': no such option; there are --check, --template, --benchmark, '// &
+               & '--threads, --quiet, --version, --help')
          else if (len(word) == 0) then
             call raise_input(error, 'the name of the case is empty'//see_help)
          else if (allocated(arguments%case_file)) then

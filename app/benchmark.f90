@@ -82,7 +82,7 @@ contains
          & copies=copies*team))//'e9 operations a second, '//rounded(100.0_wp*rate_of(fingerprint, once=weak, &
          & copies=copies*team)/arithmetic)//' % of the '//rounded(1.0e-9_wp*arithmetic)// &
          & 'e9 of a loop of multiplications and additions', &
-         & '   (the loop as this executable is compiled: a variant of the engine with wider vectors can exceed 100 %)', ''
+         & '   (the loop as this executable is compiled: an engine with wider vectors can exceed 100 %)', ''
       call print_fingerprint(fingerprint)
    end subroutine run_benchmark
 
@@ -211,8 +211,8 @@ contains
             & ' collapses in '//to_text(fingerprint%histories(i))//' histories'
       end do
       write (output_unit, '(a)') '   sum of the EDPs: '//to_text(fingerprint%edps)//' millionths', &
-         & 'Collapses agree between machines, compilers and variants, but for histories on the very edge of collapse; the', &
-         & 'sum may differ by some hundreds, since rocking amplifies rounding errors and in a few histories they show.'
+         & 'Collapses agree between machines, compilers and variants, but for histories on the edge of collapse; the', &
+         & 'sum may differ by some hundreds, since rocking amplifies rounding errors, and in a few histories they show.'
    end subroutine print_fingerprint
 
    !> The word thread in the number that follows a count

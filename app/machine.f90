@@ -7,8 +7,8 @@ module dondolo_machine
 
    public :: processor_name, arithmetic_rate, seconds_since
 
-   !> Values of a chain of multiplications and additions, as many as the engine has lanes; its length; passes between two
-   !> looks at the clock
+   !> Values that each chain of multiplications and additions runs over, as many as the engine has lanes; its length;
+   !> passes between two looks at the clock
    integer, parameter :: width = 64, length = 16, passes = 2000
 
 contains

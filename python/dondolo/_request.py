@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, _core
 from dondolo.errors import InputError
 from dondolo.records import Record, flatten
-from dondolo.work import Work
 from dondolo.walls import Wall
+from dondolo.work import Work
 
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time

@@ -10,7 +10,7 @@ from dataclasses import astuple, dataclass
 class Work:
     """Counts that show that nothing is integrated that a result does not need.
 
-    They do not depend on the number of threads. With estimated errors every history counts twice, since it is run twice;
+    They do not depend on the number of threads. With estimated errors every history is run twice and counts twice;
     after Ctrl-C they are those of all that was computed.
 
     Attributes
