@@ -3,7 +3,8 @@ module dondolo_arguments
    use dondolo_error, only : error_type, raise_input
    use dondolo_job_group, only : task_names
    use dondolo_ensemble, only : largest_threads
-   use dondolo_numbers, only : parse_integer
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_text, only : join, to_text
    implicit none
    private
@@ -15,12 +16,14 @@ module dondolo_arguments
 
    !> What the command line asks for
    type :: arguments_type
-      !> 'run', 'check', 'template', 'version' or 'help'
+      !> 'run', 'check', 'template', 'benchmark', 'version' or 'help'
       character(len=:), allocatable :: action
       !> Path of the case
       character(len=:), allocatable :: case_file
       !> Task of the template
       character(len=:), allocatable :: task
+      !> Length of a measurement of the benchmark [s]
+      real(wp) :: seconds = 1.0_wp
       !> Number of threads; not allocated: the case's
       integer, allocatable :: threads
       !> Print errors and warnings only
@@ -56,11 +59,14 @@ contains
          else if (word == '--template' .or. index(word, '--template=') == 1) then
             call set_action('template')
             if (.not. allocated(error)) call take_task(word, i, arguments, error)
+         else if (word == '--benchmark' .or. index(word, '--benchmark=') == 1) then
+            call set_action('benchmark')
+            if (.not. allocated(error)) call take_seconds(word, i, arguments, error)
          else if (word == '--threads' .or. index(word, '--threads=') == 1) then
             call take_threads(word, i, arguments, error)
          else if (index(word, '-') == 1) then
-            call raise_input(error, word//': no such option; there are --check, --template, --threads, --quiet, '// &
-               & '--version, --help')
+            call raise_input(error, word//': no such option; there are --check, --template, --benchmark, --threads, '// &
+               & '--quiet, --version, --help')
          else if (len(word) == 0) then
             call raise_input(error, 'the name of the case is empty'//see_help)
          else if (allocated(arguments%case_file)) then
@@ -74,6 +80,8 @@ contains
          if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
       else if (allocated(arguments%case_file) .and. arguments%action == 'template') then
          call raise_input(error, arguments%case_file//': --template takes no case, it prints one')
+      else if (allocated(arguments%case_file) .and. arguments%action == 'benchmark') then
+         call raise_input(error, arguments%case_file//': --benchmark takes no case, it has its own')
       end if
 
    contains
@@ -118,6 +126,34 @@ contains
          call raise_input(error, '--template '//task//': the task must be one of '//join(task_names))
       end if
    end subroutine take_task
+
+   !> The length of a measurement: `--benchmark=seconds`, or the next word if there is one
+   subroutine take_seconds(word, i, arguments, error)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> What the command line asks for
+      type(arguments_type), intent(inout) :: arguments
+      !> No such length
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), parameter :: shortest = 1.0e-3_wp, longest = 60.0_wp
+      character(len=:), allocatable :: value
+      logical :: ok
+
+      if (index(word, '=') > 0) then
+         value = word(index(word, '=') + 1:)
+      else
+         value = argument(i)
+         if (i > command_argument_count() .or. index(value, '--') == 1) return
+         i = i + 1
+      end if
+      call parse_real(value, arguments%seconds, ok)
+      if (ok) ok = arguments%seconds >= shortest .and. arguments%seconds <= longest
+      if (.not. ok) call raise_input(error, '--benchmark '//value//': must be a length of a measurement between '// &
+         & to_text(shortest)//' and '//to_text(longest)//' s')
+   end subroutine take_seconds
 
    !> The number of --threads: `--threads=N`, or the next word
    subroutine take_threads(word, i, arguments, error)

@@ -13,12 +13,13 @@ module dondolo_help
       & '   dondolo CASE.nml             run a case and write its result files', &
       & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
+      & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) a measurement on one', &
       & '   dondolo --version            print the version, and the build variant for this processor', &
       & '   dondolo --help               print this page', &
       & '', &
-      & 'Options of a run:', &
-      & '   --threads N   number of threads instead of the case''s; 0: all, or OMP_NUM_THREADS', &
-      & '   --quiet       print warnings and errors only', &
+      & 'Options of a run or a benchmark:', &
+      & '   --threads N   number of threads instead of the case''s; most threads of a benchmark; 0: all, or OMP_NUM_THREADS', &
+      & '   --quiet       print warnings and errors only; of a benchmark, its figure of merit', &
       & '', &
       & 'A case is a Fortran namelist file:', &
       & '   &job          what is to be done: ''stripes'', ''history'' or ''typology''; where the results go', &

@@ -2,6 +2,7 @@
 program dondolo_main
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use dondolo_arguments, only : arguments_type, read_arguments
+   use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type, read_case
    use dondolo_error, only : error_type
    use dondolo_help, only : print_help
@@ -31,6 +32,9 @@ program dondolo_main
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//build_variant()
    case ('template')
       call print_template(arguments%task)
+   case ('benchmark')
+      call run_benchmark(arguments%seconds, team(0), arguments%quiet, error)
+      if (allocated(error)) call give_up(error)
    case default
       call serve(arguments, error)
       if (allocated(error)) call give_up(error)
@@ -55,12 +59,10 @@ contains
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
       if (arguments%action == 'check') then
-         if (.not. arguments%quiet) call print_plan(case)
+         if (.not. arguments%quiet) call print_plan(case, error)
          return
       end if
-      threads = case%job%threads
-      if (allocated(arguments%threads)) threads = arguments%threads
-      if (threads == 0) threads = available_threads()
+      threads = team(case%job%threads)
 
       call system_clock(start, rate)
       if (stderr_is_terminal() .and. .not. arguments%quiet) then
@@ -79,6 +81,16 @@ contains
       if (.not. arguments%quiet) &
          & call print_summary(case, results, paths, real(finish - start, wp)/real(rate, wp), threads)
    end subroutine serve
+
+   !> Number of threads
+   integer function team(threads)
+      !> Number unless the command line gives one; 0: all
+      integer, intent(in) :: threads
+
+      team = threads
+      if (allocated(arguments%threads)) team = arguments%threads
+      if (team == 0) team = available_threads()
+   end function team
 
    !> Print warnings
    subroutine print_warnings(warnings)

@@ -2,11 +2,14 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record_table, only : record_table
+   use dondolo_run_case, only : plan_case
    use dondolo_text, only : to_text
    use dondolo_warnings, only : rounded
+   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -18,12 +21,16 @@ module dondolo_plan
 contains
 
    !> Print what would run
-   subroutine print_plan(case)
+   subroutine print_plan(case, error)
       !> The case
       type(case_type), intent(in) :: case
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, levels, total
+      type(work_type) :: work
 
+      if (case%job%task /= 'history') call plan_case(case, work, error)
+      if (allocated(error)) return
       write (output_unit, '(a)') case%file//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//case%job%task
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
@@ -35,14 +42,11 @@ contains
             & ''', scale '//rounded(case%history_scale())
          return
       end if
-      levels = size(case%stripes%levels)
-      write (output_unit, '(a)') to_text(levels)//' levels of '//case%stripes%scaling%name//':'// &
+      write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
          & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
-      total = 0
-      do i = 1, size(case%population%walls)
-         total = total + levels*case%histories(i)
-      end do
-      write (output_unit, '(a)') to_text(total)//' histories, polarity '//case%records_input%polarity
+      write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
+      write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
+         & to_text(work%histories - work%still)//' will be integrated'
       call print_largest_scale(case)
    end subroutine print_plan
 

@@ -1,6 +1,6 @@
 !> What a run prints at its end: the results at a glance.
 module dondolo_summary
-   use, intrinsic :: iso_fortran_env, only : output_unit
+   use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
    use dondolo_ensemble, only : engine_text
    use dondolo_fragility, only : fragility_type
@@ -48,13 +48,13 @@ contains
          call print_typology(case, results)
       end select
       write (output_unit, '(a)') ''
-      call print_work(case, results, seconds, threads)
+      if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
       do i = 1, paths%count
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
    end subroutine print_summary
 
-   !> Print how much was computed, and how fast
+   !> Print how much was computed, how fast, and how much of it took no work
    subroutine print_work(case, results, seconds, threads)
       !> The case
       type(case_type), intent(in) :: case
@@ -68,14 +68,49 @@ contains
       character(len=:), allocatable :: crew
       integer :: histories
 
-      if (case%job%task == 'history') return
       histories = size(case%stripes%levels)*sum(results%histories)
       crew = ' threads'
       if (threads == 1) crew = ' thread'
       write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
          & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
          & ', engine '//engine_text(results%work)
+      associate (work => results%work)
+         write (output_unit, '(a)') 'never moved: '//share(work%still, work%histories)//' histories; rocking: '// &
+            & share(work%rocked, work%intervals)//' sample intervals'
+         write (output_unit, '(a)') 'for each history that moved: '//mean(work%steps)//' steps, '// &
+            & mean(work%evaluations)//' evaluations, '//mean(work%impacts)//' impacts'
+         if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
+            & '(to estimate errors every history was run a second time, with halved steps)'
+      end associate
+
+   contains
+
+      !> Mean of a count over the histories that moved
+      pure function mean(number) result(text)
+         !> The count
+         integer(int64), intent(in) :: number
+         !> Its mean
+         character(len=:), allocatable :: text
+
+         text = rounded(real(number, wp)/real(max(results%work%histories - results%work%still, 1_int64), wp))
+      end function mean
+
    end subroutine print_work
+
+   !> A part of a whole: both counts and the percentage
+   pure function share(part, whole) result(text)
+      !> The part
+      integer(int64), intent(in) :: part
+      !> The whole
+      integer(int64), intent(in) :: whole
+      !> Text that the name of what is counted can follow
+      character(len=:), allocatable :: text
+
+      character(len=8) :: percent
+
+      write (percent, '(f8.1)') 100.0_wp*real(part, wp)/real(max(whole, 1_int64), wp)
+      text = trim(adjustl(percent))//' %, '//to_text(part)//' of '//to_text(whole)
+   end function share
 
    !> Print the response of a time history
    subroutine print_history(case, results)

@@ -169,6 +169,25 @@ check "same bytes from one thread and two" diff -r one two
 check "same bytes from one thread and two: there are files" test -s one/out/deep/wall_histories.csv
 rm -rf one two out
 
+# What was computed: exact where it can be known, the same for any number of threads
+sed 's/levels = 0.1, 0.2, 0.4/levels = 0.08, 0.085, 0.4/' good.nml >calm.nml
+run calm.nml
+check "work: summary of still ones" grep -qE '^never moved: [0-9.]+ %, [0-9]+ of 40 histories; rocking: ' stdout
+check "work: summary of steps" grep -qE '^for each history that moved: [0-9.]+ steps, ' stdout
+check "work: in the head of every file" equal "$(grep -lE '^# work: histories = 40, still = [0-9]+, intervals = 15960, ' out/deep/*.csv | wc -l)" 4
+still=$(sed -n 's/^# work: .*still = \([0-9]*\),.*/\1/p' out/deep/wall_walls.csv)
+check "work: still ones are those without an EDP" equal "$still" \
+   "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, 'NR > 1 && $(NF - 3) == 0 { n++ } END { print n + 0 }')"
+check "work: some are still, some are not" test "$still" -gt 0 -a "$still" -lt 40
+run --check calm.nml
+check "work: --check knows what stays still" contains stdout \
+   "of them $still stay below the trigger and never move; $((40 - still)) will be integrated"
+sed "s/levels = .*/levels = 0.01, 0.02/; /0.6, 1.0/d" good.nml >calm.nml
+run --quiet calm.nml
+check "work: none below the trigger" contains out/deep/wall_walls.csv \
+   '# work: histories = 16, still = 16, intervals = 6384, rocked = 0, steps = 0, evaluations = 0, impacts = 0'
+rm -rf out
+
 sed -e "s/levels = .*/first = 0.4, last = 1.0, count = 4/; /0.6, 1.0/d" good.nml >grid.nml
 run grid.nml
 check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1 /'
@@ -223,6 +242,13 @@ check "typology: mean fraction" equal \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $NF / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out
+for threads in 1 2 3; do
+   run --quiet --threads $threads people.nml
+   mv out people$threads
+done
+check "typology: same bytes from walls one after the other and side by side" diff -r people1 people2
+check "typology: same bytes from more threads than walls" diff -r people1 people3
+rm -rf people[123]
 
 { good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/"; echo "&history record = 'r3', im_level = 0.15 /"; } >history.nml
 run history.nml
@@ -252,6 +278,8 @@ cp out/deep/wall_histories.csv plain.csv
 good_case | sed 's/edp_limit = 1.0/estimate_error = .true./' >estimate.nml
 run estimate.nml
 check "estimated errors: printed" contains "$work/stdout" "estimated errors of the EDP: at most "
+check "estimated errors: everything runs twice" contains out/deep/wall_histories.csv '# work: histories = 80, '
+check "estimated errors: the summary says so" contains "$work/stdout" 'every history was run a second time'
 check "estimated errors: a column" equal "$(header out/deep/wall_histories.csv | awk -F, '{ print $NF }')" edp_error
 check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
    <(grep -v '^#' out/deep/wall_histories.csv | sed 's/,[^,]*$//')
@@ -315,9 +343,26 @@ rm -rf template
 
 run --help
 check "help: exit code" equal "$rc" 0
-for option in --check --template --threads --quiet --version --help; do
+for option in --check --template --benchmark --threads --quiet --version --help; do
    check "help: $option" contains stdout -- "$option"
 done
+before=$(listing)
+run --benchmark 0.01 --threads 2
+check "benchmark: exit code" equal "$rc" 0
+check "benchmark: writes nothing" equal "$(listing)" "$before"
+for what in 'processor: ' 'compiler: GCC' 'options: -' 'engine: auto' 'figure of merit: ' 'arithmetic of the steps: '; do
+   check "benchmark: $what" grep -q "^$what" stdout
+done
+check "benchmark: one and two threads" equal "$(awk 'NF == 7 && $1 ~ /^[0-9]+$/ && $2 > 0 { printf "%s ", $1 }' stdout)" "1 2 "
+check "benchmark: collapses of each mechanism" equal \
+   "$(awk '/ collapses in 1320 histories$/ { printf "%s%d ", $1, ($2 > 0 && $2 < 1320) }' stdout)" \
+   "one_sided:1 free_standing:1 two_block:1 "
+sed -n '/^fingerprint/,$p' stdout >fingerprint
+run --benchmark=0.001 --threads=1
+check "benchmark: the same results from one thread" diff fingerprint <(sed -n '/^fingerprint/,$p' stdout)
+check "benchmark: one thread only" equal "$(awk 'NF == 7 && $1 ~ /^[0-9]+$/' stdout | wc -l)" 1
+run --quiet --benchmark 0.001 --threads 1
+check "benchmark: quiet" equal "$(cut -d: -f1 stdout)" "figure of merit"
 run --version
 check "version: exit code" equal "$rc" 0
 check "version: as in fpm.toml" equal "$(head -n 1 stdout)" "dondolo $(sed -n 's/^version = "\(.*\)"/\1/p' "$root/fpm.toml")"
@@ -362,6 +407,10 @@ refused "empty threads" '--threads : must be a whole number' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
 refused "two actions" '--version: cannot go together with --check' --check --version
 refused "template with a case" '--template takes no case' good.nml --template
+refused "benchmark with a case" '--benchmark takes no case' good.nml --benchmark
+refused "benchmark of no length" '--benchmark 0: must be a length of a measurement between 0.001 and 60 s' --benchmark 0
+refused "benchmark of a case" '--benchmark good.nml: must be a length' --benchmark good.nml
+refused "benchmark without its length" '--benchmark : must be a length' --benchmark=
 refused "no such case" 'none.nml: no such file' none.nml
 refused "a folder for a case" 'records: is a folder, must be a namelist file' records
 : >empty.nml

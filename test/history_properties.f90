@@ -10,8 +10,10 @@ module history_properties
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : check_limit, solver_type
    use dondolo_text, only : to_text
+   use dondolo_work, only : work_type
    use energy_balance, only : balance_type, energy_balance_of
    use dondolo_simulate, only : simulate
+   use lane_runs, only : run_alone, runs_in_lanes
    use random_history, only : history_type
    use same_response, only : is_same
    implicit none
@@ -23,6 +25,9 @@ module history_properties
    !> peak after a record of two samples
    real(wp), parameter :: most_evaluations = 2.0e3_wp
 
+   !> Most steps of a lane for each sample and impact
+   real(wp), parameter :: most_steps = 2.0e3_wp
+
    !> Longest time of a history, which no machine should need [s]
    real(wp), parameter :: longest = 3.0_wp
 
@@ -30,8 +35,9 @@ module history_properties
    real(wp), parameter :: largest_imbalance = 100.0_wp
 
    ! What the histories came to, for one line at the end
-   integer, save :: moved = 0, collapsed = 0, impacts = 0, balanced = 0, conditioned = 0
+   integer, save :: moved = 0, collapsed = 0, impacts = 0, balanced = 0, conditioned = 0, in_lanes = 0
    real(wp), save :: most_work = 0.0_wp, worst_balance = 0.0_wp, worst_midpoints = 0.0_wp, slowest = 0.0_wp
+   real(wp), save :: most_lane_steps = 0.0_wp, worst_lanes = 0.0_wp
 
 contains
 
@@ -39,7 +45,7 @@ contains
    subroutine check_properties(history, what)
       type(history_type), intent(in) :: history
       character(len=*), intent(in) :: what
-      type(response_type) :: response
+      type(response_type) :: response, lane
       type(trace_type) :: trace
 
       call check_work(history, response, what)
@@ -47,7 +53,8 @@ contains
       call check_estimate(history, response, what)
       call check_symmetries(history, response, what)
       call check_limit_at_peak(history, response, what)
-      call check_midpoints(history, response, what)
+      call check_lanes(history, lane, what//' in lanes')
+      call check_midpoints(history, response, lane, what)
       call check_trace(history, response, trace, what)
       call check_energy(history, trace, what)
       if (response%edp > 0.0_wp) moved = moved + 1
@@ -62,6 +69,8 @@ contains
          & 'most evaluations a sample '//short(most_work)//'; '//to_text(balanced)//' intervals balance, worst '// &
          & short(worst_balance)//'; '//to_text(conditioned)//' with midpoints, worst '//short(worst_midpoints)// &
          & '; slowest '//short(slowest)//' s'
+      print '(a)', to_text(in_lanes)//' in lanes, most steps a sample '//short(most_lane_steps)// &
+         & ', worst difference from rk45 '//short(worst_lanes)
    end subroutine print_extremes
 
    !> A number with three digits
@@ -149,6 +158,55 @@ contains
 
    end subroutine check_symmetries
 
+   !> In lanes: bounded steps, a result, an estimate that changes nothing else, the same symmetries to the bit. Where
+   !> the wall has no normal form up to its limit, rk45 computes it
+   subroutine check_lanes(history, response, what)
+      type(history_type), intent(in) :: history
+      type(response_type), intent(out) :: response
+      character(len=*), intent(in) :: what
+      type(response_type) :: estimated
+      type(work_type) :: work
+      type(solver_type) :: solver
+      real(wp) :: steps, start, end
+
+      if (.not. runs_in_lanes(history%wall%mechanism, history%solver)) return
+      in_lanes = in_lanes + 1
+      call cpu_time(start)
+      call run_alone(history%wall%mechanism, history%record, history%scale, history%solver, response, work)
+      call cpu_time(end)
+      call check(end - start <= longest, what//': seconds '//to_text(end - start))
+      steps = real(work%steps, wp)/real(size(history%record%acceleration) + response%impacts, wp)
+      most_lane_steps = max(most_lane_steps, steps)
+      call check(steps <= most_steps, what//': steps a sample '//to_text(steps))
+      call check(work%histories == 1 .and. work%still <= 1 .and. work%rocked <= work%intervals .and. &
+         & work%intervals == size(history%record%acceleration) - 1 .and. work%impacts == response%impacts .and. &
+         & (work%still == 0 .eqv. work%steps > 0), what//': counts')
+      call check_result(response, history%solver%edp_limit, what)
+      solver = history%solver
+      solver%estimate_error = .true.
+      call run_alone(history%wall%mechanism, history%record, history%scale, solver, estimated)
+      call check(is_same(estimated, response), what//': the same with an estimated error')
+      call check(estimated%edp_error >= 0.0_wp .and. estimated%edp_error <= solver%edp_limit, &
+         & what//': estimated error '//to_text(estimated%edp_error))
+      call check(is_same(response, again(-1.0_wp, -1.0_wp)), what//': record and polarity reversed')
+      if (history%wall%mechanism%two_sided) &
+         & call check(is_same(response, again(-1.0_wp, 1.0_wp)), what//': a two-sided wall is symmetric')
+      call check(is_same(response, again(64.0_wp, 1.0_wp/64.0_wp)), what//': record times 64, scale by 64')
+
+   contains
+
+      !> The response with the record and the scale multiplied
+      type(response_type) function again(record_factor, scale_factor)
+         real(wp), intent(in) :: record_factor, scale_factor
+         type(record_type) :: record
+
+         record = history%record
+         record%acceleration = record_factor*record%acceleration
+         call run_alone(history%wall%mechanism, record, scale_factor*history%scale, history%solver, again)
+      end function again
+
+   end subroutine check_lanes
+
    !> A limit that is just the peak, some bits less or more
    subroutine check_limit_at_peak(history, response, what)
       type(history_type), intent(in) :: history
@@ -175,9 +233,9 @@ contains
    !> collapse - differs by errors of the steps alone. How much they grow shows in a change of the scale as large as
    !> they are; where that is amplified more than a thousandfold no tolerance tells what the result should be. Every
    !> one of hundreds of steps may err by the tolerance
-   subroutine check_midpoints(history, response, what)
+   subroutine check_midpoints(history, response, lane, what)
       type(history_type), intent(in) :: history
-      type(response_type), intent(in) :: response
+      type(response_type), intent(in) :: response, lane
       character(len=*), intent(in) :: what
       real(wp), parameter :: largest_growth = 1.0e3_wp, in_hand = 100.0_wp
       type(record_type) :: finer
@@ -206,6 +264,13 @@ contains
       worst_midpoints = max(worst_midpoints, ratio)
       call check(ratio <= in_hand, what//': half the time step changes the result by '// &
          & to_text(outcome(fine) - outcome(response))//', tolerance '//to_text(change + relative*outcome(response)))
+      if (.not. runs_in_lanes(history%wall%mechanism, history%solver)) return
+      call check(lane%collapsed .eqv. response%collapsed, what//': lanes and rk45 agree on the collapse')
+      if (lane%collapsed .neqv. response%collapsed) return
+      ratio = abs(outcome(lane) - outcome(response))/(change + relative*outcome(response))
+      worst_lanes = max(worst_lanes, ratio)
+      call check(ratio <= in_hand, what//': lanes differ from rk45 by '// &
+         & to_text(outcome(lane) - outcome(response))//', tolerance '//to_text(change + relative*outcome(response)))
 
    contains
 

@@ -9,9 +9,10 @@ program test_case
    use dondolo_namelist_group, only : group_type
    use dondolo_population, only : population_type, read_population
    use dondolo_reports, only : check_reports, write_reports
-   use dondolo_run_case, only : results_type, run_case
+   use dondolo_run_case, only : plan_case, results_type, run_case
    use dondolo_system, only : is_folder, same_file
    use dondolo_text, only : to_text
+   use dondolo_work, only : work_type
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_case', lf = new_line('a')
@@ -27,6 +28,10 @@ program test_case
    character(len=*), parameter :: typology_case = "&job task = 'typology' output = '"//scratch//"/out/z' /"//lf// &
       & "&population file = 'walls.csv' /"//lf//records//"&stripes first = 0.3, last = 1.2, count = 4 /"
 
+   !> What was last heard of the progress, and whether it never went back
+   integer :: last_done
+   logical :: is_monotonic
+
    call execute_command_line('rm -rf '//scratch//' && mkdir -p '//scratch)
    call write_inputs()
    call test_values()
@@ -36,6 +41,9 @@ program test_case
    call test_population()
    call test_echo()
    call test_run()
+   call test_work()
+   call test_threads()
+   call test_first_error()
    call test_output()
    call finish()
 
@@ -273,6 +281,117 @@ contains
          end do
       end associate
    end subroutine test_run
+
+   !> What was computed, and what can be told of it before
+   subroutine test_work()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(error_type), allocatable :: error
+      type(work_type) :: planned
+
+      call suite('work')
+      call write_file('a.nml', stripes_case)
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, results, error, threads=1)
+      if (.not. allocated(error)) call plan_case(case, planned, error)
+      call check_ok(error, 'stripes')
+      if (allocated(error)) return
+      associate (work => results%work)
+         call check(work%histories == 6, 'every history')
+         call check(work%intervals == 6*500, 'every sample interval')
+         call check(work%still == count(.not. results%stripes%response%edp > 0.0_wp), 'still ones have no EDP')
+         call check(work%still > 0 .and. work%still < work%histories, 'some move, some do not')
+         call check(work%rocked > 0 .and. work%rocked < work%intervals, 'some intervals rock, some do not')
+         call check(work%steps >= work%rocked .and. work%evaluations >= work%steps, 'a step at least in each')
+         call check(planned%histories == work%histories .and. planned%intervals == work%intervals, 'known before')
+         call check(planned%still == work%still, 'so are those that never move')
+      end associate
+
+      ! Levels just below and just above the trigger acceleration: every record reaches the level as its peak, which
+      ! is a minimum or a maximum, and this wall is one-sided
+      associate (mechanism => case%population%walls(1)%mechanism)
+         case%stripes%levels = [0.999_wp, 1.001_wp]*mechanism%trigger_acceleration()/case%solver%gravity
+      end associate
+      call run_case(case, results, error)
+      if (.not. allocated(error)) call plan_case(case, planned, error)
+      call check_ok(error, 'around the trigger')
+      if (allocated(error)) return
+      call check(results%work%still == planned%still, 'what moves is known to the last')
+      case%stripes%levels = case%stripes%levels(:1)
+      call run_case(case, results, error)
+      call check(results%work%still == 2 .and. results%work%histories == 2, 'nothing moves below the trigger')
+      call check(all([results%work%rocked, results%work%steps, results%work%evaluations, results%work%impacts] == 0), &
+         & 'and nothing is computed')
+      case%solver%solver%estimate_error = .true.
+      call run_case(case, results, error)
+      call check(results%work%histories == 4, 'an estimate of errors runs everything twice')
+   end subroutine test_work
+
+   !> A population gives the same on any number of threads: walls shared out, some of them, none
+   subroutine test_threads()
+      type(case_type) :: case
+      type(results_type) :: alone, several
+      type(error_type), allocatable :: error
+      integer :: threads, i
+
+      call suite('threads')
+      ! Levels so high that scale factors are worth a warning
+      call write_file('a.nml', typology_case(:index(typology_case, '&stripes') - 1)//"&stripes levels = 0.3, 1, 9 /")
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, alone, error, 1)
+      call check_ok(error, 'one thread')
+      if (allocated(error)) return
+      call check(alone%work%histories == 3*sum(alone%histories), 'work of all walls')
+      do threads = 2, 5
+         last_done = 0
+         is_monotonic = .true.
+         call run_case(case, several, error, threads, hear)
+         call check_ok(error, to_text(threads)//' threads')
+         call check(last_done == 3*sum(alone%histories), 'all is reported done')
+         call check(is_monotonic, 'the work never goes back')
+         call check(all(several%collapses == alone%collapses), 'collapses')
+         call check(all(several%fragility%theta == alone%fragility%theta), 'curves')
+         call check(all(several%work%counts() == alone%work%counts()), 'counts of work')
+         call check(several%warnings%count == alone%warnings%count .and. alone%warnings%count > 0, 'warnings')
+         do i = 1, alone%warnings%count
+            call check_text(several%warnings%line(i)%text, alone%warnings%line(i)%text, 'warning '//to_text(i))
+         end do
+      end do
+
+   end subroutine test_threads
+
+   !> Hear how far the work is
+   subroutine hear(done, total)
+      integer, intent(in) :: done, total
+
+      is_monotonic = is_monotonic .and. done >= last_done .and. done <= total
+      last_done = done
+   end subroutine hear
+
+   !> Of several walls that cannot be run, the first is named, whichever thread meets the others
+   subroutine test_first_error()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(error_type), allocatable :: error
+      integer :: threads, i
+
+      call suite('first error')
+      call write_file('a.nml', typology_case)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      associate (bad => case%population%walls(2)%mechanism, good => case%population%walls(1)%mechanism)
+         case%solver%solver%edp_limit = 0.5_wp*(bad%geometric_end()/bad%capacity + good%geometric_end()/good%capacity)
+      end associate
+      ! The first wall can be run, no other can.
+      case%population%walls = case%population%walls([1, (2, i=1, 7)])
+      case%population%weight = spread(1.0_wp, 1, 8)
+      case%population%walls(2)%input%name = 'the first'
+      do threads = 1, 4
+         call run_case(case, results, error, threads)
+         call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')
+      end do
+   end subroutine test_first_error
 
    !> Result files appear whole or not at all
    subroutine test_output()

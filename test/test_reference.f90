@@ -1,4 +1,5 @@
-!> Multiple stripes against the tables of test/reference: the same histories computed in 33 digits (./run reference).
+!> Multiple stripes by both engines against the tables of test/reference: the same histories computed in 33 digits
+!> (./run reference).
 !>
 !> Recorded accelerograms are not part of dondolo: DONDOLO_RECORDS names their folder, ../shared/records if it is
 !> not set.
@@ -73,11 +74,17 @@ contains
       character(len=*), intent(in) :: set
       real(wp), intent(in) :: levels(:)
       character(len=13), parameter :: names(3) = [character(len=13) :: 'one_sided', 'two_block', 'free_standing']
-      integer :: j
+      character(len=5), parameter :: engines(2) = ['lanes', 'rk45 ']
+      type(response_type), allocatable :: exact(:, :)
+      integer :: j, k
 
       do j = 1, 3
          call suite(trim(names(j))//', '//set)
-         call test_table('test/reference/'//trim(names(j))//'_'//set//'.csv', made(trim(names(j))), levels)
+         call read_table('test/reference/'//trim(names(j))//'_'//set//'.csv', levels, exact)
+         do k = 1, size(engines)
+            call suite(trim(names(j))//', '//set//', '//trim(engines(k)))
+            call test_table(exact, trim(engines(k)), made(trim(names(j))), levels)
+         end do
       end do
    end subroutine test_walls
 
@@ -116,20 +123,19 @@ contains
       call check_ok(error, column)
    end function number
 
-   !> One table, at default and at tight tolerances
-   subroutine test_table(path, wall, levels)
-      character(len=*), intent(in) :: path
+   !> One table and one engine, at default and at tight tolerances
+   subroutine test_table(exact, engine, wall, levels)
+      type(response_type), intent(in) :: exact(:, :)
+      character(len=*), intent(in) :: engine
       type(wall_type), intent(in) :: wall
       real(wp), intent(in) :: levels(:)
-      type(response_type), allocatable :: exact(:, :)
       type(response_type) :: again
       type(solver_type) :: solver
       type(stripes_type) :: stripes
       logical, allocatable :: wrong(:, :)
       integer :: j, k
 
-      call read_table(path, levels, exact)
-
+      solver%engine = engine
       solver%estimate_error = .true.
       call multiple_stripe(stripes, wall, records, levels, 'pga', 'as_recorded', solver, 2, error)
       call check_ok(error, 'default tolerances')

@@ -34,6 +34,7 @@ from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
+from dondolo.work import Work
 
 __version__ = _constants().version
 
@@ -65,6 +66,7 @@ __all__ = [
     "TwoBlockWall",
     "Typology",
     "Wall",
+    "Work",
     "Window",
     "__version__",
     "animate_history",

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, _core
 from dondolo.errors import InputError
 from dondolo.records import Record, flatten
+from dondolo.work import Work
 from dondolo.walls import Wall
 
 _SECONDS = 0.4
@@ -53,6 +54,7 @@ class Outcome(NamedTuple):
     impacts: Any
     time_of_peak: _binding.FloatArray
     edp_error: _binding.FloatArray
+    work: Work
     done: int
 
 
@@ -91,20 +93,22 @@ class Request:
         collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
         flats = [wall._flat for wall in self.walls]
         arguments = self._arguments()
+        works: list[Work] = []
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
             one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
             before = int(ends[one - 1]) if one else 0
-            *rows, stat, message = _core.run_block(
+            *rows, counts, stat, message = _core.run_block(
                 *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
             )
             _binding.check(stat, message)
             here = slice(done, done + count)
             edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
+            works.append(Work(*map(int, counts)))
 
         done, interrupted = in_blocks(total, float(self.records.lengths.mean()), block, progress, label)
-        return Outcome(edp, collapsed, impacts, peak, error, done), interrupted
+        return Outcome(edp, collapsed, impacts, peak, error, Work.total(works), done), interrupted
 
 
 def in_blocks(

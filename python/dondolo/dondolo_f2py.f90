@@ -516,7 +516,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
             exit
          end if
          histories(i) = size(stripes%record)
-         call scales%look(stripes, records)
+         call scales%look(stripes, records, i)
       end do
    end if
    if (.not. allocated(error)) then
@@ -530,62 +530,86 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    call report(error, stat, message)
 end subroutine plan
 
-! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe
+! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe. Counts of
+! what was computed come in the order of work_names
 subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
-      & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, stat, &
-      & message)
+      & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
+      & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
+   use dondolo_ensemble, only : team_of
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_scaling, only : new_scaling, scaling_type
+   use dondolo_solver, only : solver_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_wall, only : wall_type
+   use dondolo_work, only : work_type
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
    real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(4)
-   real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count)
+   real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count), work(7)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
    type(record_set_type) :: set
    type(scaling_type) :: scaling
-   type(stripes_type) :: stripes
+   type(solver_type) :: solver
+   type(stripes_type), allocatable :: stripes(:)
+   type(work_type) :: total
    type(error_type), allocatable :: error
-   integer :: i, j, k, before, from, to, done
+   integer, allocatable :: before(:)
+   integer :: i, k, done, crew, shared_out
 
    edp = 0
    collapsed = 0
    impacts = 0
    time_of_peak = 0
    edp_error = 0
-   allocate (walls(w))
+   solver = as_solver(engine, settings)
+   allocate (walls(w), stripes(w), before(w + 1))
    call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
    if (.not. allocated(error)) call new_record_set(set, records)
-   before = 0
-   done = 0
+   before(1) = 0
    do i = 1, w
-      if (allocated(error) .or. done == count) exit
-      call plan_stripes(stripes, walls(i), records, levels, scaling, values, polarity, as_solver(engine, settings), error)
       if (allocated(error)) exit
-      from = max(first - before, 1)
-      to = min(first + count - 1 - before, size(stripes%response))
-      if (from <= to) call run_histories(stripes, walls(i), records, set, as_solver(engine, settings), from, to, &
-         & threads)
-      do k = from - 1, to - 1
-         j = k/size(stripes%record) + 1
-         done = done + 1
-         call pack_response(stripes%response(modulo(k, size(stripes%record)) + 1, j), edp(done), collapsed(done), &
-            & impacts(done), time_of_peak(done), edp_error(done))
-      end do
-      before = before + size(stripes%response)
+      call plan_stripes(stripes(i), walls(i), records, levels, scaling, values, polarity, solver, error)
+      if (.not. allocated(error)) before(i + 1) = before(i) + size(stripes(i)%response)
    end do
+   if (.not. allocated(error)) then
+      ! As in run_case: as many walls as go round evenly are shared out, all threads work on each of the others.
+      crew = team_of(threads, huge(1))
+      shared_out = w - modulo(w, crew)
+      !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out > 0) default(none) &
+      !$omp & shared(shared_out, stripes, walls, records, set, solver, first, count, before)
+      do i = 1, shared_out
+         call run_histories(stripes(i), walls(i), records, set, solver, max(first - before(i), 1), &
+            & min(first + count - 1 - before(i), size(stripes(i)%response)), 1)
+      end do
+      !$omp end parallel do
+      do i = shared_out + 1, w
+         call run_histories(stripes(i), walls(i), records, set, solver, max(first - before(i), 1), &
+            & min(first + count - 1 - before(i), size(stripes(i)%response)), threads)
+      end do
+      done = 0
+      do i = 1, w
+         call total%add(stripes(i)%work)
+         associate (response => stripes(i)%response, n => size(stripes(i)%record))
+            do k = max(first - before(i), 1), min(first + count - 1 - before(i), size(response))
+               done = done + 1
+               call pack_response(response(modulo(k - 1, n) + 1, (k - 1)/n + 1), edp(done), collapsed(done), &
+                  & impacts(done), time_of_peak(done), edp_error(done))
+            end do
+         end associate
+      end do
+   end if
+   work = real(total%counts(), c_double)
    call report(error, stat, message)
 end subroutine run_block
 

@@ -18,6 +18,7 @@ from dondolo.records import Record
 from dondolo.stripes import Stripes
 from dondolo.typology import Typology, combine
 from dondolo.walls import MECHANISMS, Population, Wall
+from dondolo.work import Work
 
 # Columns of _walls.csv and the arguments of a wall
 _WALL_COLUMNS = {
@@ -120,6 +121,14 @@ def _setting(comments: list[str], name: str, default: float) -> float:
     return default
 
 
+def _work(comments: list[str]) -> Work:
+    """What was computed, out of the comments."""
+    for comment in comments:
+        if comment.startswith("work:"):
+            return Work(**{name: int(count) for name, count in re.findall(r"(\w+) = (\d+)", comment)})
+    raise ValueError("no line '# work:'")
+
+
 def _population(rows: Rows, gravity: float) -> Population:
     """Walls as they were given."""
     walls: list[Wall] = []
@@ -194,16 +203,17 @@ def _stripes(path: str, wall: Wall) -> Stripes:
         rtol=_setting(comments, "rtol", np.nan),
         atol=_setting(comments, "atol", np.nan),
         edp_limit=_setting(comments, "edp_limit", 1.0),
+        work=_work(comments),
         edp_error=_numbers(rows, "edp_error").reshape(shape) if "edp_error" in rows else None,
     )
 
 
 def _typology(path: str, population: Population) -> Typology:
     """Counts of all walls of a population."""
-    rows, _ = _read(path)
+    rows, comments = _read(path)
     levels = np.unique(_numbers(rows, "im_level"))
     shape = (len(population), len(levels))
     collapses = _numbers(rows, "collapses").reshape(shape).astype(np.int32)
     histories = _numbers(rows, "histories").reshape(shape)[:, 0].astype(np.int32)
     everyone = np.ones(len(population), dtype=bool)
-    return combine(population, rows["im"][0], levels, histories, collapses, everyone)[0]
+    return combine(population, rows["im"][0], levels, histories, collapses, everyone, _work(comments))[0]

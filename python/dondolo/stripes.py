@@ -16,6 +16,7 @@ from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, fit
 from dondolo.records import Record, as_records
 from dondolo.walls import Wall
+from dondolo.work import Work
 
 FloatArray = _binding.FloatArray
 
@@ -46,6 +47,8 @@ class Stripes:
         +1 as recorded, -1 reversed.
     engine, edp_limit, rtol, atol
         How it was computed.
+    work : Work
+        What was computed, and what was not.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     """
@@ -64,6 +67,7 @@ class Stripes:
     rtol: float
     atol: float
     edp_limit: float
+    work: Work
     edp_error: FloatArray | None = None
 
     @property
@@ -145,6 +149,7 @@ class Stripes:
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
             ("histories of a stripe", str(self.edp.shape[1])),
             ("collapses", " ".join(map(str, self.collapses))),
+            ("work", str(self.work)),
         ]
 
     def __repr__(self) -> str:
@@ -252,6 +257,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         rtol,
         atol,
         edp_limit,
+        outcome.work,
         error if estimated else None,
     )
 

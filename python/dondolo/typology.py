@@ -18,6 +18,7 @@ from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
 from dondolo.walls import Population, Wall
+from dondolo.work import Work
 
 FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
@@ -72,6 +73,8 @@ class Typology:
     groups : tuple of Group
         A group for each mechanism, in the order they appear in, and the last for all walls (the same where there is
         but one mechanism).
+    work : Work
+        What was computed for all walls, and what was not.
     """
 
     walls: tuple[Wall, ...]
@@ -82,6 +85,7 @@ class Typology:
     histories: IntArray
     curves: tuple[Fragility, ...]
     groups: tuple[Group, ...]
+    work: Work
 
     @property
     def weight(self) -> float:
@@ -167,6 +171,7 @@ class Typology:
             ("walls", f"{len(self.walls)}, {fitted} of them with a curve"),
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
             *self.fit()._facts(),
+            ("work", str(self.work)),
         ]
 
     def __repr__(self) -> str:
@@ -226,20 +231,20 @@ def typology(
     request = new_request(people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads)
     plan = request.plan()
     if executor is None:
-        collapses, complete = _run_here(request, plan.histories, progress)
+        collapses, complete, work = _run_here(request, plan.histories, progress)
     else:
-        collapses, complete = _run_there(request, plan.histories, progress, executor)
+        collapses, complete, work = _run_there(request, plan.histories, progress, executor)
     if not complete.any():
         raise Interrupted("interrupted: no wall is complete")
-    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, complete)
+    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, complete, work)
     if not complete.all():
         raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
     return result
 
 
-def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[IntArray, np.ndarray[Any, Any]]:
-    """Collapses (walls, levels), and which walls are complete."""
+def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
+    """Collapses (walls, levels), which walls are complete, and what was computed."""
     outcome, _ = request.run(histories, progress, f"{len(request.walls)} walls")
     number = len(request.levels)
     ends = np.cumsum(histories.astype(np.int64) * number)
@@ -248,16 +253,17 @@ def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[In
     for i in np.flatnonzero(complete):
         block = outcome.collapsed[ends[i] - histories[i] * number : ends[i]]
         collapses[i] = block.reshape(number, -1).sum(axis=1)
-    return collapses, complete
+    return collapses, complete, outcome.work
 
 
 def _run_there(
     request: Request, histories: IntArray, progress: bool, executor: Executor
-) -> tuple[IntArray, np.ndarray[Any, Any]]:
+) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
     """The same by an executor: a block of walls is a task."""
     walls = len(request.walls)
     collapses = np.zeros((walls, len(request.levels)), dtype=np.int32)
     complete = np.zeros(walls, dtype=bool)
+    works: dict[Future[Any], Work] = {}
     tasks: dict[Future[Any], Any] = {}
     bar = progress_bar(walls, progress, f"{walls} walls", "wall")
     try:
@@ -265,15 +271,15 @@ def _run_there(
             part = dataclasses.replace(request, walls=tuple(request.walls[i] for i in block))
             tasks[executor.submit(_run_here, part, histories[block], False)] = block
         for task in as_completed(tasks):
-            collapses[tasks[task]], complete[tasks[task]] = task.result()
+            collapses[tasks[task]], complete[tasks[task]], works[task] = task.result()
             bar.update(len(tasks[task]))
     except KeyboardInterrupt:
         for task, block in tasks.items():
             if not task.cancel() and task.done() and task.exception() is None:
-                collapses[block], complete[block] = task.result()
+                collapses[block], complete[block], works[task] = task.result()
     finally:
         bar.close()
-    return collapses, complete
+    return collapses, complete, Work.total(works.values())
 
 
 def combine(
@@ -283,6 +289,7 @@ def combine(
     histories: IntArray,
     collapses: IntArray,
     complete: np.ndarray[Any, Any],
+    work: Work,
 ) -> tuple[Typology, list[str]]:
     """The curves of the walls that are complete, from their counts (walls, levels); and what to warn of."""
     chosen = np.flatnonzero(complete)
@@ -317,5 +324,6 @@ def combine(
         histories,
         own,
         tuple(together),
+        work,
     )
     return result, sentences

@@ -38,6 +38,9 @@ def test_every_number(name, root, run, tmp_path):
         theirs = body(tmp_path / f"{results.case.output}_{table}.csv")
         assert len(theirs) > 1
         assert body(mine) == theirs
+    if main is not results.response:
+        stored = dd.read_results(tmp_path / results.case.output)
+        assert (stored.stripes or stored.typology).work == main.work
 
 
 def test_the_same_warnings(root, run):

@@ -48,6 +48,23 @@ def test_every_history_is_the_motion_it_stands_for(analysis, wall, few):
             assert motion.time_of_peak == analysis.time_of_peak[j, i]
 
 
+def test_work(analysis, wall, few):
+    work = analysis.work
+    assert work.histories == analysis.edp.size
+    assert work.still == (analysis.edp == 0.0).sum() > 0
+    assert work.intervals == 2 * 3 * sum(len(record.acceleration) - 1 for record in few)
+    assert 0 < work.rocked < work.intervals
+    assert work.steps >= work.rocked
+    assert work.evaluations >= work.steps
+    assert f"{work.still} of {work.histories} histories never move" in repr(analysis)
+    # Below the trigger nothing is integrated; with estimated errors, twice nothing.
+    trigger = wall.trigger_acceleration / wall.gravity
+    for estimate_error, times in ((False, 1), (True, 2)):
+        calm = dd.multiple_stripe(wall, few, [0.999 * trigger], estimate_error=estimate_error, progress=False).work
+        samples = sum(len(record.acceleration) - 1 for record in few)
+        assert calm == dd.Work(histories=times * len(few), still=times * len(few), intervals=times * samples)
+
+
 def test_two_sided_walls_run_both_polarities_once(few):
     wall = dd.FreeStandingWall(2.0, 0.4)
     both = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
@@ -61,6 +78,7 @@ def test_threads_change_nothing(analysis, wall, few, threads):
     other = dd.multiple_stripe(wall, few, LEVELS, polarity="both", threads=threads, progress=False)
     assert np.array_equal(other.edp, analysis.edp)
     assert np.array_equal(other.time_of_peak, analysis.time_of_peak)
+    assert other.work == analysis.work
 
 
 @pytest.mark.parametrize("samples", [1, 20_000])
@@ -80,6 +98,7 @@ def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch):
     assert sum(sizes) == other.edp.size
     assert np.array_equal(other.edp, analysis.edp)
     assert np.array_equal(other.collapsed, analysis.collapsed)
+    assert other.work == analysis.work
 
 
 def test_two_python_threads_at_once(analysis, wall, few):

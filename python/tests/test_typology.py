@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dondolo as dd
+from dondolo import _request
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -28,14 +29,17 @@ def typology(population, few):
 
 
 def test_every_wall_is_its_own_analysis(typology, population, few):
+    works = []
     for i, wall in enumerate(population):
         stripes = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
         assert np.array_equal(typology.collapses[:, i], stripes.collapses)
         assert typology.histories[i] == stripes.edp.shape[1]
+        works.append(stripes.work)
         curve = stripes.fit()
         assert typology.curves[i].status == curve.status
         if curve.has_fit:
             assert (typology.curves[i].theta, typology.curves[i].beta) == (curve.theta, curve.beta)
+    assert typology.work == dd.Work.total(works)
 
 
 def test_means(typology, population):
@@ -90,11 +94,17 @@ def test_executors(typology, population, few, kind):
     assert np.array_equal(other.collapses, typology.collapses)
     assert other.fit().theta == typology.fit().theta
     assert np.array_equal(other.mean_curve, typology.mean_curve)
+    assert other.work == typology.work
 
 
-def test_threads_change_nothing(typology, population, few):
-    other = dd.typology(population, few, LEVELS, polarity="both", threads=1, progress=False)
+@pytest.mark.parametrize("threads", [1, 2, 3, 8])
+@pytest.mark.parametrize("samples", [20_000, 10_000_000])
+def test_threads_change_nothing(typology, population, few, threads, samples, monkeypatch):
+    """Blocks of parts of a wall, and one of all walls: some shared out among the threads, the others run by all."""
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", samples)
+    other = dd.typology(population, few, LEVELS, polarity="both", threads=threads, progress=False)
     assert np.array_equal(other.collapses, typology.collapses)
+    assert other.work == typology.work
     assert other.fit().theta == typology.fit().theta
 
 

@@ -1,5 +1,6 @@
 !> Numbers and words as text: what messages, readers and tables share.
 module dondolo_text
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    implicit none
    private
@@ -10,6 +11,7 @@ module dondolo_text
    interface to_text
       module procedure :: real_to_text
       module procedure :: integer_to_text
+      module procedure :: count_to_text
    end interface to_text
 
 contains
@@ -79,6 +81,19 @@ contains
       write (buffer, '(i0)') value
       text = trim(buffer)
    end function integer_to_text
+
+   !> A large count without blanks
+   pure function count_to_text(value) result(text)
+      !> Count
+      integer(int64), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=24) :: buffer
+
+      write (buffer, '(i0)') value
+      text = trim(buffer)
+   end function count_to_text
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)

@@ -13,6 +13,7 @@ module dondolo_case
    use dondolo_population, only : population_type, read_population
    use dondolo_population_group, only : echo_population, read_population_group
    use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
@@ -49,6 +50,8 @@ module dondolo_case
       type(record_type), allocatable :: records(:)
       !> Intensity measure and levels
       type(stripes_input_type) :: stripes
+      !> The records joined, where there are many histories
+      type(record_set_type) :: record_set
       !> Values of the measure for the records as they stand, where records are scaled to levels
       real(wp), allocatable :: values(:)
       !> How the motions are computed
@@ -253,6 +256,7 @@ contains
       if (allocated(error)) return
       if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
          & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
+      if (case%job%task /= 'history') call new_record_set(case%record_set, case%records)
       if (case%job%task == 'history') then
          associate (record => case%records(case%history%record))
             scale = abs(case%history_scale())

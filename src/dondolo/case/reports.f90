@@ -10,6 +10,7 @@ module dondolo_reports
    use dondolo_run_case, only : results_type
    use dondolo_text, only : to_table, to_text
    use dondolo_version, only : dondolo_version_text
+   use dondolo_work, only : work_names, work_type
    implicit none
    private
 
@@ -90,7 +91,7 @@ contains
       paths = files%paths
    end subroutine write_reports
 
-   !> Comment lines: which program, which case, and what to beware of
+   !> Comment lines: which program, which case, what was computed, and what to beware of
    subroutine write_head(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
@@ -109,11 +110,31 @@ contains
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)
       end do
-      if (case%job%task /= 'history') call files%line('# unit of im_level and theta: '//unit_of_levels(case))
+      if (case%job%task /= 'history') then
+         call files%line('# unit of im_level and theta: '//unit_of_levels(case))
+         call files%line('# work: '//counts_of(results%work))
+      end if
       do i = 1, results%warnings%count
          call files%line('# warning: '//results%warnings%line(i)%text)
       end do
    end subroutine write_head
+
+   !> Counts of what was computed, for the head of a file
+   pure function counts_of(work) result(text)
+      !> What was computed
+      type(work_type), intent(in) :: work
+      !> Names and counts
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      associate (counts => work%counts())
+         text = trim(work_names(1))//' = '//to_text(counts(1))
+         do i = 2, size(counts)
+            text = text//', '//trim(work_names(i))//' = '//to_text(counts(i))
+         end do
+      end associate
+   end function counts_of
 
    !> Unit of the levels, for the head of a file
    pure function unit_of_levels(case) result(unit)

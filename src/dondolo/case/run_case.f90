@@ -1,15 +1,17 @@
 !> Run a case: from walls, records and levels to responses, curves and warnings. Nothing is printed or written here.
 module dondolo_run_case
+   use, intrinsic :: omp_lib, only : omp_get_thread_num
    use dondolo_case, only : case_type
+   use dondolo_ensemble, only : team_of
    use dondolo_error, only : add_place, error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_queue, only : progress_interface
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_solver, only : solver_type
+   use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_fits, &
@@ -18,7 +20,7 @@ module dondolo_run_case
    implicit none
    private
 
-   public :: results_type, run_case
+   public :: results_type, run_case, plan_case
 
    !> Results of a case; what its task does not make stays empty
    type :: results_type
@@ -36,7 +38,7 @@ module dondolo_run_case
       type(response_type) :: response
       !> Its time history
       type(trace_type) :: trace
-      !> What was computed: tasks 'stripes' and 'typology'
+      !> What was computed, of all walls: tasks 'stripes' and 'typology'
       type(work_type) :: work
       !> What the user should know
       type(lines_type) :: warnings
@@ -74,6 +76,25 @@ contains
       end select
    end subroutine run_case
 
+   !> What can be told of the work of a case before it is run: see planned_work
+   subroutine plan_case(case, work, error)
+      !> The case, its task 'stripes' or 'typology'
+      type(case_type), intent(in) :: case
+      !> Work of all walls; a second run to estimate errors is not counted
+      type(work_type), intent(out) :: work
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+
+      type(stripes_type) :: stripes
+      integer :: i
+
+      do i = 1, size(case%population%walls)
+         call plan_wall(case, i, stripes, error)
+         if (allocated(error)) return
+         call work%add(planned_work(stripes, case%population%walls(i), case%record_set))
+      end do
+   end subroutine plan_case
+
    !> Stripes of the one wall, all histories kept
    subroutine run_stripes(case, results, error, team, progress)
       !> The case
@@ -88,14 +109,13 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(scale_warning_type) :: scales
-      type(record_set_type) :: set
 
       call make_room(case, results)
-      call new_record_set(set, case%records)
-      call run_wall(case, set, 1, results, results%stripes, error, team, progress)
+      call run_wall(case, 1, results, results%stripes, error, team, progress)
       if (allocated(error)) return
+      results%work = results%stripes%work
       call warn_of_records(case%records, results%warnings)
-      call scales%look(results%stripes, case%records)
+      call scales%look(results%stripes, case%records, 1)
       call scales%warn(results%warnings)
       call warn_of_fit(case%population%walls(1), results%stripes, results%fragility(1), results%warnings)
       call warn_of_errors(results%stripes, case%records, case%solver%solver%edp_limit, results%warnings)
@@ -111,24 +131,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Number of threads; 0: all
       integer, intent(in) :: team
-      !> Hears how far the work is, after every wall
+      !> Hears how far the work is, after a wall
       procedure(progress_interface), optional :: progress
 
       type(scale_warning_type) :: scales
-      type(stripes_type) :: stripes
-      type(record_set_type) :: set
       character(len=len(mechanism_names)), allocatable :: mechanisms(:)
-      integer :: i, levels
+      integer :: i
 
       call make_room(case, results)
-      levels = size(case%stripes%levels)
-      call new_record_set(set, case%records)
-      do i = 1, size(case%population%walls)
-         call run_wall(case, set, i, results, stripes, error, team)
-         if (allocated(error)) return
-         call scales%look(stripes, case%records)
-         if (present(progress)) call progress(levels*sum(results%histories(:i)), levels*sum(results%histories))
-      end do
+      call run_walls(case, results, scales, error, team, progress)
+      if (allocated(error)) return
       allocate(mechanisms(size(case%population%walls)))
       do i = 1, size(mechanisms)
          mechanisms(i) = case%population%walls(i)%input%mechanism
@@ -140,6 +152,76 @@ contains
       call scales%warn(results%warnings)
       call warn_of_fits(case%population%walls, results%fragility, results%typologies, results%warnings)
    end subroutine run_typology
+
+   !> Every wall of the population. As many walls as go round evenly are shared out among the threads; on each of the
+   !> others, all threads work together. Results do not depend on it
+   subroutine run_walls(case, results, scales, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results: counts, curves and work of the walls are set
+      type(results_type), intent(inout) :: results
+      !> What there is to say of the scale factors
+      type(scale_warning_type), intent(inout) :: scales
+      !> What cannot be run: of the first such wall
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      integer :: i, walls, threads, shared_out, failed, done, total
+
+      walls = size(case%population%walls)
+      total = size(case%stripes%levels)*sum(results%histories)
+      done = 0
+      failed = walls + 1
+      threads = team_of(team, huge(1))
+      shared_out = walls - modulo(walls, threads)
+      !$omp parallel do schedule(dynamic) num_threads(threads) if(shared_out > 0) default(none) shared(shared_out)
+      do i = 1, shared_out
+         call one_wall(i, 1)
+      end do
+      !$omp end parallel do
+      do i = shared_out + 1, walls
+         call one_wall(i, threads)
+      end do
+      if (present(progress)) call progress(done, total)
+
+   contains
+
+      !> Run one wall, unless one before it could not be run
+      subroutine one_wall(wall, crew)
+         !> Number of the wall
+         integer, intent(in) :: wall
+         !> Threads that work on it
+         integer, intent(in) :: crew
+
+         type(stripes_type) :: stripes
+         type(error_type), allocatable :: trouble
+         integer :: first_failed, now
+
+         !$omp atomic read
+         first_failed = failed
+         if (wall > first_failed) return
+         call run_wall(case, wall, results, stripes, trouble, crew)
+         !$omp critical (gather_wall)
+         if (.not. allocated(trouble)) then
+            call scales%look(stripes, case%records, wall)
+            call results%work%add(stripes%work)
+         else if (wall < failed) then
+            !$omp atomic write
+            failed = wall
+            call move_alloc(trouble, error)
+         end if
+         done = done + size(case%stripes%levels)*results%histories(wall)
+         now = done
+         !$omp end critical (gather_wall)
+         if (present(progress)) then
+            if (omp_get_thread_num() == 0) call progress(now, total)
+         end if
+      end subroutine one_wall
+
+   end subroutine run_walls
 
    !> Room for the counts and curves of all walls
    subroutine make_room(case, results)
@@ -156,11 +238,9 @@ contains
    end subroutine make_room
 
    !> Stripes and curve of one wall
-   subroutine run_wall(case, set, wall, results, stripes, error, team, progress)
+   subroutine run_wall(case, wall, results, stripes, error, team, progress)
       !> The case
       type(case_type), intent(in) :: case
-      !> Its accelerograms, joined
-      type(record_set_type), intent(in) :: set
       !> Number of the wall
       integer, intent(in) :: wall
       !> Results: counts and curve of the wall are set
@@ -175,11 +255,11 @@ contains
       procedure(progress_interface), optional :: progress
 
       real(wp) :: histories(size(case%stripes%levels))
+      type(solver_type) :: solver
 
-      call plan_stripes(stripes, case%population%walls(wall), case%records, case%stripes%levels, &
-         & case%stripes%scaling, case%values, case%records_input%polarity, case%solver%solver, error)
+      call plan_wall(case, wall, stripes, error)
       if (.not. allocated(error)) then
-         call run_histories(stripes, case%population%walls(wall), case%records, set, case%solver%solver, 1, &
+         call run_histories(stripes, case%population%walls(wall), case%records, case%record_set, solver, 1, &
             & size(stripes%response), team, progress)
          call results%work%add(stripes%work)
          results%collapses(:, wall) = stripes%collapses()
@@ -189,5 +269,20 @@ contains
       end if
       call add_place(error, 'wall '''//case%population%walls(wall)%input%name//'''')
    end subroutine run_wall
+
+   !> Choose the histories of one wall
+   subroutine plan_wall(case, wall, stripes, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Number of the wall
+      integer, intent(in) :: wall
+      !> The plan
+      type(stripes_type), intent(out) :: stripes
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+
+      call plan_stripes(stripes, case%population%walls(wall), case%records, case%stripes%levels, &
+         & case%stripes%scaling, case%values, case%records_input%polarity, case%solver%solver, error)
+   end subroutine plan_wall
 
 end module dondolo_run_case

@@ -29,6 +29,8 @@ module dondolo_warnings
       real(wp) :: level = 0.0_wp
       !> Its record
       character(len=:), allocatable :: record
+      !> Number of its wall
+      integer :: wall = 0
    contains
       !> Look at the factors of a wall
       procedure :: look
@@ -38,22 +40,27 @@ module dondolo_warnings
 
 contains
 
-   !> Look at the factors of a wall
-   subroutine look(self, stripes, records)
+   !> Look at the factors of a wall; what there is to say does not depend on the order of the walls
+   subroutine look(self, stripes, records, wall)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
       !> Records
       type(record_type), intent(in) :: records(:)
+      !> Number of the wall
+      integer, intent(in) :: wall
 
+      real(wp) :: largest
       integer :: at(2)
 
       self%histories = self%histories + size(stripes%scale)
       self%large = self%large + count(stripes%scale > large_scale)
       at = maxloc(stripes%scale)
-      if (stripes%scale(at(1), at(2)) <= self%largest) return
-      self%largest = stripes%scale(at(1), at(2))
+      largest = stripes%scale(at(1), at(2))
+      if (.not. (largest > self%largest .or. (largest >= self%largest .and. wall < self%wall))) return
+      self%largest = largest
+      self%wall = wall
       self%level = stripes%levels(at(2))
       self%record = records(stripes%record(at(1)))%name
    end subroutine look

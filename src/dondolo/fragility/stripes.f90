@@ -10,6 +10,7 @@ module dondolo_stripes
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type
+   use dondolo_rest, only : new_rest, rest_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : join, to_text
@@ -18,7 +19,7 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, measure_records, plan_stripes, run_histories
+   public :: stripes_type, multiple_stripe, measure_records, plan_stripes, planned_work, run_histories
    public :: check_levels, check_polarity, polarity_names
 
    !> Polarities a record can be used with
@@ -138,6 +139,37 @@ contains
       if (allocated(error)) return
       allocate(stripes%response(size(stripes%record), size(levels)))
    end subroutine plan_stripes
+
+   !> What can be told of a plan's work before it is run: histories, sample intervals, and which histories never move
+   pure function planned_work(stripes, wall, set) result(work)
+      !> The plan
+      type(stripes_type), intent(in) :: stripes
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Accelerograms, joined
+      type(record_set_type), intent(in) :: set
+      !> Histories, still ones and intervals; the other counts are 0
+      type(work_type) :: work
+
+      type(rest_type) :: rest
+      real(wp) :: trigger, high
+      integer :: i, j
+
+      rest = new_rest(wall%mechanism)
+      trigger = rest%trigger()
+      high = merge(trigger, huge(trigger), rest%two_sided)
+      do j = 1, size(stripes%levels)
+         do i = 1, size(stripes%record)
+            associate (record => stripes%record(i))
+               work%histories = work%histories + 1
+               work%intervals = work%intervals + set%length(record) - 1
+               ! The wall moves as soon as a sample lies outside what it can bear at rest.
+               if (set%next_outside(record, 1, real(stripes%polarity(i), wp)*stripes%scale(i, j), -trigger, high) &
+                  & > set%length(record)) work%still = work%still + 1
+            end associate
+         end do
+      end do
+   end function planned_work
 
    !> Run some of the histories of a plan; they are numbered stripe by stripe, from the lowest level
    subroutine run_histories(stripes, wall, records, set, solver, first, last, threads, progress)

@@ -158,7 +158,7 @@ contains
       stage = new_stage(mechanism, solver)
       if (stage%form%exists) return
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
-         & 'must be ''auto'' or ''rk45'', or edp_limit smaller')
+         & 'must be ''auto'' or ''rk45'', or another edp_limit')
    end subroutine check_engine
 
    !> Threads that share some work

@@ -27,6 +27,9 @@ module dondolo_normal_form
    !> Coefficients that rounding alone may leave, relative to the largest value
    real(wp), parameter :: noise = 10.0_wp*epsilon(1.0_wp)
 
+   !> Least limit / capacity, so that powers of its inverse stay finite
+   real(wp), parameter :: least_limit = 1.0e-20_wp
+
    !> A mechanism up to its limit rotation
    type :: normal_form_type
       !> Do polynomials hold its terms to rounding? If not, the rest is undefined
@@ -66,6 +69,7 @@ contains
       real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
       integer :: i, iteration, needed
 
+      if (limit < least_limit*mechanism%capacity) return
       z = chebyshev_nodes(nodes)
       q = 0.5_wp*limit*(1.0_wp + z)
       call sample(mechanism, q, inertia, stretch, a, b)
@@ -163,7 +167,8 @@ contains
       if (self%is_identity) then
          rotation = self%unit*y
       else
-         rotation = chebyshev_value(self%q, y - 1.0_wp)
+         ! Rounding may lead below zero.
+         rotation = max(0.0_wp, chebyshev_value(self%q, y - 1.0_wp))
       end if
    end function rotation
 

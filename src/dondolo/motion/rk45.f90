@@ -50,9 +50,10 @@ contains
       type(motion_type) :: motion
       type(tail_type) :: tail
       real(wp) :: start
-      integer :: last, ending, first, rocked
+      integer :: last, ending, first, rocked, last_rocked
 
       rocked = 0
+      last_rocked = 0
       scene%rest = new_rest(mechanism)
       scene%scale = scale
       scene%solver = solver
@@ -74,7 +75,8 @@ contains
          first = motion%interval
          start = motion%time
          call rock(mechanism, scene, record, last, motion, ending, trace)
-         rocked = rocked + min(motion%interval, last) - first + 1
+         rocked = rocked + min(motion%interval, last) - max(first - 1, last_rocked)
+         last_rocked = min(motion%interval, last)
          if (ending /= at_rest) exit
          ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
          if (motion%interval == first .and. motion%time - start <= shortest_motion*record%dt) &

@@ -25,6 +25,8 @@ module dondolo_solver
       real(wp) :: edp_limit = 1.0_wp
       !> Run every history a second time, to estimate the error of its EDP?
       logical :: estimate_error = .false.
+      !> Are only collapses wanted, and no EDPs? The engine lanes then leaves out what only peaks need
+      logical :: collapses_only = .false.
       !> Least number of steps from sample to sample, and from an event to the next sample
       integer :: steps_per_sample = 1
    end type solver_type

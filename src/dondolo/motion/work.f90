@@ -4,7 +4,11 @@ module dondolo_work
    implicit none
    private
 
-   public :: work_type
+   public :: work_type, work_names
+
+   !> Names of the counts, in the order of `counts`
+   character(len=11), parameter :: work_names(7) = [character(len=11) :: 'histories', 'still', 'intervals', 'rocked', &
+      & 'steps', 'evaluations', 'impacts']
 
    !> Counts over histories
    type :: work_type
@@ -19,6 +23,8 @@ module dondolo_work
    contains
       !> Add other counts
       procedure :: add
+      !> The counts as an array
+      procedure :: counts
    end type work_type
 
 contains
@@ -39,5 +45,15 @@ contains
       self%evaluations = self%evaluations + other%evaluations
       self%impacts = self%impacts + other%impacts
    end subroutine add
+
+   !> The counts as an array, in the order of work_names
+   pure function counts(self)
+      !> Counts
+      class(work_type), intent(in) :: self
+      !> The same
+      integer(int64) :: counts(size(work_names))
+
+      counts = [self%histories, self%still, self%intervals, self%rocked, self%steps, self%evaluations, self%impacts]
+   end function counts
 
 end module dondolo_work

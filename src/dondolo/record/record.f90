@@ -9,7 +9,7 @@ module dondolo_record
    implicit none
    private
 
-   public :: record_type, new_record
+   public :: record_type, new_record, find_extremes
    public :: largest_acceleration
 
    !> Largest ground acceleration that is taken for a measurement [m/s2]: a thousand times gravity
@@ -79,7 +79,10 @@ contains
       !> max |a| [m/s2]
       real(wp) :: pga
 
-      pga = maxval(abs(self%acceleration))
+      real(wp) :: lowest, highest
+
+      call find_extremes(self%acceleration, lowest, highest)
+      pga = max(-lowest, highest)
    end function pga
 
    !> Time of the last sample [s]
@@ -91,5 +94,32 @@ contains
 
       duration = real(size(self%acceleration) - 1, wp)*self%dt
    end function duration
+
+   !> Smallest and largest sample: several chains at once, since one alone waits for itself
+   pure subroutine find_extremes(samples, lowest, highest)
+      !> Samples [m/s2]
+      real(wp), intent(in) :: samples(:)
+      !> The smallest and the largest [m/s2]
+      real(wp), intent(out) :: lowest, highest
+
+      integer, parameter :: chains = 8
+      real(wp) :: low(chains), high(chains)
+      integer :: i, j
+
+      low = samples(1)
+      high = samples(1)
+      do i = 1, size(samples) - chains + 1, chains
+         do j = 1, chains
+            low(j) = min(low(j), samples(i + j - 1))
+            high(j) = max(high(j), samples(i + j - 1))
+         end do
+      end do
+      lowest = minval(low)
+      highest = maxval(high)
+      do i = size(samples) - modulo(size(samples), chains) + 1, size(samples)
+         lowest = min(lowest, samples(i))
+         highest = max(highest, samples(i))
+      end do
+   end subroutine find_extremes
 
 end module dondolo_record

@@ -1,7 +1,7 @@
 !> Accelerograms side by side, for many histories at once: all samples in one array, and where it is worth looking.
 module dondolo_record_set
    use dondolo_kinds, only : wp
-   use dondolo_record, only : record_type
+   use dondolo_record, only : find_extremes, record_type
    implicit none
    private
 
@@ -60,8 +60,7 @@ contains
             set%samples(before + n + 1:before + n + 2) = 0.0_wp
             do j = 1, n, block_size
                k = k + 1
-               set%lowest(k) = minval(a(j:min(j + block_size - 1, n)))
-               set%highest(k) = maxval(a(j:min(j + block_size - 1, n)))
+               call find_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
             end do
             set%lowest_left(k) = set%lowest(k)
             set%highest_left(k) = set%highest(k)

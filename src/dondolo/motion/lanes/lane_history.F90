@@ -6,7 +6,7 @@ module dondolo_lane_history
    use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_lane_stage, only : stage_type
-   use dondolo_lane_state, only : lanes_type
+   use dondolo_lane_state, only : event_possible, lanes_type, step_too_long
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_record, only : record_type
@@ -30,6 +30,8 @@ module dondolo_lane_history
       !> Where it began to rock: sample interval and time in it [s]
       integer :: start_interval = 0
       real(wp) :: start_time = 0.0_wp
+      !> Last sample interval in which it rocked before
+      integer :: last_rocked = 0
       !> Largest rotation so far [rad] and its time [s]
       real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
       !> Impacts so far, and tiny bounces in a row
@@ -77,7 +79,8 @@ contains
       work%intervals = work%intervals + set%length(history%record) - 1
       lanes%dt(i) = record%dt
       lanes%rate(i) = 1.0_wp/record%dt
-      lanes%peak(i) = 0.0_wp
+      lanes%peak(i) = stage%first_peak
+      history%peak = stage%first_rotation
       lanes%y(i) = 0.0_wp
       lanes%v(i) = 0.0_wp
       lanes%last(i) = set%offset(history%record) + set%length(history%record)
@@ -109,12 +112,12 @@ contains
       real(wp) :: y, v, d(0:8), h
       integer :: event
 
-      if (lanes%flag(i) == 1) then
+      if (lanes%flag(i) >= event_possible) then
          d = [lanes%y(i), lanes%v(i), lanes%series(i, :)]
          ! A wall at rest begins to rock where its moment is zero: never inwards, whatever the rounding says.
          if (d(0) == 0.0_wp .and. d(1) == 0.0_wp) d(2) = max(0.0_wp, d(2))
          h = lanes%step(i)
-         call shorten(stage, lanes, i, d, h)
+         if (lanes%flag(i) == step_too_long) call shorten(stage, lanes, i, d, h)
          event = no_event
          if (h > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), h, event)
          y = value(d, h)
@@ -124,14 +127,15 @@ contains
          if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
             call next_sample(set, lanes, i)
          else
-            call stop_between(stage, set, lanes, i, history, h, event /= no_event)
+            call stop_between(stage, lanes, i, h, event /= no_event)
          end if
          select case (event)
          case (impact)
             call bounce(stage, record, set, lanes, i, history, work)
          case (turning)
             lanes%v(i) = 0.0_wp
-            call set_peak(stage, lanes, i, history, record, set)
+            ! Between two impacts it may turn below the peak.
+            if (y > lanes%peak(i)) call set_peak(stage, lanes, i, history, record, set)
             if (.not. y < y_limit) history%over = .true.
             history%collapsed = history%over
          case (limit_reached)
@@ -161,9 +165,10 @@ contains
       real(wp) :: error, tolerance, fifth
 
       fifth = stage%form%fifth_a + stage%form%fifth_b*abs(lanes%u(i))
-      tolerance = stage%solver%rtol*abs(d(1)) + stage%atol
       do while (h > smallest_step*lanes%dt(i))
-         error = 7.0_wp*abs(d(7))*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
+         ! Where it turns the velocity at one end alone would ask for no step at all.
+         tolerance = stage%solver%rtol*max(abs(d(1)), abs(rate(d, h))) + stage%atol
+         error = (7.0_wp*abs(d(7)) + 8.0_wp*abs(d(8))*h)*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
          if (error < tolerance) return
          h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/6.0_wp))
          lanes%next_span(i) = h
@@ -182,12 +187,13 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, most_bent, turn, x
+      real(wp) :: y, v, fastest, most_bent, turn, x, b(0:8)
 
       event = no_event
-      ! A start: y''' > 0 rules.
-      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
       y = value(d, h)
+      ! A start: y''' > 0 rules.
+      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. y < y_limit .and. &
+         & d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
       v = rate(d, h)
       ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
       fastest = max(d(1), v) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
@@ -215,8 +221,16 @@ contains
             return
          end if
       end if
-      call find_event(bernstein(d, h), peak, y_limit, event, x)
-      if (event /= no_event) h = x*h
+      b = bernstein(d, h)
+      if (maxval(b) <= peak .and. b(8) < 0.0_wp .and. count(b(:7) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
+         & .and. .not. any(b(:7) < 0.0_wp .and. b(1:) > 0.0_wp)) then
+         ! One change of sign: it falls to zero once.
+         event = impact
+         h = time_of_zero(d, h)
+      else
+         call find_event(b, peak, y_limit, event, x)
+         if (event /= no_event) h = x*h
+      end if
    end subroutine find_first
 
    !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
@@ -226,14 +240,18 @@ contains
       !> A time after it [s]
       real(wp), intent(in) :: h
 
-      real(wp) :: before, after, y, v, change
+      real(wp) :: before, after, y, v, slowness, change
       integer :: iteration
 
       before = 0.0_wp
       after = h
       ! From the zero of the parabola at the start
-      t = d(1)**2 - 4.0_wp*d(0)*d(2)
-      if (t > 0.0_wp) t = merge(2.0_wp*d(0)/(sqrt(t) - d(1)), -(d(1) + sqrt(t))/(2.0_wp*d(2)), d(1) < 0.0_wp)
+      t = sqrt(max(0.0_wp, d(1)**2 - 4.0_wp*d(0)*d(2)))
+      if (d(1) < 0.0_wp) then
+         t = 2.0_wp*d(0)/(t - d(1))
+      else if (d(2) < 0.0_wp) then
+         t = -(d(1) + t)/(2.0_wp*d(2))
+      end if
       if (.not. (t > 0.0_wp .and. t < h)) t = h
       do iteration = 1, most_iterations
          y = value(d, t)
@@ -245,8 +263,9 @@ contains
          end if
          change = huge(change)
          if (v < 0.0_wp) then
-            change = -y/v
-            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)/v)
+            slowness = 1.0_wp/v
+            change = -y*slowness
+            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)*slowness)
          end if
          t = t + change
          if (abs(change) <= third_order*t) exit
@@ -283,14 +302,18 @@ contains
       t = min(max(t, 0.0_wp), h)
    end function time_of_turn
 
-   !> A series
+   !> A series. Estrin's scheme here and below: half the waiting of Horner's
    pure real(wp) function value(d, t)
       !> Coefficients of 1, t, t^2, ...
       real(wp), intent(in) :: d(0:8)
       !> Time [s]
       real(wp), intent(in) :: t
 
-      value = d(0) + t*(d(1) + t*(d(2) + t*(d(3) + t*(d(4) + t*(d(5) + t*(d(6) + t*(d(7) + t*d(8))))))))
+      real(wp) :: t2, t4
+
+      t2 = t*t
+      t4 = t2*t2
+      value = (d(0) + t*d(1)) + t2*(d(2) + t*d(3)) + t4*((d(4) + t*d(5)) + t2*(d(6) + t*d(7)) + t4*d(8))
    end function value
 
    !> Rate of change of a series
@@ -300,8 +323,12 @@ contains
       !> Time [s]
       real(wp), intent(in) :: t
 
-      rate = d(1) + t*(2.0_wp*d(2) + t*(3.0_wp*d(3) + t*(4.0_wp*d(4) + t*(5.0_wp*d(5) + t*(6.0_wp*d(6) &
-         & + t*(7.0_wp*d(7) + t*(8.0_wp*d(8))))))))
+      real(wp) :: t2, t4
+
+      t2 = t*t
+      t4 = t2*t2
+      rate = (d(1) + 2.0_wp*d(2)*t) + t2*(3.0_wp*d(3) + 4.0_wp*d(4)*t) &
+         & + t4*((5.0_wp*d(5) + 6.0_wp*d(6)*t) + t2*(7.0_wp*d(7) + 8.0_wp*d(8)*t))
    end function rate
 
    !> Second derivative of a series, up to what matters for the next step of an iteration
@@ -311,7 +338,10 @@ contains
       !> Time [s]
       real(wp), intent(in) :: t
 
-      bend = 2.0_wp*d(2) + t*(6.0_wp*d(3) + t*(12.0_wp*d(4) + t*(20.0_wp*d(5) + t*(30.0_wp*d(6)))))
+      real(wp) :: t2
+
+      t2 = t*t
+      bend = (2.0_wp*d(2) + 6.0_wp*d(3)*t) + t2*((12.0_wp*d(4) + 20.0_wp*d(5)*t) + t2*(30.0_wp*d(6)))
    end function bend
 
    !> Bernstein coefficients of a series over a step
@@ -357,24 +387,20 @@ contains
    end subroutine next_sample
 
    !> The lane is between two samples
-   pure subroutine stop_between(stage, set, lanes, i, history, h, at_event)
+   pure subroutine stop_between(stage, lanes, i, h, at_event)
       !> The wall
       type(stage_type), intent(in) :: stage
-      !> All records
-      type(record_set_type), intent(in) :: set
       !> Lanes
       type(lanes_type), intent(inout) :: lanes
       !> The lane
       integer, intent(in) :: i
-      !> Its history
-      type(history_type), intent(in) :: history
       !> Time since the last stop [s]
       real(wp), intent(in) :: h
       !> Is it an event?
       logical, intent(in) :: at_event
 
       lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
-      call aim(set, lanes, i, history)
+      lanes%u(i) = lanes%u(i) + lanes%slope(i)*h
       if (at_event .and. stage%solver%steps_per_sample > 1) lanes%span(i) = min(lanes%next_span(i), &
          & slack*(lanes%dt(i) - lanes%time(i))/real(stage%solver%steps_per_sample, wp))
    end subroutine stop_between
@@ -432,7 +458,8 @@ contains
          call aim(set, lanes, i, history)
          return
       end if
-      work%rocked = work%rocked + interval - history%start_interval + 1
+      work%rocked = work%rocked + interval - max(history%start_interval - 1, history%last_rocked)
+      history%last_rocked = interval
       history%tiny_bounces = 0
       lanes%v(i) = 0.0_wp
       ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
@@ -508,7 +535,7 @@ contains
       !> Its history
       type(history_type), intent(in) :: history
 
-      interval = lanes%next(i) - 1 - set%offset(history%record)
+      interval = int(lanes%next(i)) - 1 - set%offset(history%record)
    end function interval_of
 
    !> The coordinate is a new peak
@@ -562,7 +589,7 @@ contains
       end if
       rocking = lanes%y(i) > 0.0_wp .or. lanes%v(i) > 0.0_wp
       work%impacts = work%impacts + history%impacts
-      if (rocking) work%rocked = work%rocked - history%start_interval + 1 &
+      if (rocking) work%rocked = work%rocked - max(history%start_interval - 1, history%last_rocked) &
          & + min(interval_of(set, lanes, i, history), set%length(history%record) - 1)
       response%impacts = history%impacts
       response%time_of_peak = history%time_of_peak
@@ -580,7 +607,7 @@ contains
             response%time_of_peak = record%duration() + tail%delay
          end if
       end if
-      response%edp = peak/mechanism%capacity
+      if (.not. stage%solver%collapses_only) response%edp = peak/mechanism%capacity
       ! A peak that only rounding tells from the limit is a collapse too.
       response%collapsed = response%collapsed .or. response%edp >= stage%solver%edp_limit
       if (response%collapsed) response%edp = stage%solver%edp_limit

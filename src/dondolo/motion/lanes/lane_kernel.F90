@@ -4,8 +4,9 @@
 !> in time, gives the series of the motion up to t^8. The step ends at the lane's next sample. Where an impact, a new
 !> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged.
 module dondolo_lane_kernel
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : lane_width, lanes_type
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, record_over, step_taken, step_too_long
    use dondolo_normal_form, only : degrees, highest_degree, normal_form_type, y_limit
    implicit none
    private

@@ -2,7 +2,7 @@
 module dondolo_lane_stage
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_normal_form, only : new_normal_form, normal_form_type, y_limit
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_solver, only : solver_type
    implicit none
@@ -20,6 +20,8 @@ module dondolo_lane_stage
       type(solver_type) :: solver
       !> Absolute tolerance of the velocity of y [1/s]
       real(wp) :: atol = 0.0_wp
+      !> Largest y and rotation [rad] so far at the start of a history: peaks below them are not wanted
+      real(wp) :: first_peak = 0.0_wp, first_rotation = 0.0_wp
    end type stage_type
 
 contains
@@ -38,6 +40,9 @@ contains
       stage%solver = solver
       if (stage%form%exists) &
          & stage%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/stage%form%unit
+      if (.not. solver%collapses_only) return
+      stage%first_peak = y_limit
+      stage%first_rotation = solver%edp_limit*mechanism%capacity
    end function new_stage
 
 end module dondolo_lane_stage

@@ -1,14 +1,20 @@
 !> Lanes: the state of many histories of one wall, each with its own time, in arrays that one loop runs over.
 module dondolo_lane_state
-   use, intrinsic :: iso_fortran_env, only : int32
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    implicit none
    private
 
    public :: lanes_type, lane_width
+   public :: step_taken, record_over, event_possible, step_too_long
 
-   !> Number of lanes: several vectors, so that one of them computes while another waits for its own results
-   integer, parameter :: lane_width = 64
+   !> Number of lanes: two vectors at least, so that one computes while the other waits for its own results; no more, so
+   !> that threads at the end of their work still have full ones
+   integer, parameter :: lane_width = 16
+
+   !> What becomes of a step: it is taken; it is taken, and the record is over; it is not taken, since something may
+   !> happen in it, or since it is too long for the tolerance
+   integer(int64), parameter :: step_taken = 0, record_over = 1, event_possible = 2, step_too_long = 3
 
    !> Lanes. y is the coordinate of dondolo_normal_form; u, the ground acceleration seen from the lane's side
    type :: lanes_type
@@ -24,13 +30,13 @@ module dondolo_lane_state
       real(wp) :: span(lane_width) = 0.0_wp, next_span(lane_width) = 0.0_wp
       !> Largest y so far at a turning point
       real(wp) :: peak(lane_width) = 0.0_wp
-      !> Place of the next sample in the set of records, and of the record's last
-      integer(int32) :: next(lane_width) = 1, last(lane_width) = 1
+      !> Place of the next sample in the set of records, and of the record's last. As wide as the reals, so that a vector
+      !> holds as many of them
+      integer(int64) :: next(lane_width) = 1, last(lane_width) = 1
       !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 8, and its length [s]
       real(wp) :: series(lane_width, 2:8) = 0.0_wp, step(lane_width) = 0.0_wp
-      !> 0: the step is taken; 1: it is not, since something may happen in it or it is too long; 2: it is taken, and the
-      !> record is over
-      integer(int32) :: flag(lane_width) = 0
+      !> What became of the last step
+      integer(int64) :: flag(lane_width) = step_taken
    end type lanes_type
 
 end module dondolo_lane_state

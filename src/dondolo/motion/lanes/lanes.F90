@@ -8,7 +8,7 @@ module dondolo_lanes
    use dondolo_lane_history, only : begin, history_type, resolve
    use dondolo_lane_kernel, only : step_lanes
    use dondolo_lane_stage, only : stage_type
-   use dondolo_lane_state, only : lane_width, lanes_type
+   use dondolo_lane_state, only : lane_width, lanes_type, step_taken
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
    use dondolo_record, only : record_type
@@ -59,7 +59,7 @@ contains
          work%evaluations = work%evaluations + active
          i = 1
          do while (i <= active)
-            if (lanes%flag(i) /= 0) then
+            if (lanes%flag(i) /= step_taken) then
                associate (h => history(i))
                   call resolve(stage, mechanism, records(h%record), set, lanes, i, h, response(h%number), work)
                   if (h%over) then
@@ -67,6 +67,10 @@ contains
                      if (.not. is_filled(i)) then
                         ! The last lane moves in, so that those at work stay side by side.
                         call move(lanes, history, active, i)
+                        ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is
+                        ! taken. Else it would run past the samples of its record.
+                        lanes%y(active) = 0.0_wp
+                        lanes%v(active) = 0.0_wp
                         active = active - 1
                         cycle
                      end if

@@ -1,0 +1,96 @@
+!> What the benchmark computes: a fixed population under the synthetic suite, the same on every machine.
+module dondolo_benchmark_walls
+   use dondolo_case, only : case_type
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_record_set, only : new_record_set
+   use dondolo_scaling, only : new_scaling
+   use dondolo_stripes, only : measure_records
+   use dondolo_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
+   implicit none
+   private
+
+   public :: make_work, repeat_walls, operations_per_step
+
+   !> Heights and thicknesses of the walls of each mechanism [m]
+   real(wp), parameter :: heights(3) = [1.5_wp, 3.0_wp, 5.0_wp], thicknesses(3) = [0.25_wp, 0.30_wp, 0.60_wp]
+
+   !> Levels of the PGA [g]
+   real(wp), parameter :: levels(10) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.5_wp, 0.6_wp, 0.7_wp, 0.8_wp, 0.9_wp, 1.0_wp]
+
+contains
+
+   !> The case that the benchmark runs: three walls of each mechanism
+   subroutine make_work(case, error)
+      !> The case
+      type(case_type), intent(out) :: case
+      !> It could not be made
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+      integer :: i, j, number
+
+      allocate (case%records(2*size(synthetic44)), case%population%walls(size(mechanism_names)*size(heights)))
+      do i = 1, size(case%records)
+         call suite_record((i + 1)/2, 2 - modulo(i, 2), case%records(i), error)
+         if (allocated(error)) return
+      end do
+      number = 0
+      do i = 1, size(mechanism_names)
+         do j = 1, size(heights)
+            number = number + 1
+            input = wall_input_type()
+            input%mechanism = trim(mechanism_names(i))
+            input%height = heights(j)
+            input%thickness = thicknesses(j)
+            call new_wall(case%population%walls(number), input, error)
+            if (allocated(error)) return
+         end do
+      end do
+      case%population%weight = spread(1.0_wp, 1, number)
+      case%job%task = 'typology'
+      case%records_input%polarity = 'as_recorded'
+      case%stripes%levels = levels
+      call new_scaling(case%stripes%scaling, 'pga', error)
+      case%values = measure_records(case%stripes%scaling%measure, case%records, 1)
+      call new_record_set(case%record_set, case%records)
+   end subroutine make_work
+
+   !> The same work several times over
+   function repeat_walls(case, times) result(longer)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> How many times its walls come
+      integer, intent(in) :: times
+      !> The case with as many walls
+      type(case_type) :: longer
+
+      integer :: i, walls
+
+      longer = case
+      walls = size(case%population%walls)
+      longer%population%walls = [(case%population%walls(modulo(i, walls) + 1), i=0, times*walls - 1)]
+      longer%population%weight = spread(1.0_wp, 1, times*walls)
+   end function repeat_walls
+
+   !> Multiplications and additions of a step of the engine lanes, counted in its source (lane_step.inc); comparisons,
+   !> events, and the search for the start of rocking are not counted
+   integer function operations_per_step(case, wall)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Number of the wall
+      integer, intent(in) :: wall
+
+      !> Of each degree of the polynomials a and b with four derivatives, and of all the rest
+      integer, parameter :: each_degree = 20, others = 195
+      type(normal_form_type) :: form
+
+      associate (mechanism => case%population%walls(wall)%mechanism)
+         form = new_normal_form(mechanism, case%solver%solver%edp_limit*mechanism%capacity)
+      end associate
+      operations_per_step = each_degree*form%degree + others
+   end function operations_per_step
+
+end module dondolo_benchmark_walls

@@ -1,0 +1,124 @@
+!> The machine the benchmark runs on: its processor, and the arithmetic that this build can do on it.
+module dondolo_machine
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: processor_name, arithmetic_rate, seconds_since
+
+   !> Values of a chain of multiplications and additions, as many as the engine has lanes; its length; passes between two
+   !> looks at the clock
+   integer, parameter :: width = 64, length = 16, passes = 2000
+
+contains
+
+   !> Name of the processor, where the system tells it
+   function processor_name() result(name)
+      !> Name, or 'unknown'
+      character(len=:), allocatable :: name
+
+      character(len=256) :: line
+      integer :: unit, stat
+
+      name = 'unknown'
+      open (newunit=unit, file='/proc/cpuinfo', action='read', status='old', iostat=stat)
+      if (stat /= 0) return
+      do
+         read (unit, '(a)', iostat=stat) line
+         if (stat /= 0) exit
+         if (index(line, 'model name') /= 1) cycle
+         name = trim(adjustl(line(index(line, ':') + 1:)))
+         exit
+      end do
+      close (unit)
+   end function processor_name
+
+   !> Multiplications and additions a second on all threads together, in a loop that does nothing else
+   real(wp) function arithmetic_rate(threads, seconds)
+      !> Number of threads
+      integer, intent(in) :: threads
+      !> How long to measure [s]
+      real(wp), intent(in) :: seconds
+
+      real(wp) :: rate
+      integer :: thread
+
+      rate = 0.0_wp
+      !$omp parallel do num_threads(threads) schedule(static, 1) reduction(+ : rate)
+      do thread = 1, threads
+         rate = rate + rate_of_one(seconds)
+      end do
+      !$omp end parallel do
+      arithmetic_rate = rate
+   end function arithmetic_rate
+
+   !> Multiplications and additions a second on this thread
+   real(wp) function rate_of_one(seconds)
+      !> How long to measure [s]
+      real(wp), intent(in) :: seconds
+
+      ! The values tend to 0.5/(1 - 0.999) = 500, so that no number is too large or too small for full speed.
+      real(wp), parameter :: factor = 0.999_wp, term = 0.5_wp
+      real(wp) :: x(width, 8), a, b, c, d, e, f, g, h, spent
+      integer(int64) :: start
+      integer :: rounds, i, j, k
+
+      x = 1.0_wp
+      rounds = 0
+      call system_clock(start)
+      do
+         do j = 1, passes
+            ! Eight chains that do not wait for each other, each in a vector register
+            !$omp simd
+            do i = 1, width
+               a = x(i, 1)
+               b = x(i, 2)
+               c = x(i, 3)
+               d = x(i, 4)
+               e = x(i, 5)
+               f = x(i, 6)
+               g = x(i, 7)
+               h = x(i, 8)
+               !GCC$ unroll 16
+               do k = 1, length
+                  a = a*factor + term
+                  b = b*factor + term
+                  c = c*factor + term
+                  d = d*factor + term
+                  e = e*factor + term
+                  f = f*factor + term
+                  g = g*factor + term
+                  h = h*factor + term
+               end do
+               x(i, 1) = a
+               x(i, 2) = b
+               x(i, 3) = c
+               x(i, 4) = d
+               x(i, 5) = e
+               x(i, 6) = f
+               x(i, 7) = g
+               x(i, 8) = h
+            end do
+         end do
+         rounds = rounds + 1
+         spent = seconds_since(start)
+         if (spent >= seconds) exit
+      end do
+      rate_of_one = 2.0_wp*real(length, wp)*real(size(x), wp)*real(passes, wp)*real(rounds, wp)/spent
+      ! The compiler must not find out that nobody asks for the values.
+      if (.not. all(x > 0.0_wp)) rate_of_one = 0.0_wp
+   end function rate_of_one
+
+   !> Time since an instant [s]
+   real(wp) function seconds_since(start)
+      !> The instant, by system_clock
+      integer(int64), intent(in) :: start
+
+      integer(int64) :: now, rate
+
+      call system_clock(now, rate)
+      seconds_since = real(now - start, wp)/real(rate, wp)
+   end function seconds_since
+
+end module dondolo_machine

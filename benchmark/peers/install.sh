@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Get and compile the peers of the benchmark: install.sh BUILD_FOLDER ENVIRONMENT. What cannot be had is said, and skipped.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+build=$1 environment=$2
+flags=(-O3 -std=c++17)
+
+say() { printf 'benchmark: %s\n' "$*" >&2; }
+
+# Debian's packages, asked for by the file that shows that they are there
+packages=()
+echo '#include <boost/numeric/odeint.hpp>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libboost-dev)
+echo '#include <cvode/cvode.h>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libsundials-dev)
+command -v octave >/dev/null || packages+=(octave)
+if ((${#packages[@]})) && [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+   say "installing ${packages[*]}"
+   apt-get update -qq >&2
+   DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null ||
+      say "apt-get could not install all of ${packages[*]}"
+fi
+
+if [ ! -x "$environment/bin/python" ]; then
+   say "making $environment"
+   python3 -m venv "$environment"
+fi
+for package in scipy numba numbalsoda heyoka; do
+   "$environment/bin/python" -c "import $package" 2>/dev/null && continue
+   say "installing $package"
+   "$environment/bin/python" -m pip --disable-pip-version-check install --quiet "$package" >&2 ||
+      say "pip could not install $package"
+done
+
+compile() {
+   local name=$1
+   [ "$build/$name" -nt "$name.cpp" ] && [ "$build/$name" -nt hybrid.hpp ] && [ "$build/$name" -nt problem.hpp ] && return
+   rm -f "$build/$name"
+   g++ "${flags[@]}" "$name.cpp" -o "$build/$name" "${@:2}" 2>"$build/$name.log" ||
+      say "$name.cpp does not compile, see $build/$name.log"
+}
+
+mkdir -p "$build"
+echo "g++ $(g++ -dumpfullversion), ${flags[*]}" >"$build/compiler"
+compile rkn4
+compile odeint
+compile sundials -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint

@@ -1,0 +1,264 @@
+"""The programs that are compared, their settings, and how each is run: dondolo's engines and the peers."""
+
+import csv
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from problem import Histories, Motions, read_table, write_case
+
+FOLDER = Path(__file__).resolve().parent
+BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
+PYTHON = ENVIRONMENT / "bin" / "python"
+PATIENCE = 400  # seconds for one setting of a peer
+LARGE = 1e-6  # an EDP that is off by more is counted
+
+
+@dataclass(frozen=True)
+class Peer:
+    """A program that is not dondolo's.
+
+    Its command is called with PROBLEM METHOD SETTING REPEATS EVERY and prints its version, the seconds of the
+    integration of each repeat, and EDP, collapse and impacts of every history.
+    """
+
+    name: str
+    command: tuple
+    methods: dict  # {method: settings, the cheapest first}
+    needs: str  # what to install where it is missing
+    part: int = 1  # of the histories: 1, all; 16, every 16th of 880
+    repeats: int = 3
+
+    def quick(self):
+        """The same with one setting a method, run once."""
+        middle = {method: settings[len(settings) // 2 :][:1] for method, settings in self.methods.items()}
+        return Peer(self.name, self.command, middle, self.needs, self.part, repeats=1)
+
+
+TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
+FEW = (1e-6, 1e-9, 1e-12)
+
+PEERS = [
+    Peer("C++ by hand", (BUILD / "rkn4",), {"RKN4, steps a sample": (1, 2, 4, 8, 32)}, "g++"),
+    Peer("Boost.odeint", (BUILD / "odeint",), {"cut": TOLERANCES, "free": TOLERANCES}, "g++, libboost-dev"),
+    Peer(
+        "SUNDIALS",
+        (BUILD / "sundials",),
+        {"dopri5": FEW, "adams": (1e-9, 1e-10, 1e-11, 1e-12), "adams_free": (1e-9, 1e-11)},
+        "g++, libsundials-dev",
+        repeats=1,
+    ),
+    Peer(
+        "heyoka",
+        (PYTHON, FOLDER / "peers" / "heyoka_taylor.py"),
+        {"scalar": (1e-9, 1e-12, 1e-15), "batch": (1e-9, 1e-12, 1e-15)},
+        "heyoka from Python's index, for this processor and Python",
+    ),
+    Peer(
+        "numbalsoda",
+        (PYTHON, FOLDER / "peers" / "numbalsoda_ivp.py"),
+        {"dop853": FEW, "lsoda": FEW},
+        "numbalsoda from Python's index",
+    ),
+    Peer(
+        "SciPy",
+        (PYTHON, FOLDER / "peers" / "scipy_ivp.py"),
+        {method + whole: FEW for whole in ("", "/record") for method in ("RK45", "DOP853", "LSODA")},
+        "scipy and numba from Python's index",
+        part=16,
+        repeats=1,
+    ),
+    Peer(
+        "GNU Octave",
+        ("octave", "--no-gui", "--no-window-system", "--quiet", FOLDER / "peers" / "octave_ode45.m"),
+        {"ode45": (1e-6, 1e-9), "ode45/sample": (1e-6,)},
+        "octave",
+        part=80,
+        repeats=1,
+    ),
+]
+
+ENGINES = {"rk45": TOLERANCES, "lanes": TOLERANCES}
+
+
+@dataclass(frozen=True)
+class Result:
+    """One program at one setting."""
+
+    wall: str
+    accelerograms: str
+    program: str
+    version: str
+    method: str
+    setting: float
+    histories: int
+    seconds: float  # of the integration, median of the repeats
+    ms: float  # per history
+    ms_of_all: float  # per history, were all run; see `weights`
+    flags: int  # wrong ones
+    above: int  # EDPs off by more than LARGE
+    worst: float
+    median: float  # of the histories that rock and do not collapse
+    most: float  # 99 % of them are no worse
+
+    @property
+    def share(self):
+        """Part of the histories with an EDP off by more than LARGE."""
+        return self.above / self.histories
+
+    @property
+    def name(self):
+        """Program and method."""
+        return f"{self.program}, {self.method}"
+
+
+def say(text):
+    """Tell the user how far the benchmark is."""
+    print(f"benchmark: {text}", file=sys.stderr, flush=True)
+
+
+def result(problem, every, weight, program, version, method, setting, seconds, edp, collapsed):
+    """Count the errors."""
+    errors = problem.errors(every, edp, collapsed)
+    median = statistics.median(seconds)
+    ms = 1e3 * median / len(edp)
+    found = Result(
+        *(problem.wall, problem.name, program, version, method, setting, len(edp), median, ms, ms / weight),
+        *(errors.flags(), errors.above(LARGE), errors.worst(), errors.quantile(0.5), errors.quantile(0.99)),
+    )
+    say(
+        f"{found.name}, {setting:g}: {ms:.4g} ms a history, wrong flags {found.flags}, "
+        f"off {found.above} of {len(edp)}, worst {found.worst:.1e}, median {found.median:.1e}"
+    )
+    return found
+
+
+def run_peer(peer, problem, path, weights):
+    """All settings of a peer; none, with a word why, where it cannot run."""
+    found = []
+    every = len(problem) * peer.part // 880 or 1
+    for method, settings in peer.methods.items():
+        for setting in settings:
+            command = [*peer.command, path, method.split(",")[0], setting, peer.repeats, every]
+            try:
+                done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=PATIENCE)
+            except OSError:
+                say(f"{peer.name} is skipped: it is not here, and needs {peer.needs}")
+                return found
+            except subprocess.TimeoutExpired:
+                say(f"{peer.name}, {method}, {setting:g} is skipped: not done after {PATIENCE} s")
+                continue
+            if done.returncode:
+                why = " ".join(done.stderr.strip().splitlines()[-1:])
+                say(f"{peer.name}, {method}, {setting:g} is skipped: it fails with '{why}'; it needs {peer.needs}")
+                continue
+            version, seconds, outcomes = parse(done.stdout)
+            weight = weights[every]
+            arguments = (seconds, outcomes[:, 0], outcomes[:, 1] == 1.0)
+            found.append(result(problem, every, weight, peer.name, version, method, setting, *arguments))
+    return found
+
+
+def parse(printed):
+    """Version, seconds of each repeat, and the rows of the histories."""
+    version, seconds, rows = "", [], []
+    for line in printed.splitlines():
+        first, _, rest = line.partition(" ")
+        if first == "version":
+            version = rest
+        elif first == "seconds":
+            seconds.append(float(rest))
+        else:
+            rows.append([float(word) for word in line.split()])
+    return version, seconds, np.array(rows)
+
+
+def run_dondolo(executable, wall, motions, rtol, engine, repeats):
+    """Seconds of each repeat, and the histories; None where there is no such engine."""
+    seconds = []
+    with tempfile.TemporaryDirectory() as folder:
+        case = write_case(folder, wall, motions, rtol, threads=1, solver=f"engine = '{engine}'")
+        for _ in range(repeats):
+            done = subprocess.run([executable, case], capture_output=True, text=True)
+            if "must be one of" in done.stderr:
+                return None
+            done.check_returncode()
+            seconds.append(float(re.search(r"histories in +(\S+) s", done.stdout).group(1)))
+        return seconds, Histories.of(read_table(f"{folder}/result_histories.csv"))
+
+
+def run_engines(executable, problem, repeats, quick):
+    """Both engines of dondolo on all histories."""
+    version = subprocess.run([executable, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
+    found = []
+    for engine, settings in ENGINES.items():
+        for rtol in settings[1::2] if quick else settings:
+            run = run_dondolo(executable, problem.wall, problem.motions, rtol, engine, repeats)
+            if run is None:
+                say(f"dondolo here has no engine {engine}: skipped")
+                break
+            seconds, each = run
+            arguments = (seconds, each.edp, each.collapsed)
+            found.append(result(problem, 1, 1.0, "dondolo", version, engine, rtol, *arguments))
+    return found
+
+
+def weights(executable, problem, repeats):
+    """{every: how much longer than the mean of all a history takes on average if only every so manieth is run}.
+
+    By rk45, which runs history by history.
+    """
+    strides = {len(problem) * peer.part // 880 or 1 for peer in PEERS}
+    seconds, _ = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
+    of_all = statistics.median(seconds) / len(problem)
+    found = {1: 1.0}
+    for every in sorted(strides - {1}):
+        chosen = range(0, len(problem), every)
+        found[every] = seconds_of(executable, problem, chosen, repeats) / len(chosen) / of_all
+        say(f"every {every}th history takes {found[every]:.2f} of the mean time of all")
+    return found
+
+
+def seconds_of(executable, problem, chosen, repeats):
+    """Time of some histories: of the records that share their levels at once."""
+    levels = np.unique(problem.exact.level)
+    records = len(problem) // len(levels)
+    by_levels = {}
+    for record in range(records):
+        own = tuple(levels[i // records] for i in chosen if i % records == record)
+        by_levels.setdefault(own, []).append(record)
+    by_levels.pop((), None)
+    total = 0.0
+    rows = read_table(problem.motions.catalogue)
+    for own, members in by_levels.items():
+        with tempfile.TemporaryDirectory() as folder:
+            catalogue = Path(folder) / "part.csv"
+            with open(catalogue, "w", newline="", encoding="utf-8") as file:
+                writer = csv.DictWriter(file, rows[0])
+                writer.writeheader()
+                for member in members:
+                    row = rows[member]
+                    writer.writerow(row | {"file": problem.motions.catalogue.parent / row["file"]})
+            part = Motions(catalogue, f"levels = {', '.join(map(repr, map(float, own)))}")
+            seconds, _ = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
+            total += statistics.median(seconds)
+    return total
+
+
+def write_results(path, results):
+    """Write a table of results."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [field.name for field in fields(Result)])
+        writer.writeheader()
+        writer.writerows(asdict(each) for each in results)
+
+
+def read_results(path):
+    """Read it again."""
+    with open(path, newline="", encoding="utf-8") as file:
+        return [Result(**{f.name: f.type(row[f.name]) for f in fields(Result)}) for row in csv.DictReader(file)]

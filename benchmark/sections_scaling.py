@@ -1,0 +1,43 @@
+"""Threads, sizes, memory."""
+
+import figures
+from markdown import paragraph, table
+
+
+def scaling(rows):
+    """The section."""
+    figures.scaling(rows)
+    lines = [
+        "## 2. Threads, sizes, memory",
+        "",
+        *paragraph(
+            "The default engine on the embedded synthetic accelerograms, 20 levels unless said otherwise. Strong: a "
+            "fixed population of walls; weak: one that grows with the threads."
+        ),
+        "![threads, sizes, memory](figures/performance_scaling.png)",
+        "",
+    ]
+    head = ["scaling", "threads", "histories", "s", "histories a second", "efficiency"]
+    body = []
+    for kind in ("strong", "weak"):
+        size, gain = figures.sped_up(rows, kind)
+        own = [row for row in rows if row["kind"] == kind]
+        for row, n, each in zip(own, size, gain, strict=True):
+            rate = row["histories"] / row["value"]
+            work = [f"{row['histories']:g}", f"{row['value']:.3g}", f"{rate:.3g}"]
+            body.append([kind, f"{n:g}", *work, f"{each / n:.2f}"])
+    lines += table(head, body)
+    names = {
+        "walls": "walls",
+        "levels": "levels",
+        "shocks": "the record so many times in a row",
+        "samples": "so many samples for one of the record, on the same straight lines",
+    }
+    body = [
+        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", f"{1e3 * r['value'] / r['histories']:.3g}"]
+        for r in rows
+        if r["kind"] in names
+    ]
+    lines += table(["what grows", "size", "histories", "ms a history"], body)
+    body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
+    return lines + table(["histories", "peak memory, MiB"], body)

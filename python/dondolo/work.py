@@ -1,0 +1,50 @@
+"""What was computed, and what was not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass
+
+
+@dataclass(frozen=True)
+class Work:
+    """Counts that show that nothing is integrated that a result does not need.
+
+    They do not depend on the number of threads. With estimated errors every history counts twice, since it is run twice;
+    after Ctrl-C they are those of all that was computed.
+
+    Attributes
+    ----------
+    histories : int
+    still : int
+        Histories that never move: no sample reaches the trigger, and nothing is integrated.
+    intervals : int
+        Sample intervals of the records of all histories.
+    rocked : int
+        Those of them in which the wall rocks; the others take no steps.
+    steps : int
+        Steps taken.
+    evaluations : int
+        Evaluations of the terms of the equation of motion.
+    impacts : int
+        Impacts that were located.
+    """
+
+    histories: int = 0
+    still: int = 0
+    intervals: int = 0
+    rocked: int = 0
+    steps: int = 0
+    evaluations: int = 0
+    impacts: int = 0
+
+    @classmethod
+    def total(cls, parts: Iterable[Work]) -> Work:
+        """The sum of counts."""
+        return cls(*(sum(counts) for counts in zip(astuple(cls()), *map(astuple, parts), strict=True)))
+
+    def __str__(self) -> str:
+        return (
+            f"{self.still} of {self.histories} histories never move, the wall rocks in {self.rocked} of"
+            f" {self.intervals} sample intervals; {self.steps} steps"
+        )

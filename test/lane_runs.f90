@@ -1,0 +1,70 @@
+!> Histories through the engine lanes, as an ensemble runs them.
+module lane_runs
+   use dondolo_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
+   use dondolo_response, only : response_type
+   use dondolo_solver, only : solver_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: run_lanes, run_alone, runs_in_lanes
+
+contains
+
+   !> Does the engine lanes follow a mechanism up to its limit?
+   logical function runs_in_lanes(mechanism, solver)
+      class(mechanism_type), intent(in) :: mechanism
+      type(solver_type), intent(in) :: solver
+      type(normal_form_type) :: form
+
+      form = new_normal_form(mechanism, solver%edp_limit*mechanism%capacity)
+      runs_in_lanes = form%exists
+   end function runs_in_lanes
+
+   !> Many histories: record and scale of each
+   subroutine run_lanes(mechanism, records, record, scale, solver, response, work, threads)
+      class(mechanism_type), intent(in) :: mechanism
+      type(record_type), intent(in) :: records(:)
+      integer, intent(in) :: record(:)
+      real(wp), intent(in) :: scale(:)
+      type(solver_type), intent(in) :: solver
+      type(response_type), allocatable, intent(out) :: response(:)
+      type(work_type), intent(out), optional :: work
+      integer, intent(in), optional :: threads
+      type(ensemble_type) :: ensemble
+      type(record_set_type) :: set
+      type(solver_type) :: in_lanes
+      integer :: team
+
+      team = 1
+      if (present(threads)) team = threads
+      ensemble%record = record
+      ensemble%scale = scale
+      in_lanes = solver
+      in_lanes%engine = 'lanes'
+      call new_record_set(set, records)
+      call run_ensemble(ensemble, mechanism, records, set, in_lanes, team)
+      call move_alloc(ensemble%response, response)
+      if (present(work)) work = ensemble%work
+   end subroutine run_lanes
+
+   !> One history by itself
+   subroutine run_alone(mechanism, record, scale, solver, response, work)
+      class(mechanism_type), intent(in) :: mechanism
+      type(record_type), intent(in) :: record
+      real(wp), intent(in) :: scale
+      type(solver_type), intent(in) :: solver
+      type(response_type), intent(out) :: response
+      type(work_type), intent(out), optional :: work
+      type(response_type), allocatable :: responses(:)
+
+      call run_lanes(mechanism, [record], [1], [scale], solver, responses, work)
+      response = responses(1)
+   end subroutine run_alone
+
+end module lane_runs
