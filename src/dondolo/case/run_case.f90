@@ -257,11 +257,12 @@ contains
       real(wp) :: histories(size(case%stripes%levels))
       type(solver_type) :: solver
 
+      solver = case%solver%solver
+      solver%collapses_only = case%job%task == 'typology'
       call plan_wall(case, wall, stripes, error)
       if (.not. allocated(error)) then
          call run_histories(stripes, case%population%walls(wall), case%records, case%record_set, solver, 1, &
             & size(stripes%response), team, progress)
-         call results%work%add(stripes%work)
          results%collapses(:, wall) = stripes%collapses()
          histories = real(results%histories(wall), wp)
          call fit_fragility(results%fragility(wall), case%stripes%levels, &
