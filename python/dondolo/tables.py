@@ -57,8 +57,7 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
     """
     target = Path(path)
     part = target.with_name(target.name + ".part")
-    head = (f"# dondolo {_binding.constants().version}", f"# build variant: {_binding.build_variant()}")
-    lines = [*head, *(f"# {comment}" for comment in comments), ",".join(table)]
+    lines = [f"# dondolo {_binding.constants().version}", *(f"# {comment}" for comment in comments), ",".join(table)]
     lines += [",".join(map(cell, row)) for row in zip(*table.values(), strict=True)]
     try:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")
