@@ -521,7 +521,7 @@ s/levels.*/first = 0.1, last = 0.5, count = 2000000000/;/0.6, 1.0/d|bad.nml: &st
 s/levels.*/first = 0.5, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: last = 0.1: must be greater than first = 0.5
 s/levels.*/first = 0, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: first = 0: must be positive
 s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given
-s/'auto'/'rk4'/|bad.nml: &solver: engine = 'rk4': must be one of 'auto', 'rk45'
+s/'auto'/'rk4'/|bad.nml: &solver: engine = 'rk4': must be one of 'auto', 'rk45', 'lanes'
 s/rtol = 1.0e-8/rtol = 1/|bad.nml: &solver: rtol = 1: must lie between
 s/rtol = 1.0e-8/rtol = 1.0d-400/|bad.nml: &solver: rtol = 
 s/atol = 1.0e-10/atol = 0/|bad.nml: &solver: atol = 0: must be positive

@@ -262,8 +262,11 @@ contains
       call check_ok(error, 'history')
       if (allocated(error)) return
       call check(case%history%record == 2, 'record by name')
-      call check(history%response%edp == stripes%stripes%response(2, 2)%edp, 'history and stripe give the same EDP')
-      call check(history%response%time_of_peak == stripes%stripes%response(2, 2)%time_of_peak, 'at the same time')
+      ! Two engines, each with an error of its own: far above it, and far below what another record or scale would give.
+      call check_close(history%response%edp, stripes%stripes%response(2, 2)%edp, 1.0e-6_wp, &
+         & 'history and stripe give the same EDP')
+      call check_close(history%response%time_of_peak, stripes%stripes%response(2, 2)%time_of_peak, 1.0e-6_wp, &
+         & 'at the same time')
       call check_close(minval(history%trace%acceleration(:history%trace%rows)) &
          & *maxval(abs(case%records(2)%acceleration))/maxval(case%records(2)%acceleration), &
          & -0.5_wp*9.81_wp, 1.0e-12_wp, 'reversed and scaled to its level')

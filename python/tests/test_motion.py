@@ -80,7 +80,7 @@ def test_pickle(wall, sine):
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"engine": "euler"}, "engine = 'euler': must be one of 'auto', 'rk45'"),
+        ({"engine": "euler"}, "engine = 'euler': must be one of 'auto', 'rk45', 'lanes'"),
         ({"rtol": 0.0}, "rtol = 0: must lie between"),
         ({"edp_limit": -1.0}, "edp_limit = -1: must be positive"),
         ({"scale": float("nan")}, "scale = NaN: makes record 'sine' exceed"),

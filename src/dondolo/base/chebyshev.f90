@@ -115,7 +115,6 @@ contains
       do k = 1, n
          next(0) = -before(0)
          next(1:) = 2.0_wp*this(:n - 1) - before(1:)
-         if (k == 1) next = before
          before = this
          this = next
          a = a + c(k)*this

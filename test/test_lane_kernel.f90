@@ -1,0 +1,202 @@
+!> One step of the lanes: its series against the recurrence for polynomials, and what a step that is taken promises.
+program test_lane_kernel
+   use checks, only : check, finish, suite
+   use dondolo_kinds, only : wp
+   use dondolo_lane_kernel, only : step_lanes
+   use dondolo_lane_state, only : lane_width, lanes_type
+   use dondolo_normal_form, only : new_normal_form, normal_form_type, y_limit
+   use dondolo_random, only : new_random, random_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   use motion_inputs, only : a_wall, made
+   use random_history, only : across, between, choice
+   implicit none
+
+   !> Samples that every lane reads
+   real(wp), parameter :: samples(8) = [0.0_wp, 1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp, -1.0_wp, 0.0_wp, 0.0_wp]
+
+   type(random_type) :: random
+   type(normal_form_type) :: forms(6)
+   type(wall_type) :: wall
+   integer :: i
+
+   do i = 1, 4
+      wall = a_wall(i)
+      forms(i) = new_normal_form(wall%mechanism, wall%mechanism%capacity)
+   end do
+   wall = made('one_sided', 1.0_wp, 0.9_wp)
+   forms(5) = new_normal_form(wall%mechanism, 1.5_wp*wall%mechanism%capacity)
+   wall = made('two_block', 3.0_wp, 0.25_wp)
+   forms(6) = new_normal_form(wall%mechanism, 2.0_wp*wall%mechanism%capacity)
+   random = new_random(31, 0)
+   call suite('series')
+   call check(all(forms%exists) .and. any(forms%degree == 8) .and. any(forms%degree == 14) .and. &
+      & any(forms%degree == 22), 'forms of every degree')
+   call test_series()
+   call suite('promises')
+   call test_promises()
+   call finish()
+
+contains
+
+   !> Lanes in states of all kinds
+   subroutine fill(lanes, longest)
+      type(lanes_type), intent(out) :: lanes
+      real(wp), intent(in) :: longest
+      integer :: j
+
+      do j = 1, lane_width
+         lanes%y(j) = y_limit*random%next()
+         if (choice(random, 3) == 1) lanes%y(j) = across(random, 1.0e-8_wp, 1.0_wp)
+         lanes%v(j) = between(random, -1.0_wp, 1.0_wp)*across(random, 1.0e-3_wp, 20.0_wp)
+         lanes%dt(j) = across(random, 1.0e-3_wp, longest)
+         lanes%time(j) = 0.0_wp
+         if (choice(random, 2) == 1) lanes%time(j) = lanes%dt(j)*random%next()
+         lanes%rate(j) = 1.0_wp/lanes%dt(j)
+         lanes%u(j) = between(random, -20.0_wp, 20.0_wp)
+         lanes%u_next(j) = between(random, -20.0_wp, 20.0_wp)
+         lanes%slope(j) = (lanes%u_next(j) - lanes%u(j))/(lanes%dt(j) - lanes%time(j))
+         lanes%factor(j) = between(random, -3.0_wp, 3.0_wp)
+         lanes%span(j) = lanes%dt(j)*merge(0.3_wp, 2.0_wp, choice(random, 3) == 1)
+         lanes%next_span(j) = lanes%span(j)
+         lanes%peak(j) = y_limit*random%next()
+         lanes%next(j) = choice(random, 6)
+         lanes%last(j) = 6
+      end do
+   end subroutine fill
+
+   !> The recurrence for y'' = a + b u with a and b to their fourth derivatives; what t^8 may leave out are the square
+   !> terms of terms: d2^3, and those of the fourth derivatives
+   subroutine test_series()
+      type(lanes_type) :: lanes
+      real(wp) :: d(0:8), p(0:4, 0:8), a(0:4), b(0:4), terms(2:8), left_out
+      integer :: i, j, k, n, m
+      logical :: good
+
+      do i = 1, ubound(forms, 1)
+         call fill(lanes, 0.5_wp)
+         ! Without a tolerance no step is taken.
+         call step_lanes(lanes, lane_width, forms(i), samples, 0.0_wp, 0.0_wp)
+         good = all(lanes%flag == 1)
+         do j = 1, lane_width
+            a = derivatives(forms(i)%a, lanes%y(j) - 1.0_wp)
+            b = derivatives(forms(i)%b, lanes%y(j) - 1.0_wp)
+            ! p(m, :) is the series of x^m, x the change of y; |...| of all terms tells the rounding.
+            d = 0.0_wp
+            d(1) = lanes%v(j)
+            do k = 2, 8
+               p = 0.0_wp
+               p(0, 0) = 1.0_wp
+               do m = 1, 4
+                  do n = 1, k - 2
+                     p(m, n) = sum(d(1:n)*p(m - 1, n - 1:0:-1))
+                  end do
+               end do
+               n = k - 2
+               d(k) = sum((a + b*lanes%u(j))*p(:, n))
+               terms(k) = sum(abs((a + b*lanes%u(j))*p(:, n)))
+               if (n > 0) d(k) = d(k) + sum(b*lanes%slope(j)*p(:, n - 1))
+               if (n > 0) terms(k) = terms(k) + sum(abs(b*lanes%slope(j)*p(:, n - 1)))
+               d(k) = d(k)/real(k*(k - 1), wp)
+            end do
+            left_out = (abs((a(3) + b(3)*lanes%u(j))*d(2)**3) + abs((a(4) + b(4)*lanes%u(j))*p(4, 6)) &
+               & + abs(b(4)*lanes%slope(j)*p(4, 5)))/56.0_wp
+            do k = 2, 8
+               good = good .and. abs(lanes%series(j, k) - d(k)) <= 1.0e-10_wp*(terms(k) + abs(d(k))) &
+                  & + merge(left_out, 0.0_wp, k == 8)
+            end do
+         end do
+         call check(good, 'form '//to_text(i))
+      end do
+   end subroutine test_series
+
+   !> A step that is taken has no impact, no turning point above the peak and no limit in it, ends where its series
+   !> does, and moves the lane on; one that is not leaves it where it was
+   subroutine test_promises()
+      type(lanes_type) :: lanes, before
+      integer, parameter :: points = 200
+      real(wp) :: y(0:points), h, rest
+      integer :: i, j, k, round, taken, wrong(5)
+
+      taken = 0
+      wrong = 0
+      do round = 1, 300
+         i = choice(random, ubound(forms, 1))
+         call fill(lanes, 0.5_wp)
+         call graze(lanes, forms(i))
+         before = lanes
+         call step_lanes(lanes, lane_width, forms(i), samples, 1.0e-2_wp, 1.0e-2_wp)
+         do j = 1, lane_width
+            rest = before%dt(j) - before%time(j)
+            h = lanes%step(j)
+            if (h > rest .or. h > before%span(j) .and. h < rest) wrong(1) = wrong(1) + 1
+            if (lanes%flag(j) == 1) then
+               if (lanes%y(j) /= before%y(j) .or. lanes%v(j) /= before%v(j) .or. lanes%time(j) /= before%time(j) .or. &
+                  & lanes%next(j) /= before%next(j)) wrong(2) = wrong(2) + 1
+               cycle
+            end if
+            taken = taken + 1
+            y = [(value(before%y(j), before%v(j), lanes%series(j, :), h*k/points), k=0, points)]
+            if (any(y < 0.0_wp)) wrong(3) = wrong(3) + 1
+            ! A new peak only at the end, where the motion goes on to rise
+            if (maxval(y) > max(before%peak(j), y(0), y(points)) .or. maxval(y) >= y_limit .or. &
+               & (y(points) > before%peak(j) .and. y(points) > y(0) .and. any(y(1:) < y(:points - 1)))) &
+               & wrong(4) = wrong(4) + 1
+            if (h == rest .neqv. lanes%next(j) == before%next(j) + 1) wrong(5) = wrong(5) + 1
+            if (h == rest .and. (lanes%time(j) /= 0.0_wp .or. lanes%u(j) /= before%u_next(j))) wrong(5) = wrong(5) + 1
+            if (abs(lanes%y(j) - y(points)) > 1.0e-13_wp*maxval(y)) wrong(5) = wrong(5) + 1
+         end do
+      end do
+      call check(taken > 2000, 'many steps are taken: '//to_text(taken))
+      call check(wrong(1) == 0, 'steps too long: '//to_text(wrong(1)))
+      call check(wrong(2) == 0, 'moved without a step: '//to_text(wrong(2)))
+      call check(wrong(3) == 0, 'impacts in steps: '//to_text(wrong(3)))
+      call check(wrong(4) == 0, 'peaks in steps: '//to_text(wrong(4)))
+      call check(wrong(5) == 0, 'wrong ends: '//to_text(wrong(5)))
+   end subroutine test_promises
+
+   !> Lower the second half of the lanes so that their steps come next to y = 0, and put the peak of the first half next
+   !> to that of the step
+   subroutine graze(lanes, form)
+      type(lanes_type), intent(inout) :: lanes
+      type(normal_form_type), intent(in) :: form
+      real(wp) :: y(0:50), off
+      integer :: j, k
+
+      call step_lanes(lanes, lane_width, form, samples, 0.0_wp, 0.0_wp)
+      do j = 1, lane_width
+         y = [(value(lanes%y(j), lanes%v(j), lanes%series(j, :), lanes%step(j)*k/50.0_wp), k=0, 50)]
+         off = between(random, -1.0_wp, 1.0_wp)*across(random, 1.0e-8_wp, 1.0e-1_wp)
+         if (j > lane_width/2) lanes%y(j) = min(max(1.0e-9_wp, lanes%y(j) - minval(y) + off), y_limit)
+         if (j <= lane_width/2) lanes%peak(j) = min(max(0.0_wp, maxval(y) + off), y_limit)
+      end do
+   end subroutine graze
+
+   !> Derivatives / k! of a polynomial in powers, up to the fourth
+   pure function derivatives(a, z) result(c)
+      real(wp), intent(in) :: a(0:), z
+      real(wp) :: c(0:4)
+      integer :: k, m
+
+      c = 0.0_wp
+      do k = ubound(a, 1), 0, -1
+         do m = 4, 1, -1
+            c(m) = c(m)*z + c(m - 1)
+         end do
+         c(0) = c(0)*z + a(k)
+      end do
+   end function derivatives
+
+   !> The series of a step
+   pure real(wp) function value(y, v, series, t)
+      real(wp), intent(in) :: y, v, series(2:8), t
+      integer :: k
+
+      value = 0.0_wp
+      do k = 8, 2, -1
+         value = (value + series(k))*t
+      end do
+      value = y + (v + value)*t
+   end function value
+
+end program test_lane_kernel
