@@ -11,7 +11,7 @@ module dondolo_bernstein
    public :: first_descent, nowhere, most_coefficients
 
    !> Most coefficients of a polynomial here; rooms of fixed size are on the stack, where they cost nothing
-   integer, parameter :: most_coefficients = 9
+   integer, parameter :: most_coefficients = 10
 
    !> Answer of first_descent where the polynomial stays positive
    real(wp), parameter :: nowhere = 2.0_wp

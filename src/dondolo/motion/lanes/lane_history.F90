@@ -40,7 +40,7 @@ module dondolo_lane_history
       logical :: moved = .false., over = .false., collapsed = .false.
    end type history_type
 
-   !> From the last term but one of a series to the step that the tolerance allows; shortest step / sample interval
+   !> From the last terms of a series to the step that the tolerance allows; shortest step / sample interval
    real(wp), parameter :: safety = 0.9_wp, smallest_step = 2.0_wp**(-20)
 
    !> Relative change after which an iteration of second or third order has nothing left to gain
@@ -109,7 +109,7 @@ contains
       !> Counts
       type(work_type), intent(inout) :: work
 
-      real(wp) :: y, v, d(0:8), h
+      real(wp) :: y, v, d(0:9), h
       integer :: event
 
       if (lanes%flag(i) >= event_possible) then
@@ -168,7 +168,7 @@ contains
       do while (h > smallest_step*lanes%dt(i))
          ! Where it turns the velocity at one end alone would ask for no step at all.
          tolerance = stage%solver%rtol*max(abs(d(1)), abs(rate(d, h))) + stage%atol
-         error = (7.0_wp*abs(d(7)) + 8.0_wp*abs(d(8))*h)*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
+         error = (7.0_wp*abs(d(7)) + h*(8.0_wp*abs(d(8)) + h*9.0_wp*abs(d(9))))*h**6 + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
          if (error < tolerance) return
          h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/6.0_wp))
          lanes%next_span(i) = h
@@ -179,7 +179,7 @@ contains
    !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
    pure subroutine find_first(d, peak, h, event)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> Largest y so far
       real(wp), intent(in) :: peak
       !> In: the step; out: the time of the event [s]
@@ -187,7 +187,7 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, most_bent, turn, x, b(0:8)
+      real(wp) :: y, v, fastest, most_bent, turn, x, b(0:9)
 
       event = no_event
       y = value(d, h)
@@ -222,8 +222,8 @@ contains
          end if
       end if
       b = bernstein(d, h)
-      if (maxval(b) <= peak .and. b(8) < 0.0_wp .and. count(b(:7) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
-         & .and. .not. any(b(:7) < 0.0_wp .and. b(1:) > 0.0_wp)) then
+      if (maxval(b) <= peak .and. b(9) < 0.0_wp .and. count(b(:8) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
+         & .and. .not. any(b(:8) < 0.0_wp .and. b(1:) > 0.0_wp)) then
          ! One change of sign: it falls to zero once.
          event = impact
          h = time_of_zero(d, h)
@@ -236,7 +236,7 @@ contains
    !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
    pure real(wp) function time_of_zero(d, h) result(t)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> A time after it [s]
       real(wp), intent(in) :: h
 
@@ -277,7 +277,7 @@ contains
    !> When a motion that rises and then falls turns: Newton's method, in a bracket
    pure real(wp) function time_of_turn(d, h) result(t)
       !> The series of the motion
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> A time after it [s]
       real(wp), intent(in) :: h
 
@@ -305,7 +305,7 @@ contains
    !> A series. Estrin's scheme here and below: half the waiting of Horner's
    pure real(wp) function value(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> Time [s]
       real(wp), intent(in) :: t
 
@@ -313,13 +313,13 @@ contains
 
       t2 = t*t
       t4 = t2*t2
-      value = (d(0) + t*d(1)) + t2*(d(2) + t*d(3)) + t4*((d(4) + t*d(5)) + t2*(d(6) + t*d(7)) + t4*d(8))
+      value = (d(0) + t*d(1)) + t2*(d(2) + t*d(3)) + t4*((d(4) + t*d(5)) + t2*(d(6) + t*d(7)) + t4*(d(8) + t*d(9)))
    end function value
 
    !> Rate of change of a series
    pure real(wp) function rate(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> Time [s]
       real(wp), intent(in) :: t
 
@@ -328,13 +328,13 @@ contains
       t2 = t*t
       t4 = t2*t2
       rate = (d(1) + 2.0_wp*d(2)*t) + t2*(3.0_wp*d(3) + 4.0_wp*d(4)*t) &
-         & + t4*((5.0_wp*d(5) + 6.0_wp*d(6)*t) + t2*(7.0_wp*d(7) + 8.0_wp*d(8)*t))
+         & + t4*((5.0_wp*d(5) + 6.0_wp*d(6)*t) + t2*(7.0_wp*d(7) + 8.0_wp*d(8)*t) + t4*(9.0_wp*d(9)))
    end function rate
 
    !> Second derivative of a series, up to what matters for the next step of an iteration
    pure real(wp) function bend(d, t)
       !> Coefficients of 1, t, t^2, ...
-      real(wp), intent(in) :: d(0:8)
+      real(wp), intent(in) :: d(0:9)
       !> Time [s]
       real(wp), intent(in) :: t
 

@@ -1,7 +1,7 @@
 !> One step of every lane at once: the loop that an ensemble spends its time in.
 !>
 !> A Taylor step (docs/theory.md, section 5): a and b are expanded about the present y, and y'' = a + b u, with u linear
-!> in time, gives the series of the motion up to t^8. The step ends at the lane's next sample. Where an impact, a new
+!> in time, gives the series of the motion up to t^9. The step ends at the lane's next sample. Where an impact, a new
 !> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged.
 module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64

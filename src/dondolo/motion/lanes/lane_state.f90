@@ -33,8 +33,8 @@ module dondolo_lane_state
       !> Place of the next sample in the set of records, and of the record's last. As wide as the reals, so that a vector
       !> holds as many of them
       integer(int64) :: next(lane_width) = 1, last(lane_width) = 1
-      !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 8, and its length [s]
-      real(wp) :: series(lane_width, 2:8) = 0.0_wp, step(lane_width) = 0.0_wp
+      !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 9, and its length [s]
+      real(wp) :: series(lane_width, 2:9) = 0.0_wp, step(lane_width) = 0.0_wp
       !> What became of the last step
       integer(int64) :: flag(lane_width) = step_taken
    end type lanes_type
