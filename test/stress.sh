@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The motion under long stress: bash test/stress.sh PATH/TO/fpm [HISTORIES]
 # Random histories (test/test_stress.f90) in an optimised build, with every check and trap, with sanitizers, and in
-# valgrind, and many lanes side by side (test/test_lanes.f90); then threads and grouping (test/test_grouping.f90). One line a stage; fails if any fails.
+# valgrind; many lanes side by side (test/test_lanes.f90) with checks, traps and sanitizers; threads and grouping
+# (test/test_grouping.f90). One line a stage; fails if any fails.
 set -uo pipefail
 
 fpm=${1:?usage: stress.sh PATH/TO/fpm [HISTORIES]}
