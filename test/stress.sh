@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # The motion under long stress: bash test/stress.sh PATH/TO/fpm [HISTORIES]
 # Random histories (test/test_stress.f90) in an optimised build, with every check and trap, with sanitizers, and in
-# valgrind; then threads and grouping (test/test_grouping.f90). One line a stage; fails if any fails.
+# valgrind; many lanes side by side (test/test_lanes.f90) with checks, traps and sanitizers; threads and grouping
+# (test/test_grouping.f90). One line a stage; fails if any fails.
 set -uo pipefail
 
 fpm=${1:?usage: stress.sh PATH/TO/fpm [HISTORIES]}
@@ -68,10 +69,12 @@ stage() {
 at_least() { echo $(($1 > $2 ? $1 : $2)); }
 
 stage 'optimised' "$histories" 1000 release '' test_stress
-stage 'checks and traps' "$(at_least $((histories / 5)) 10)" 1000 debug \
-   '-fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-integer=-99999' test_stress
-stage 'sanitizers' "$(at_least $((histories / 50)) 10)" 500 debug \
-   '-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer' test_stress
+traps='-fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-integer=-99999'
+sanitizers='-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer'
+stage 'checks and traps' "$(at_least $((histories / 5)) 10)" 1000 debug "$traps" test_stress
+stage 'checks and traps, many lanes' 1 1 debug "$traps" test_lanes
+stage 'sanitizers' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_stress
+stage 'sanitizers, many lanes' 1 1 debug "$sanitizers" test_lanes
 stage 'threads and grouping' "$(at_least $((histories / 100)) 10)" 250 release '' test_grouping
 if command -v valgrind >/dev/null; then
    # The first part brings the kept histories, some of which are long.
