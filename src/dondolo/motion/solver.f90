@@ -7,7 +7,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit, other_steps
+   public :: solver_type, check_solver, check_limit, other_steps, other_scale
    public :: engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -72,6 +72,17 @@ contains
       other%atol = factor*solver%atol
       other%steps_per_sample = 2*solver%steps_per_sample
    end function other_steps
+
+   !> Factor on a record that differs by as much as all rounding of a history comes to: what it changes tells what
+   !> rounding may have changed, where that is more than the steps do
+   elemental real(wp) function other_scale(scale)
+      !> Factor
+      real(wp), intent(in) :: scale
+
+      real(wp), parameter :: units_in_the_last_place = 8.0_wp
+
+      other_scale = scale*(1.0_wp + units_in_the_last_place*epsilon(scale))
+   end function other_scale
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)
