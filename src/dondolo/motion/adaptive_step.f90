@@ -136,7 +136,9 @@ contains
       real(wp), parameter :: slack = 1.0001_wp
 
       self%longest = huge(dt)
-      if (solver%steps_per_sample > 1) self%longest = slack*(dt - self%time)/real(solver%steps_per_sample, wp)
+      ! A step too short to move the time on would be taken for ever.
+      if (solver%steps_per_sample > 1) &
+         & self%longest = max(shortest_motion*dt, slack*(dt - self%time)/real(solver%steps_per_sample, wp))
    end subroutine limit_steps
 
    !> Accept or reject a step and propose the next (PI control; Hairer, Norsett and Wanner 1993, section II.4)

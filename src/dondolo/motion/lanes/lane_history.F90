@@ -401,9 +401,26 @@ contains
 
       lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
       lanes%u(i) = lanes%u(i) + lanes%slope(i)*h
-      if (at_event .and. stage%solver%steps_per_sample > 1) lanes%span(i) = min(lanes%next_span(i), &
-         & slack*(lanes%dt(i) - lanes%time(i))/real(stage%solver%steps_per_sample, wp))
+      if (at_event) call limit_span(stage, lanes, i)
    end subroutine stop_between
+
+   !> From an event to the next sample there are at least as many steps as the solver asks for
+   pure subroutine limit_span(stage, lanes, i)
+      !> The wall
+      type(stage_type), intent(in) :: stage
+      !> Lanes
+      type(lanes_type), intent(inout) :: lanes
+      !> The lane: just after the event
+      integer, intent(in) :: i
+
+      real(wp) :: longest
+
+      lanes%span(i) = lanes%next_span(i)
+      if (stage%solver%steps_per_sample == 1) return
+      longest = slack*(lanes%dt(i) - lanes%time(i))/real(stage%solver%steps_per_sample, wp)
+      ! A step too short to move the time on would be taken for ever.
+      lanes%span(i) = min(lanes%span(i), max(shortest_motion*lanes%dt(i), longest))
+   end subroutine limit_span
 
    !> The ground seen from the side of the wall, at the lane's time
    pure subroutine aim(set, lanes, i, history)
@@ -519,8 +536,7 @@ contains
       lanes%next_span(i) = huge(time)
       if (stage%solver%steps_per_sample > 1) &
          & lanes%next_span(i) = slack*record%dt/real(stage%solver%steps_per_sample, wp)
-      lanes%span(i) = min(lanes%next_span(i), &
-         & slack*(record%dt - time)/real(stage%solver%steps_per_sample, wp))
+      call limit_span(stage, lanes, i)
       call aim(set, lanes, i, history)
    end subroutine wait
 
