@@ -68,7 +68,13 @@ PEERS = [
     Peer(
         "SciPy",
         (PYTHON, FOLDER / "peers" / "scipy_ivp.py"),
-        {method + whole: FEW for whole in ("", "/record") for method in ("RK45", "DOP853", "LSODA")},
+        {
+            "RK45": (1e-6, 1e-9),
+            "DOP853": (1e-6, 1e-9),
+            "LSODA": (1e-6, 1e-8),
+            "RK45/record": (1e-6, 1e-9),
+            "LSODA/record": (1e-6, 1e-9),
+        },
         "scipy and numba from Python's index",
         part=16,
         repeats=1,

@@ -20,6 +20,7 @@ import dondolo as dd
 
 CATALOGUE = ROOT / "data" / "records" / "synthetic44.csv"
 LEVELS = np.linspace(0.05, 1.0, 20)
+VARIANTS = ("baseline", "avx2", "avx512")[: ("baseline", "avx2", "avx512", "native").index(dd.build_variant()) + 1]
 WALL = dd.OneSidedWall(height=3.0, thickness=0.25)
 
 
@@ -33,7 +34,7 @@ def heights(count):
     return np.linspace(2.0, 4.0, count) if count > 1 else np.array([3.0])
 
 
-def typology(executable, count, threads, folder):
+def typology(executable, count, threads, folder, variant=None):
     """Seconds of the histories of a population, and the largest memory of the process [MiB]."""
     population = Path(folder) / "population.csv"
     lines = ["name,mechanism,height,thickness", *(f"w{i},one_sided,{h},0.25" for i, h in enumerate(heights(count)))]
@@ -46,7 +47,9 @@ def typology(executable, count, threads, folder):
         encoding="utf-8",
     )
     peak = 0.0
-    with subprocess.Popen([executable, case], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+    environment = os.environ | ({"DONDOLO_VARIANT": variant} if variant else {})
+    streams = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen([executable, case], text=True, env=environment, **streams) as process:
         while process.poll() is None:
             # What the process itself had at most; that of children in getrusage knows Python's own memory too.
             held = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{process.pid}/status").read_text())
@@ -61,7 +64,7 @@ def threads(executable, repeats):
     cores = os.cpu_count()
     counts = sorted({*(2**k for k in range(20) if 2**k <= cores), cores})
     rows = []
-    for kind, walls_of in (("strong", lambda n: 4 * cores), ("weak", lambda n: 4 * n)):
+    for kind, walls_of in (("strong", lambda n: 40 * cores), ("weak", lambda n: 40 * n)):
         for n in counts:
             with tempfile.TemporaryDirectory() as folder:
                 seconds = [typology(executable, walls_of(n), n, folder)[0] for _ in range(repeats)]
@@ -73,11 +76,22 @@ def threads(executable, repeats):
 def memory(executable):
     """Peak memory against the number of histories."""
     rows = []
-    for count in (1, 4, 16, 64):
+    for count in (1, 4, 16, 64, 256):
         with tempfile.TemporaryDirectory() as folder:
             _, peak = typology(executable, count, os.cpu_count(), folder)
         rows.append({"kind": "memory", "size": count, "histories": 880 * count, "value": peak})
     say("memory")
+    return rows
+
+
+def variants(executable, repeats):
+    """Every build variant that this processor runs, on one thread."""
+    rows = []
+    for place, name in enumerate(VARIANTS):
+        with tempfile.TemporaryDirectory() as folder:
+            seconds = [typology(executable, 16, 1, folder, name)[0] for _ in range(repeats)]
+        rows.append({"kind": "variant", "size": place, "histories": 880 * 16, "value": statistics.median(seconds)})
+    say("build variants")
     return rows
 
 
@@ -124,7 +138,7 @@ def refined(acceleration, parts):
 
 def measure(executable, path, repeats):
     """Measure all, into a table: kind, size, histories, value [s, or MiB for memory]."""
-    rows = threads(executable, repeats) + costs(repeats) + memory(executable)
+    rows = threads(executable, repeats) + variants(executable, repeats) + costs(repeats) + memory(executable)
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, ["kind", "size", "histories", "value"])
         writer.writeheader()

@@ -2,6 +2,7 @@
 
 import figures
 from markdown import paragraph, table
+from scaling import VARIANTS
 
 
 def scaling(rows):
@@ -39,5 +40,11 @@ def scaling(rows):
         if r["kind"] in names
     ]
     lines += table(["what grows", "size", "histories", "ms a history"], body)
+    own = [row for row in rows if row["kind"] == "variant"]
+    body = [
+        [VARIANTS[int(r["size"])], f"{1e3 * r['value'] / r['histories']:.3g}", f"{own[0]['value'] / r['value']:.3g}"]
+        for r in own
+    ]
+    lines += table(["build variant", "ms a history", "times as fast"], body)
     body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
     return lines + table(["histories", "peak memory, MiB"], body)

@@ -236,10 +236,14 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
 
 
 def settings(
-    rtol: float | None, atol: float | None, edp_limit: float | None, estimate_error: bool = False
+    rtol: float | None,
+    atol: float | None,
+    edp_limit: float | None,
+    estimate_error: bool = False,
+    collapses_only: bool = False,
 ) -> FloatArray:
-    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for estimated errors."""
-    if rtol is None and atol is None and edp_limit is None and estimate_error is False:
+    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for each of the others."""
+    if rtol is None and atol is None and edp_limit is None and not estimate_error and not collapses_only:
         return _default_settings()
     default = constants()
     return np.array(
@@ -248,6 +252,7 @@ def settings(
             default.atol if atol is None else as_number("atol", atol),
             default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
             float(bool(estimate_error)),
+            float(bool(collapses_only)),
         ]
     )
 
@@ -255,7 +260,7 @@ def settings(
 @functools.cache
 def _default_settings() -> FloatArray:
     default = constants()
-    return np.array([default.rtol, default.atol, default.edp_limit, 0.0])
+    return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
 
 
 def describe_wall(

@@ -149,12 +149,13 @@ def new_request(
     edp_limit: float | None,
     threads: int,
     estimate_error: bool = False,
+    collapses_only: bool = False,
 ) -> Request:
     """A request out of what a user gives."""
     team = check_threads(threads)
     levels = _binding.as_array("levels", levels).copy()
     levels.flags.writeable = False
-    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error, collapses_only)
     flat = flatten(tuple(records))
     # What the records are scaled by does not depend on walls or levels: it is computed once.
     values = _binding.scaling_values(im, flat, team)

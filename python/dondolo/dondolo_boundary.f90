@@ -139,8 +139,8 @@ contains
    pure function as_solver(engine, settings) result(solver)
       !> Engine
       character(len=*), intent(in) :: engine
-      !> rtol, atol, edp_limit, and 1 where errors are to be estimated, else 0
-      real(c_double), intent(in) :: settings(4)
+      !> rtol, atol, edp_limit; 1 where errors are to be estimated, 1 where collapses alone are wanted, else 0
+      real(c_double), intent(in) :: settings(5)
       !> The settings
       type(solver_type) :: solver
 
@@ -149,6 +149,7 @@ contains
       solver%atol = settings(2)
       solver%edp_limit = settings(3)
       solver%estimate_error = settings(4) > 0.0_c_double
+      solver%collapses_only = settings(5) > 0.0_c_double
    end function as_solver
 
    !> Check a number of threads

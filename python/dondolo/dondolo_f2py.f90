@@ -419,7 +419,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    !f2py threadsafe
    character(len=*), intent(in) :: texts, name, engine
    integer(c_int), intent(in) :: n, given(8), history
-   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, settings(4)
+   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, settings(5)
    real(c_double), intent(out) :: edp, time_of_peak, edp_error
    integer(c_int), intent(out) :: collapsed, impacts
    integer(c_intptr_t), intent(out) :: handle
@@ -476,7 +476,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(4)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -550,7 +550,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(4)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
    real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count), work(7)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
@@ -629,7 +629,7 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, engine
    integer(c_int), intent(in) :: given(8), r, n, k, threads, lengths(r), record(k)
-   real(c_double), intent(in) :: numbers(8), gravity, dt(r), acceleration(n), scale(k), settings(4)
+   real(c_double), intent(in) :: numbers(8), gravity, dt(r), acceleration(n), scale(k), settings(5)
    real(c_double), intent(out) :: edp(k), time_of_peak(k)
    integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
    character(len=2048), intent(out) :: message

@@ -244,7 +244,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     levels, scale = request.levels[:complete], plan.scale[:complete]
     for array in (*rows, error, scale, plan.polarity):
         array.flags.writeable = False
-    rtol, atol, edp_limit, estimated = (float(value) for value in request.settings)
+    rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     return Stripes(
         request.walls[0],
         request.im,

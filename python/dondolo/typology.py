@@ -228,7 +228,9 @@ def typology(
     if executor is not None and threads == 0:
         threads = 1
     several = as_records(records)
-    request = new_request(people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads)
+    request = new_request(
+        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=True
+    )
     plan = request.plan()
     if executor is None:
         collapses, complete, work = _run_here(request, plan.histories, progress)

@@ -223,11 +223,11 @@ def test_tables(analysis, tmp_path):
 
 def test_estimated_errors(wall, records):
     """They come with the stripes, leave all else as it is, and tell the histories that are off; a warning says so."""
-    plain = dd.multiple_stripe(wall, records, [0.8], progress=False)
+    plain = dd.multiple_stripe(wall, records, [0.8], engine="rk45", progress=False)
     assert plain.edp_error is None
     assert "edp_error" not in plain.to_frame()
     with pytest.warns(dd.DondoloWarning) as caught:
-        told = dd.multiple_stripe(wall, records, [0.8], estimate_error=True, progress=False)
+        told = dd.multiple_stripe(wall, records, [0.8], engine="rk45", estimate_error=True, progress=False)
     sentence = str(caught[-1].message)
     worst = told.record_names[int(told.edp_error.argmax())]
     assert sentence.startswith(
@@ -235,7 +235,7 @@ def test_estimated_errors(wall, records):
     )
     assert sentence.endswith(f"(record '{worst}' at level 0.8)")
     assert np.array_equal(told.edp, plain.edp)
-    exact = dd.multiple_stripe(wall, records, [0.8], rtol=1e-13, atol=1e-15, progress=False)
+    exact = dd.multiple_stripe(wall, records, [0.8], engine="rk45", rtol=1e-13, atol=1e-15, progress=False)
     off = abs(told.edp - exact.edp)
     assert np.array_equal(off > 1e-6, told.edp_error > 1e-6)
     assert told.edp_error.max() == pytest.approx(off.max(), rel=0.1)
