@@ -49,6 +49,8 @@ module dondolo_normal_form
    contains
       !> Rotation q
       procedure :: rotation
+      !> Bound of the fifth derivative
+      procedure :: fifth
    end type normal_form_type
 
    !> y at the limit rotation
@@ -156,6 +158,16 @@ contains
          fifth = fifth + abs(powers(k))*real(k*(k - 1)*(k - 2)*(k - 3)*(k - 4)/120, wp)
       end do
    end subroutine expand
+
+   !> Bound of the fifth derivative of y''/5! by y [1/s2]
+   elemental real(wp) function fifth(self, u)
+      !> The normal form
+      class(normal_form_type), intent(in) :: self
+      !> Ground acceleration [m/s2]
+      real(wp), intent(in) :: u
+
+      fifth = self%fifth_a + self%fifth_b*abs(u)
+   end function fifth
 
    !> Rotation q [rad]
    pure real(wp) function rotation(self, y)

@@ -30,8 +30,8 @@ module dondolo_lane_state
       real(wp) :: span(lane_width) = 0.0_wp, next_span(lane_width) = 0.0_wp
       !> Largest y so far at a turning point
       real(wp) :: peak(lane_width) = 0.0_wp
-      !> Place of the next sample in the set of records, and of the record's last. As wide as the reals, so that a vector
-      !> holds as many of them
+      !> Place of the next sample in the set of records, and of the record's last. As wide as the reals, so that a
+      !> vector holds as many of them
       integer(int64) :: next(lane_width) = 1, last(lane_width) = 1
       !> The last step as a series: y + v t + sum_k series(:, k) t^k, k = 2 to 9, and its length [s]
       real(wp) :: series(lane_width, 2:9) = 0.0_wp, step(lane_width) = 0.0_wp

@@ -67,8 +67,8 @@ contains
                      if (.not. is_filled(i)) then
                         ! The last lane moves in, so that those at work stay side by side.
                         call move(lanes, history, active, i)
-                        ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is
-                        ! taken. Else it would run past the samples of its record.
+                        ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no
+                        ! step is taken. Else it would run past the samples of its record.
                         lanes%y(active) = 0.0_wp
                         lanes%v(active) = 0.0_wp
                         active = active - 1
