@@ -200,7 +200,7 @@ def run_dondolo(executable, wall, motions, rtol, engine, repeats):
 
 def run_engines(executable, problem, repeats, quick):
     """Both engines of dondolo on all histories."""
-    version = subprocess.run([executable, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
+    version = subprocess.run([executable, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
     found = []
     for engine, settings in ENGINES.items():
         for rtol in settings[1::2] if quick else settings:
