@@ -5,8 +5,9 @@ import statistics
 import subprocess
 import time
 
-import dondolo as dd
 import numpy as np
+
+import dondolo as dd
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 
