@@ -2,12 +2,13 @@
 !>
 !> A Taylor step (docs/theory.md, section 5): a and b are expanded about the present y, and y'' = a + b u, with u linear
 !> in time, gives the series of the motion up to t^9. The step ends at the lane's next sample. Where an impact, a new
-!> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged.
+!> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged. (fpm does not
+!> follow the include: after a change of lane_step.inc alone, remove its folder build.)
 module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, record_over, step_taken, step_too_long
-   use dondolo_normal_form, only : degrees, highest_degree, normal_form_type, y_limit
+   use dondolo_normal_form, only : degrees, normal_form_type, y_limit
    implicit none
    private
 
