@@ -375,12 +375,15 @@ def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     return receive(*_core.catalogue_table(as_path(path), constants().gravity)).lines
 
 
-def read_walls(path: str | os.PathLike[str], gravity: float | None) -> tuple[list[WallData], FloatArray]:
-    """Read a population: its walls and their weights."""
+def read_walls(
+    path: str | os.PathLike[str], gravity: float | None
+) -> tuple[list[WallData], FloatArray, list[str], FloatArray]:
+    """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.read_walls(as_path(path), pull))
-    count = len(parcel.lines) // 3
-    return unpack_walls(parcel, count), parcel.reals[count * _WALL_REALS :]
+    count = len(parcel.lines) // 4
+    weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
+    return unpack_walls(parcel, count), weights, parcel.lines[3 * count :], p_occ
 
 
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:

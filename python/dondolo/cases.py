@@ -114,7 +114,9 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]
     weights = 5 + levels
-    places = [weights + walls, 5, 6]
+    weight, p_occ = parcel.reals[weights : weights + 2 * walls].reshape(2, walls)
+    groups = parcel.lines[6 : 6 + walls]
+    places = [weights + 2 * walls, 5, 6 + walls]
     people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
     places = [place + more for place, more in zip(places, _binding.walls_end(walls), strict=True)]
     motions = _binding.unpack_records(parcel, records, *places)
@@ -122,7 +124,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         task,
         title,
         output,
-        Population(tuple(people), parcel.reals[weights : weights + walls]),
+        Population(tuple(people), weight, groups, p_occ),
         tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
         im,
         polarity,

@@ -375,7 +375,8 @@ subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    call report(error, stat, message)
 end subroutine catalogue_table
 
-! Read a population: walls as pack_walls has them, then their weights
+! Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
+! text: their groups
 subroutine read_walls(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_walls, parcel_type, report, send
@@ -391,13 +392,17 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    type(population_type) :: population
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   integer :: i
 
    handle = 0
    sizes = 0
    call read_population(path, population, error, gravity)
    if (.not. allocated(error)) then
       call pack_walls(population%walls, parcel)
-      parcel%reals = [parcel%reals, population%weight]
+      parcel%reals = [parcel%reals, population%weight, population%p_occ]
+      do i = 1, size(population%group)
+         parcel%text = parcel%text//population%group(i)%text//new_line('a')
+      end do
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -921,6 +926,7 @@ subroutine read_case(path, handle, sizes, stat, message)
    type(error_type), allocatable :: error
    character(len=1), parameter :: line = new_line('a')
    real(c_double) :: scale
+   integer :: i
 
    handle = 0
    sizes = 0
@@ -932,9 +938,13 @@ subroutine read_case(path, handle, sizes, stat, message)
       parcel%integers = [size(case%population%walls), size(case%stripes%levels), size(case%records), &
          & case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
-         & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, case%population%weight]
+         & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
+         & case%population%weight, case%population%p_occ]
       parcel%text = case%job%task//line//case%job%title//line//case%job%output//line// &
          & case%stripes%scaling%name//line//case%records_input%polarity//line//trim(case%solver%solver%engine)//line
+      do i = 1, size(case%population%group)
+         parcel%text = parcel%text//case%population%group(i)%text//line
+      end do
       call pack_walls(case%population%walls, parcel)
       call pack_records(case%records, parcel)
       call send(parcel, handle, sizes)

@@ -139,7 +139,8 @@ def _population(rows: Rows, gravity: float) -> Population:
         kind = MECHANISMS[rows["mechanism"][i]]
         walls.append(kind(name=name, restitution=rows["restitution_model"][i], gravity=gravity, **given))
     weights = [float(cell) for cell in rows["weight"]]
-    return Population(tuple(walls), np.asarray(weights))
+    p_occ = [float(cell) for cell in rows["p_occ"]]
+    return Population(tuple(walls), np.asarray(weights), tuple(rows["group"]), np.asarray(p_occ))
 
 
 def _numbers(rows: Rows, column: str) -> Any:

@@ -126,7 +126,7 @@ class Stripes:
             "stripes": lambda: tables.stripes_table(
                 [self.wall], self.im, self.levels, self.collapses[:, None], [self.edp.shape[1]]
             ),
-            "walls": lambda: tables.walls_table([self.wall], [1.0]),
+            "walls": lambda: tables.walls_table([self.wall]),
         }
 
     def to_frame(self, table: str = "histories") -> Any:

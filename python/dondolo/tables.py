@@ -82,7 +82,12 @@ def html_of(title: str, facts: Sequence[tuple[str, str]]) -> str:
     return f"<table><caption>{html.escape(title)}</caption>{rows}</table>"
 
 
-def walls_table(walls: Sequence[Wall], weights: Iterable[float]) -> Table:
+def walls_table(
+    walls: Sequence[Wall],
+    weights: Iterable[float] = (1.0,),
+    groups: Iterable[str] = ("",),
+    p_occ: Iterable[float] = (1.0,),
+) -> Table:
     """Columns of ``_walls.csv``."""
 
     def column(what: str) -> list[Any]:
@@ -106,6 +111,8 @@ def walls_table(walls: Sequence[Wall], weights: Iterable[float]) -> Table:
         "capacity_rad": column("capacity_angle"),
         "restitution": column("restitution_coefficient"),
         "weight": list(weights),
+        "group": list(groups),
+        "p_occ": list(p_occ),
     }
 
 

@@ -60,8 +60,8 @@ class Typology:
 
     Attributes
     ----------
-    walls : tuple of Wall
-    weights : ndarray, shape (walls,)
+    population : Population
+        The walls.
     im : str
         Intensity measure.
     levels : ndarray, shape (levels,)
@@ -77,8 +77,7 @@ class Typology:
         What was computed for all walls, and what was not.
     """
 
-    walls: tuple[Wall, ...]
-    weights: FloatArray
+    population: Population
     im: str
     levels: FloatArray
     collapses: IntArray
@@ -86,6 +85,16 @@ class Typology:
     curves: tuple[Fragility, ...]
     groups: tuple[Group, ...]
     work: Work
+
+    @property
+    def walls(self) -> tuple[Wall, ...]:
+        """The walls."""
+        return self.population.walls
+
+    @property
+    def weights(self) -> FloatArray:
+        """Their weights, shape (walls,)."""
+        return self.population.weights
 
     @property
     def weight(self) -> float:
@@ -152,7 +161,7 @@ class Typology:
             "stripes": lambda: tables.stripes_table(
                 self.walls, self.im, self.levels, self.collapses, list(self.histories)
             ),
-            "walls": lambda: tables.walls_table(self.walls, self.weights),
+            "walls": lambda: self.population._table(),
         }
 
     def to_frame(self, table: str = "typology") -> Any:
@@ -300,6 +309,7 @@ def combine(
     histories, collapses = histories[chosen], collapses[chosen]
     if not weights.any():
         weights = np.ones(len(chosen))
+    people = Population(walls, weights, tuple(people.groups[i] for i in chosen), people.p_occ[chosen])
     flat = _binding.join_walls([wall._flat for wall in walls])
     curves, groups, sentences = _binding.fit_walls(flat, levels, collapses, histories, weights)
     sizes = np.repeat(histories.astype(np.float64)[:, None], len(levels), axis=1)
@@ -318,8 +328,7 @@ def combine(
         together.append(Group(*group[:-1], curve))
     histories.flags.writeable = False
     result = Typology(
-        walls,
-        weights,
+        people,
         im,
         levels,
         np.ascontiguousarray(collapses.T),

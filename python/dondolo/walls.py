@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -13,6 +14,9 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo.errors import InputError
+
+# Name that Fortran gives a wall without one
+_UNNAMED = "wall"
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
@@ -183,7 +187,7 @@ class Wall:
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""
-        return tables.frame(tables.walls_table([self], [1.0]))
+        return tables.frame(tables.walls_table([self]))
 
 
 @dataclass(frozen=True, repr=False)
@@ -276,16 +280,25 @@ def wall_from(data: _binding.WallData) -> Wall:
 class Population:
     """Walls and how many of the kind each stands for.
 
+    Walls with the same name, one after the other, are mechanisms of one wall. Walls that were given no name are called
+    'wall' with their number.
+
     Attributes
     ----------
     walls : tuple of Wall
-        The walls.
+        The walls, each with one mechanism.
     weights : ndarray, shape (walls,)
         Their weights, not negative and not all zero; 1 each if left out.
+    groups : tuple of str
+        Name of the group that each belongs to, for curves by group; empty if left out.
+    p_occ : ndarray, shape (walls,)
+        Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
     """
 
     walls: tuple[Wall, ...]
     weights: _binding.FloatArray = None  # type: ignore[assignment]
+    groups: tuple[str, ...] = None  # type: ignore[assignment]
+    p_occ: _binding.FloatArray = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         walls = (self.walls,) if isinstance(self.walls, Wall) else tuple(self.walls)
@@ -294,17 +307,23 @@ class Population:
         for wall in walls:
             if not isinstance(wall, Wall):
                 raise InputError(f"walls: {type(wall).__name__} is no wall")
-        weights = np.ones(len(walls)) if self.weights is None else _binding.as_array("weights", self.weights).copy()
-        if len(weights) != len(walls):
-            raise InputError(f"{len(walls)} walls, {len(weights)} weights: must be as many")
-        for weight in weights:
-            if not 0.0 <= weight < np.inf:
-                raise InputError(f"weight = {weight}: must not be negative")
+        weights = _shares("weight", self.weights, len(walls), math.inf)
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
-        weights.flags.writeable = False
-        object.__setattr__(self, "walls", walls)
-        object.__setattr__(self, "weights", weights)
+        p_occ = _shares("p_occ", self.p_occ, len(walls), 1.0)
+        groups = ("",) * len(walls) if self.groups is None else tuple(self.groups)
+        if len(groups) != len(walls):
+            raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
+        for group in groups:
+            _binding.as_text("group", group)
+        if len(walls) > 1:
+            walls = tuple(
+                dataclasses.replace(wall, name=f"wall {i}") if wall.name == _UNNAMED else wall
+                for i, wall in enumerate(walls, 1)
+            )
+        _check_names(walls, weights, groups)
+        for name, value in (("walls", walls), ("weights", weights), ("groups", groups), ("p_occ", p_occ)):
+            object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
         return len(self.walls)
@@ -320,11 +339,14 @@ class Population:
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights as a pandas DataFrame."""
-        return tables.frame(tables.walls_table(self.walls, self.weights))
+        return tables.frame(self._table())
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the walls as the executable's ``_walls.csv``."""
-        tables.write_csv(path, tables.walls_table(self.walls, self.weights))
+        tables.write_csv(path, self._table())
+
+    def _table(self) -> tables.Table:
+        return tables.walls_table(self.walls, self.weights, self.groups, self.p_occ)
 
 
 def read_population(path: str | os.PathLike[str], gravity: float | None = None) -> Population:
@@ -346,5 +368,35 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
     InputError
         The table or one of its walls is wrong.
     """
-    walls, weights = _binding.read_walls(path, gravity)
-    return Population(tuple(wall_from(data) for data in walls), weights)
+    walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
+    return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ)
+
+
+def _shares(name: str, values: ArrayLike | None, count: int, largest: float) -> _binding.FloatArray:
+    """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
+    shares = np.ones(count) if values is None else _binding.as_array(name, values).copy()
+    if len(shares) != count:
+        raise InputError(f"{count} walls, {len(shares)} values of {name}: must be as many")
+    for share in shares:
+        if not (0.0 <= share <= largest and share < math.inf):
+            allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
+            raise InputError(f"{name} = {share}: {allowed}")
+    shares.flags.writeable = False
+    return shares
+
+
+def _check_names(walls: Sequence[Wall], weights: _binding.FloatArray, groups: Sequence[str]) -> None:
+    """Walls with one name must be mechanisms of one wall."""
+    first: dict[str, int] = {}
+    for i, wall in enumerate(walls):
+        one = first.setdefault(wall.name, i)
+        if one == i:
+            continue
+        if walls[i - 1].name != wall.name:
+            raise InputError(
+                f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must stand one after the other"
+            )
+        if wall.mechanism in (other.mechanism for other in walls[one:i]):
+            raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
+        if weights[i] != weights[one] or groups[i] != groups[one]:
+            raise InputError(f"name = {wall.name!r}: mechanisms of one wall must have the same weight and group")

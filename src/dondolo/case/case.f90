@@ -159,6 +159,9 @@ contains
          group = namelist%group('wall')
          allocate (case%population%walls(1))
          case%population%weight = [1.0_wp]
+         case%population%p_occ = [1.0_wp]
+         allocate (case%population%group(1))
+         case%population%group(1)%text = ''
          call new_wall(case%population%walls(1), input, error, case%solver%gravity)
          call add_place(error, group%place())
       end if

@@ -1,10 +1,13 @@
-!> A population of walls: a CSV table with one row a wall, its columns those of &wall, and weight.
+!> A population of walls: a CSV table with one row a mechanism of a wall, its columns those of &wall, and weight, group
+!> and p_occ.
 !>
-!> A cell that is empty was not given. A wall without a name is called 'wall' with the number of its row.
+!> A cell that is empty was not given. A wall without a name is called 'wall' with the number of its row. Rows with the
+!> same name are mechanisms of the same wall; they stand one after the other.
 module dondolo_population
    use dondolo_csv, only : csv_table_type, read_csv
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : line_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
@@ -13,12 +16,19 @@ module dondolo_population
 
    public :: population_type, read_population
 
+   !> Columns besides the variables of a wall
+   character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
+
    !> Walls and what each stands for
    type :: population_type
       !> The walls
       type(wall_type), allocatable :: walls(:)
       !> Weight of each, >= 0, not all 0
       real(wp), allocatable :: weight(:)
+      !> Probability that its mechanism can occur
+      real(wp), allocatable :: p_occ(:)
+      !> Name of its group, empty if none was given
+      type(line_type), allocatable :: group(:)
    end type population_type
 
 contains
@@ -36,32 +46,81 @@ contains
 
       type(csv_table_type) :: table
       type(wall_input_type) :: input
-      integer :: row, other
+      integer :: row
 
       call read_csv(file, table, error)
       if (allocated(error)) return
       call check_columns(table, error)
       if (allocated(error)) return
-      allocate (population%walls(table%rows()), population%weight(table%rows()))
+      allocate (population%walls(table%rows()), population%weight(table%rows()), population%p_occ(table%rows()), &
+         & population%group(table%rows()))
       do row = 1, table%rows()
-         call read_row(table, row, input, population%weight(row), error)
+         call read_row(table, row, input, population%weight(row), population%p_occ(row), error)
          if (allocated(error)) return
-         if (scan(input%name, new_line('a')//achar(13)) > 0) then
-            call raise_input(error, table%place(row)//': name: must stand on one line')
-            return
-         end if
+         population%group(row)%text = table%get_text(row, table%column('group'))
+         call check_line('name', input%name)
+         if (.not. allocated(error)) call check_line('group', population%group(row)%text)
+         if (allocated(error)) return
          call new_wall(population%walls(row), input, error, gravity)
          call add_place(error, table%place(row))
          if (allocated(error)) return
-         do other = 1, row - 1
-            if (population%walls(other)%input%name /= input%name) cycle
-            call raise_input(error, table%place(row)//': name = '''//input%name//''': another wall has this name')
-            return
-         end do
+         call check_name(population, row, error)
+         call add_place(error, table%place(row))
+         if (allocated(error)) return
       end do
       if (.not. any(population%weight > 0.0_wp)) &
          & call raise_input(error, file//': weight: must be positive for at least one wall')
+
+   contains
+
+      !> Check that a text stands on one line
+      subroutine check_line(name, text)
+         !> Name of its column
+         character(len=*), intent(in) :: name
+         !> The text
+         character(len=*), intent(in) :: text
+
+         if (scan(text, new_line('a')//achar(13)) > 0) &
+            & call raise_input(error, table%place(row)//': '//name//': must stand on one line')
+      end subroutine check_line
+
    end subroutine read_population
+
+   !> Check a row against those before it: another mechanism of the wall before, or a new wall
+   subroutine check_name(population, row, error)
+      !> The walls up to this row
+      type(population_type), intent(in) :: population
+      !> Number of the row
+      integer, intent(in) :: row
+      !> The name stands elsewhere too, or what is said of the wall differs
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: other
+      logical :: next_to_it
+
+      next_to_it = .true.
+      associate (name => population%walls(row)%input%name)
+         do other = row - 1, 1, -1
+            if (population%walls(other)%input%name /= name) then
+               next_to_it = .false.
+               cycle
+            end if
+            if (.not. next_to_it) then
+               call raise_input(error, 'name = '''//name//''': another wall has this name; mechanisms of one wall '// &
+                  & 'must stand in rows one after the other')
+            else if (population%walls(other)%input%mechanism == population%walls(row)%input%mechanism) then
+               call raise_input(error, 'name = '''//name//''': another row gives this wall the same mechanism')
+            else if (abs(population%weight(other) - population%weight(row)) > 0.0_wp) then
+               call raise_input(error, 'weight = '//to_text(population%weight(row))//': must be '// &
+                  & to_text(population%weight(other))//' as in the row before, which is of the same wall')
+            else if (population%group(other)%text /= population%group(row)%text) then
+               call raise_input(error, 'group = '''//population%group(row)%text//''': must be '''// &
+                  & population%group(other)%text//''' as in the row before, which is of the same wall')
+            end if
+            if (allocated(error)) return
+         end do
+      end associate
+   end subroutine check_name
 
    !> Check the names of the columns
    subroutine check_columns(table, error)
@@ -74,16 +133,16 @@ contains
 
       do i = 1, size(table%columns)
          if (any(lower(table%columns(i)%text) == wall_variables)) cycle
-         if (lower(table%columns(i)%text) == 'weight') cycle
+         if (any(lower(table%columns(i)%text) == own_columns)) cycle
          call raise_input(error, table%file//': column '''//table%columns(i)%text//''': no such column; there are '// &
-            & join(wall_variables)//', ''weight''')
+            & join(wall_variables)//', '//join(own_columns))
          return
       end do
       if (table%rows() == 0) call raise_input(error, table%file//': no walls under the header')
    end subroutine check_columns
 
    !> Read what one row says of a wall
-   subroutine read_row(table, row, input, weight, error)
+   subroutine read_row(table, row, input, weight, p_occ, error)
       !> The table
       type(csv_table_type), intent(in) :: table
       !> Number of the row
@@ -92,7 +151,9 @@ contains
       type(wall_input_type), intent(out) :: input
       !> Its weight
       real(wp), intent(out) :: weight
-      !> A cell that is not a number, or a weight out of range
+      !> Probability that its mechanism can occur
+      real(wp), intent(out) :: p_occ
+      !> A cell that is not a number, a weight or a probability out of range
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: largest_weight = 1.0e12_wp
@@ -110,14 +171,27 @@ contains
          if (allocated(error)) return
          call set_wall_number(input, wall_numbers(i), number)
       end do
-      weight = 1.0_wp
-      if (.not. given('weight')) return
-      call table%get_real(row, table%column('weight'), weight, error)
-      if (allocated(error)) return
-      if (.not. (weight >= 0.0_wp .and. weight <= largest_weight)) call raise_input(error, table%place(row)// &
-         & ': weight = '//to_text(weight)//': must lie between 0 and '//to_text(largest_weight))
+      call read_share('weight', weight, largest_weight)
+      if (.not. allocated(error)) call read_share('p_occ', p_occ, 1.0_wp)
 
    contains
+
+      !> Read a number that is 1 where it was not given
+      subroutine read_share(name, share, largest)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+         !> The number
+         real(wp), intent(out) :: share
+         !> The largest that is allowed; the smallest is 0
+         real(wp), intent(in) :: largest
+
+         share = 1.0_wp
+         if (.not. given(name)) return
+         call table%get_real(row, table%column(name), share, error)
+         if (allocated(error)) return
+         if (.not. (share >= 0.0_wp .and. share <= largest)) call raise_input(error, table%place(row)//': '//name// &
+            & ' = '//to_text(share)//': must lie between 0 and '//to_text(largest))
+      end subroutine read_share
 
       !> Is there such a column, and does this row have something in it?
       logical function given(name)

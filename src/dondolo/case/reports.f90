@@ -158,7 +158,7 @@ contains
 
       call files%line('wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,'// &
          & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,'// &
-         & 'capacity_rad,restitution,weight')
+         & 'capacity_rad,restitution,weight,group,p_occ')
       do i = 1, size(case%population%walls)
          associate (wall => case%population%walls(i))
             call files%line(wall_cells(case, i)//','//to_table(wall%input%height)//','// &
@@ -168,7 +168,8 @@ contains
                & given(wall%input%overburden)//','//given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
                & to_table(wall%mechanism%frequency_parameter())//','// &
                & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
-               & to_table(wall%mechanism%restitution)//','//to_table(case%population%weight(i)))
+               & to_table(wall%mechanism%restitution)//','//to_table(case%population%weight(i))//','// &
+               & quoted(case%population%group(i)%text)//','//to_table(case%population%p_occ(i)))
          end associate
       end do
    end subroutine write_walls
