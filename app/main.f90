@@ -104,18 +104,19 @@ contains
       end do
    end subroutine print_warnings
 
-   !> Print an error on one line and end with its exit code
+   !> Print an error, one line for each thing that is wrong, and end with its exit code
    subroutine give_up(error)
       !> What went wrong
-      type(error_type), intent(inout) :: error
+      type(error_type), intent(in) :: error
 
-      integer :: i
+      integer :: first, length
 
-      do i = 1, len(error%message)
-         ! A control character can come out of a file that is read; it must not break the line
-         if (iachar(error%message(i:i)) < 32) error%message(i:i) = ' '
+      first = 1
+      do while (first <= len(error%message))
+         length = index(error%message(first:)//new_line('a'), new_line('a')) - 1
+         write (error_unit, '(a)') 'dondolo: '//error%message(first:first + length - 1)
+         first = first + length + 1
       end do
-      write (error_unit, '(a)') 'dondolo: '//error%message
       stop error%stat, quiet=.true.
    end subroutine give_up
 

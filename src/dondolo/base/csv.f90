@@ -1,26 +1,13 @@
-!> Tables in CSV files (RFC 4180): a header with the names of the columns, then one row a line.
-!>
-!> Cells are separated by commas; a cell in double quotes may hold commas, line ends and, doubled, quotes.
-!> Blank lines and lines that begin with # are skipped; blanks around cells without quotes do not count.
+!> Tables in CSV files as a whole; dondolo_csv_reader says how they are written.
 module dondolo_csv
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_csv_reader, only : cell_type, column_named, csv_reader_type, number_of
+   use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_text, only : lower, to_text
-   use dondolo_text_file, only : read_text_file, text_file_type
+   use dondolo_text, only : to_text
    implicit none
    private
 
    public :: csv_table_type, read_csv
-
-   !> Blanks around cells
-   character(len=*), parameter :: blanks = ' '//achar(9)
-
-   !> One cell
-   type :: cell_type
-      !> Its text
-      character(len=:), allocatable :: text
-   end type cell_type
 
    !> A table
    type :: csv_table_type
@@ -56,216 +43,47 @@ contains
       !> The file is missing or not a table
       type(error_type), allocatable, intent(out) :: error
 
-      type(text_file_type) :: text
-      type(cell_type), allocatable :: row(:)
-      integer :: next, begin, rows
+      type(csv_reader_type) :: reader
+      logical :: found
 
-      call read_text_file(file, text, error)
-      if (allocated(error)) return
       table%file = file
-      allocate (table%line(text%lines()))
-      rows = 0
-      next = 1
+      call reader%open(file, error)
+      if (allocated(error)) return
+      table%columns = reader%columns
+      allocate (table%line(0), table%cells(size(table%columns), 0))
       do
-         call next_row(text, next, begin, row, error)
-         if (allocated(error)) return
-         if (begin == 0) exit
-         if (.not. allocated(table%columns)) then
-            call take_header(text, begin, row, table, error)
-            if (allocated(error)) return
-            allocate (table%cells(size(row), text%lines()))
-            cycle
-         end if
-         if (size(row) /= size(table%columns)) then
-            call raise_input(error, text%place(begin)//': '//to_text(size(row))//' cells: must be '// &
-               & to_text(size(table%columns))//' as in the header')
-            return
-         end if
-         rows = rows + 1
-         table%cells(:, rows) = row
-         table%line(rows) = begin
+         call reader%next(found, error)
+         if (.not. found .or. allocated(error)) exit
+         call add_row(table, reader)
       end do
-      if (.not. allocated(table%columns)) then
-         call raise_input(error, file//': no header: the first line must name the columns')
-         return
-      end if
-      table%line = table%line(:rows)
-      table%cells = table%cells(:, :rows)
+      call reader%close()
+      table%cells = table%cells(:, :table%rows())
    end subroutine read_csv
 
-   !> Take the first row as the names of the columns
-   subroutine take_header(text, line, row, table, error)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> Line of the header
-      integer, intent(in) :: line
-      !> Its cells
-      type(cell_type), intent(in) :: row(:)
+   !> Add a row to a table
+   subroutine add_row(table, reader)
       !> The table
       type(csv_table_type), intent(inout) :: table
-      !> A name is empty or stands there twice
-      type(error_type), allocatable, intent(out) :: error
+      !> The reader, a row of which was read; it is moved away
+      type(csv_reader_type), intent(inout) :: reader
 
+      type(cell_type), allocatable :: more(:, :)
       integer :: i, j
 
-      if (size(row) == 1 .and. index(row(1)%text, ';') > 0) then
-         call raise_input(error, text%place(line)//': header '''//row(1)%text// &
-            & ''': columns must be separated by commas')
-         return
-      end if
-      do i = 1, size(row)
-         if (len_trim(row(i)%text) == 0) then
-            call raise_input(error, text%place(line)//': column '//to_text(i)//' has no name')
-            return
-         end if
-         do j = 1, i - 1
-            if (lower(row(i)%text) /= lower(row(j)%text)) cycle
-            call raise_input(error, text%place(line)//': column '''//row(i)%text//''' stands there twice')
-            return
+      if (table%rows() == size(table%cells, 2)) then
+         allocate (more(size(table%columns), max(16, 2*table%rows())))
+         do j = 1, table%rows()
+            do i = 1, size(table%columns)
+               call move_alloc(table%cells(i, j)%text, more(i, j)%text)
+            end do
          end do
-      end do
-      table%columns = row
-   end subroutine take_header
-
-   !> Read the cells of the next row
-   subroutine next_row(text, next, begin, row, error)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> Line to go on from
-      integer, intent(inout) :: next
-      !> Line in which the row begins, 0 if there are no more
-      integer, intent(out) :: begin
-      !> Its cells
-      type(cell_type), allocatable, intent(out) :: row(:)
-      !> A quote that is not closed or stands where it may not
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: line, problem
-      integer :: at, cells, separators, quotes
-
-      begin = 0
-      do while (next <= text%lines())
-         line = text%line(next)
-         next = next + 1
-         if (verify(line, blanks) == 0) cycle
-         if (line(1:1) == '#') cycle
-         begin = next - 1
-         exit
-      end do
-      if (begin == 0) return
-      quotes = occurrences(line, '"')
-      if (modulo(quotes, 2) == 1) then
-         ! The last quote opens a cell that goes on in the next line
-         do while (modulo(quotes, 2) == 1 .and. next <= text%lines())
-            quotes = quotes + occurrences(text%text(text%first(next):text%last(next)), '"')
-            next = next + 1
-         end do
-         if (modulo(quotes, 2) == 1) then
-            call raise_input(error, text%place(begin)//': a double quote is not closed')
-            return
-         end if
-         line = text%text(text%first(begin):text%last(next - 1))
+         call move_alloc(more, table%cells)
       end if
-      separators = occurrences(line, ',')
-      allocate (row(separators + 1))
-      at = 1
-      cells = 0
-      do while (at <= len(line) + 1)
-         cells = cells + 1
-         call take_cell(line, at, row(cells)%text, problem)
-         if (len(problem) == 0) cycle
-         call raise_input(error, text%place(begin)//': cell '//to_text(cells)//': '//problem)
-         return
+      table%line = [table%line, reader%line]
+      do i = 1, size(table%columns)
+         call move_alloc(reader%cells(i)%text, table%cells(i, table%rows())%text)
       end do
-      row = row(:cells)
-   end subroutine next_row
-
-   !> Read one cell
-   pure subroutine take_cell(line, at, cell, problem)
-      !> Line, or several joined where a quoted cell holds line ends
-      character(len=*), intent(in) :: line
-      !> Position: where the cell begins, then after the comma that ends it
-      integer, intent(inout) :: at
-      !> Its text
-      character(len=:), allocatable, intent(out) :: cell
-      !> What is wrong, or empty
-      character(len=:), allocatable, intent(out) :: problem
-
-      integer :: first, mark, length
-
-      problem = ''
-      cell = ''
-      first = verify(line(at:), blanks) + at - 1
-      if (first >= at) then
-         if (line(first:first) == '"') then
-            call take_quoted(line, first, mark, cell)
-            length = index(line(mark:)//',', ',') - 1
-            if (verify(line(mark:mark + length - 1), blanks) > 0) problem = 'text after the closing double quote'
-            at = mark + length + 1
-            return
-         end if
-      end if
-      length = index(line(at:)//',', ',') - 1
-      if (index(line(at:at + length - 1), '"') > 0) then
-         problem = 'a double quote inside: put the cell in double quotes and double the ones inside'
-      end if
-      if (length > 0) cell = stripped(line(at:at + length - 1))
-      at = at + length + 1
-   end subroutine take_cell
-
-   !> Read a cell in double quotes
-   pure subroutine take_quoted(line, first, mark, cell)
-      !> Line, with an even number of double quotes
-      character(len=*), intent(in) :: line
-      !> Position of the opening quote
-      integer, intent(in) :: first
-      !> Position after the closing quote
-      integer, intent(out) :: mark
-      !> Text between them, doubled quotes made single
-      character(len=:), allocatable, intent(out) :: cell
-
-      integer :: length
-
-      cell = ''
-      mark = first + 1
-      do
-         ! The quotes of a line are even in number, so one is found, or the cell ends the line
-         length = index(line(mark:), '"') - 1
-         cell = cell//line(mark:mark + length - 1)
-         mark = mark + length + 1
-         if (mark > len(line)) return
-         if (line(mark:mark) /= '"') return
-         cell = cell//'"'
-         mark = mark + 1
-      end do
-   end subroutine take_quoted
-
-   !> How often a character stands in a text
-   pure function occurrences(text, character) result(count)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Character
-      character(len=1), intent(in) :: character
-      !> How often
-      integer :: count
-
-      integer :: i
-
-      count = 0
-      do i = 1, len(text)
-         if (text(i:i) == character) count = count + 1
-      end do
-   end function occurrences
-
-   !> A text without the blanks and tabs around it
-   pure function stripped(text)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> The same without blanks around
-      character(len=:), allocatable :: stripped
-
-      stripped = text(max(verify(text, blanks), 1):verify(text, blanks, back=.true.))
-   end function stripped
+   end subroutine add_row
 
    !> Number of rows
    pure function rows(self)
@@ -286,9 +104,7 @@ contains
       !> Number of the column, 0 if there is none
       integer :: column
 
-      do column = size(self%columns), 1, -1
-         if (lower(self%columns(column)%text) == lower(name)) exit
-      end do
+      column = column_named(self%columns, name)
    end function column
 
    !> Where a row is, for messages
@@ -331,12 +147,8 @@ contains
       !> The cell is not one finite decimal number
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: ok
-
-      call parse_real(self%cells(column, row)%text, value, ok)
-      if (ok) return
-      call raise_input(error, self%place(row)//': '//self%columns(column)%text//' = '''// &
-         & self%cells(column, row)%text//''': must be a number, with a decimal point')
+      call number_of(self%cells(column, row)%text, self%columns(column)%text, value, error)
+      call add_place(error, self%place(row))
    end subroutine get_real
 
 end module dondolo_csv

@@ -2,12 +2,13 @@
 !>
 !> An `error_type` that is not allocated means success. The message is one sentence without a final
 !> full stop; callers put the place before it (file, namelist group), so that a user reads
-!> `walls.nml: &wall: thickness = -0.25: must be positive`.
+!> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the rows of
+!> a table, their sentences stand on lines of their own (problems_type).
 module dondolo_error
    implicit none
    private
 
-   public :: error_type, raise_input, raise_failure, add_place
+   public :: error_type, problems_type, raise_input, raise_failure, add_place
    public :: status_failure, status_input
 
    !> The work failed while running (exit code of the executable)
@@ -24,6 +25,19 @@ module dondolo_error
       character(len=:), allocatable :: message
    end type error_type
 
+   !> Things that are wrong, gathered to be reported at once
+   type :: problems_type
+      !> How many there are
+      integer :: count = 0
+      !> Sentences of the first, one a line
+      character(len=:), allocatable :: text
+   contains
+      !> Take an error, if there is one
+      procedure :: take
+      !> Report them, if there are any
+      procedure :: raise
+   end type problems_type
+
 contains
 
    !> Report wrong input
@@ -35,7 +49,7 @@ contains
 
       allocate(error)
       error%stat = status_input
-      error%message = message
+      error%message = on_one_line(message)
    end subroutine raise_input
 
    !> Report work that failed while running
@@ -47,7 +61,7 @@ contains
 
       allocate(error)
       error%stat = status_failure
-      error%message = message
+      error%message = on_one_line(message)
    end subroutine raise_failure
 
    !> Put the place (a file, a group) before the sentence of an error, if there is one
@@ -59,5 +73,64 @@ contains
 
       if (allocated(error)) error%message = place//': '//error%message
    end subroutine add_place
+
+   !> A text without control characters, which can come out of a file that is read
+   pure function on_one_line(text) result(line)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The same, with blanks for them
+      character(len=len(text)) :: line
+
+      integer :: i
+
+      line = text
+      do i = 1, len(text)
+         if (iachar(text(i:i)) < 32) line(i:i) = ' '
+      end do
+   end function on_one_line
+
+   !> Take an error, if there is one
+   subroutine take(self, error)
+      !> The problems
+      class(problems_type), intent(inout) :: self
+      !> The error; not allocated afterwards
+      type(error_type), allocatable, intent(inout) :: error
+
+      ! So many characters fit on a screen; the rest is counted
+      integer, parameter :: room = 1500
+
+      if (.not. allocated(error)) return
+      if (.not. allocated(self%text)) self%text = ''
+      self%count = self%count + 1
+      if (self%count == 1) then
+         self%text = error%message
+      else if (len(self%text) + len(error%message) < room) then
+         self%text = self%text//new_line('a')//error%message
+      end if
+      deallocate (error)
+   end subroutine take
+
+   !> Report them, if there are any
+   subroutine raise(self, error)
+      !> The problems
+      class(problems_type), intent(in) :: self
+      !> Wrong input: all sentences that there is room for, and how many more there are
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=12) :: number
+      integer :: i, shown
+
+      if (self%count == 0) return
+      allocate (error)
+      error%stat = status_input
+      error%message = self%text
+      shown = 1
+      do i = 1, len(self%text)
+         if (self%text(i:i) == new_line('a')) shown = shown + 1
+      end do
+      if (shown == self%count) return
+      write (number, '(i0)') self%count - shown
+      error%message = self%text//new_line('a')//'and '//trim(number)//' more'
+   end subroutine raise
 
 end module dondolo_error

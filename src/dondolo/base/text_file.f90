@@ -6,7 +6,8 @@ module dondolo_text_file
    implicit none
    private
 
-   public :: text_file_type, read_text_file
+   public :: text_file_type, read_text_file, open_text
+   public :: byte_order_mark, padding
 
    !> Byte order mark that some programs put before UTF-8 text
    character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
@@ -48,25 +49,10 @@ contains
 
       integer(int64) :: bytes
       integer :: unit, stat
-      logical :: exists
 
       text%file = file
-      inquire (file=file, exist=exists, size=bytes)
-      if (.not. exists) then
-         call raise_input(error, file//': no such file')
-         return
-      end if
-      ! Seen before it is opened: a pipe has no size either, and would be waited for.
-      if (bytes == 0) then
-         call raise_input(error, file//': the file is empty')
-         return
-      end if
-      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat /= 0) then
-         call raise_input(error, file//': cannot be opened for reading')
-         return
-      end if
-      inquire (unit=unit, size=bytes)
+      call open_text(file, unit, bytes, error)
+      if (allocated(error)) return
       if (bytes >= int(huge(stat), int64)) then
          close (unit)
          call raise_input(error, file//': larger than 2 GiB or no file')
@@ -83,6 +69,44 @@ contains
       call index_lines(text)
       if (text%lines() == 0) call raise_input(error, file//': the file is empty')
    end subroutine read_text_file
+
+   !> Open a text file
+   subroutine open_text(file, unit, bytes, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Its unit, for unformatted stream access; 0 after an error
+      integer, intent(out) :: unit
+      !> Bytes in it
+      integer(int64), intent(out) :: bytes
+      !> The file is missing, unreadable or empty
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: stat
+      logical :: exists
+
+      unit = 0
+      inquire (file=file, exist=exists, size=bytes)
+      if (.not. exists) then
+         call raise_input(error, file//': no such file')
+         return
+      end if
+      ! Seen before it is opened: a pipe has no size either, and would be waited for.
+      if (bytes == 0) then
+         call raise_input(error, file//': the file is empty')
+         return
+      end if
+      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=stat)
+      if (stat /= 0) then
+         call raise_input(error, file//': cannot be opened for reading')
+         unit = 0
+         return
+      end if
+      inquire (unit=unit, size=bytes)
+      if (bytes >= 0) return
+      close (unit)
+      unit = 0
+      call raise_input(error, file//': larger than 2 GiB or no file')
+   end subroutine open_text
 
    !> Find the lines of a text
    pure subroutine index_lines(text)

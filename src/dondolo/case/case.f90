@@ -10,7 +10,6 @@ module dondolo_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
-   use dondolo_population, only : population_type, read_population
    use dondolo_population_group, only : echo_population, read_population_group
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_set, only : new_record_set, record_set_type
@@ -19,10 +18,11 @@ module dondolo_case
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
    use dondolo_stripes, only : measure_records
-   use dondolo_stripes_group, only : echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_stripes_group, only : check_states, echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
-   use dondolo_wall, only : new_wall, wall_input_type
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : echo_wall, read_wall
    implicit none
    private
@@ -42,8 +42,10 @@ module dondolo_case
       type(job_type) :: job
       !> Path of the population as it was given; not allocated: the case has one wall
       character(len=:), allocatable :: population_file
-      !> The walls, one unless the task is 'typology', and their weights
-      type(population_type) :: population
+      !> The wall, unless the task is 'typology'
+      type(wall_type) :: wall
+      !> What there is in the population, if the task is 'typology'
+      type(survey_type) :: survey
       !> What is said of the accelerograms
       type(records_input_type) :: records_input
       !> The accelerograms
@@ -63,8 +65,8 @@ module dondolo_case
       procedure :: scale_to
       !> Factor on the record of the time history, with the sign of its polarity
       procedure :: history_scale
-      !> Number of histories of one stripe of a wall
-      procedure :: histories
+      !> Path of the population
+      procedure :: population_path
       !> The case as namelist text
       procedure :: echo
       !> Paths of the files it is made of
@@ -74,13 +76,15 @@ module dondolo_case
 contains
 
    !> Read a case and all its files, and check all of it
-   subroutine read_case(file, case, error)
+   subroutine read_case(file, case, error, rows)
       !> Path of the namelist file
       character(len=*), intent(in) :: file
       !> The case
       type(case_type), intent(out) :: case
-      !> The first thing that is wrong
+      !> The first thing that is wrong; of a population, everything
       type(error_type), allocatable, intent(out) :: error
+      !> First and last row of the population that are to be run, from 1; all if absent
+      integer, intent(in), optional :: rows(2)
 
       type(namelist_type) :: namelist
       type(wall_input_type) :: wall
@@ -97,14 +101,42 @@ contains
       if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
       if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
       if (.not. allocated(error)) call read_wall(namelist%group('wall'), wall, error)
-      if (.not. allocated(error)) call make_walls(namelist, wall, case, error)
+      if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
       if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
       if (.not. allocated(error)) call read_records(namelist%group('records'), case, error)
-      if (.not. allocated(error)) call check_scales(namelist, case, error)
+      if (.not. allocated(error)) call measure_case(namelist, case, error)
+      if (allocated(error)) return
+      if (case%job%task == 'typology') then
+         call survey(case, rows, error)
+      else if (present(rows)) then
+         call raise_input(error, '--walls: only for task = ''typology''')
+      else
+         call check_scales(namelist, case, error)
+      end if
    end subroutine read_case
+
+   !> Survey the population
+   subroutine survey(case, rows, error)
+      !> The case: its survey is made
+      type(case_type), intent(inout) :: case
+      !> First and last row that are to be run; all if absent
+      integer, intent(in), optional :: rows(2)
+      !> Everything that is wrong with the population
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: range(2)
+
+      range = [1, huge(1)]
+      if (present(rows)) range = rows
+      call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
+         & case%stripes, case%solver, range, error)
+      if (allocated(error)) return
+      if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
+         & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
+   end subroutine survey
 
    !> Check that the groups suit the task
    subroutine check_task(namelist, task, error)
@@ -134,56 +166,43 @@ contains
          & '): not for task = '''//task//''', which takes &'//trim(needed))
    end subroutine check_task
 
-   !> Make the wall, or the walls of the population
-   subroutine make_walls(namelist, input, case, error)
+   !> Make the wall, or find the population
+   subroutine make_wall(namelist, input, case, error)
       !> The file
       type(namelist_type), intent(in) :: namelist
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
-      !> The case: its walls are made
+      !> The case: its wall is made
       type(case_type), intent(inout) :: case
-      !> What is wrong with them
+      !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
-      integer :: i
 
       if (case%job%task == 'typology') then
          group = namelist%group('population')
          call read_population_group(group, case%population_file, error)
-         if (allocated(error)) return
-         call check_file(group, 'file', case%population_file, error)
-         if (allocated(error)) return
-         call read_population(beside(case%population_file, case%file), case%population, error, case%solver%gravity)
-      else
-         group = namelist%group('wall')
-         allocate (case%population%walls(1))
-         case%population%weight = [1.0_wp]
-         case%population%p_occ = [1.0_wp]
-         allocate (case%population%group(1))
-         case%population%group(1)%text = ''
-         call new_wall(case%population%walls(1), input, error, case%solver%gravity)
-         call add_place(error, group%place())
+         if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
+         return
       end if
+      group = namelist%group('wall')
+      call new_wall(case%wall, input, error, case%solver%gravity)
+      call add_place(error, group%place())
       if (allocated(error)) return
       group = namelist%group('solver')
-      do i = 1, size(case%population%walls)
-         call check_limit(case%solver%solver, case%population%walls(i)%mechanism, error)
-         if (.not. allocated(error)) call check_history(case%solver%solver, case%population%walls(i)%mechanism, &
-            & case%job%task == 'history', error)
-         if (.not. allocated(error)) cycle
-         call add_place(error, group%place())
-         error%message = error%message//' (wall '''//case%population%walls(i)%input%name//''')'
-         return
-      end do
-   end subroutine make_walls
+      call check_limit(case%solver%solver, case%wall%mechanism, error)
+      if (.not. allocated(error)) &
+         & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
+      call add_place(error, group%place())
+      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
+   end subroutine make_wall
 
    !> Check what belongs together
    subroutine check_combinations(namelist, case, error)
       !> The file
       type(namelist_type), intent(in) :: namelist
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(inout) :: case
       !> What is missing
       type(error_type), allocatable, intent(out) :: error
 
@@ -194,8 +213,16 @@ contains
          call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
          return
       end if
-      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
       group = namelist%group('stripes')
+      call check_states(case%stripes, case%solver%solver%edp_limit, error)
+      call add_place(error, group%place())
+      if (allocated(error)) return
+      if (case%job%histories .and. case%job%task /= 'typology') then
+         group = namelist%group('job')
+         call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', error)
+         return
+      end if
+      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
       call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
          & 'first, last and count')
    end subroutine check_combinations
@@ -241,18 +268,16 @@ contains
       end if
    end subroutine check_file
 
-   !> Find the record of the time history, and check that no record is scaled beyond all measure
-   subroutine check_scales(namelist, case, error)
+   !> Find the record of the time history, and measure the records where they are scaled to levels
+   subroutine measure_case(namelist, case, error)
       !> The file
       type(namelist_type), intent(in) :: namelist
-      !> The case: the number of the record of the time history is set
+      !> The case
       type(case_type), intent(inout) :: case
-      !> No such record, or a scale that is too large
+      !> No such record
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
-      real(wp) :: scale
-      integer :: i, j
 
       group = namelist%group('history')
       if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
@@ -260,7 +285,23 @@ contains
       if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
          & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
       if (case%job%task /= 'history') call new_record_set(case%record_set, case%records)
+   end subroutine measure_case
+
+   !> Check that no record is scaled beyond all measure
+   subroutine check_scales(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case
+      type(case_type), intent(in) :: case
+      !> A scale that is too large
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      real(wp) :: scale
+      integer :: i
+
       if (case%job%task == 'history') then
+         group = namelist%group('history')
          associate (record => case%records(case%history%record))
             scale = abs(case%history_scale())
             if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
@@ -275,24 +316,20 @@ contains
          return
       end if
       group = namelist%group('stripes')
-      do i = 1, size(case%records)
-         associate (highest => case%stripes%levels(size(case%stripes%levels)))
-            do j = 1, size(case%population%walls)
-               if (case%scale_to(j, i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
-               call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
-                  & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
-               return
-            end do
-         end associate
-      end do
+      associate (highest => case%stripes%levels(size(case%stripes%levels)))
+         do i = 1, size(case%records)
+            if (case%scale_to(i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
+            call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
+               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+            return
+         end do
+      end associate
    end subroutine check_scales
 
    !> Factor that scales a record to a level
-   pure function scale_to(self, wall, record, level) result(scale)
-      !> The case
+   pure function scale_to(self, record, level) result(scale)
+      !> The case, of one wall
       class(case_type), intent(in) :: self
-      !> Number of the wall
-      integer, intent(in) :: wall
       !> Number of the record
       integer, intent(in) :: record
       !> Level, in the unit of the intensity measure
@@ -300,7 +337,7 @@ contains
       !> The factor; 0 for a record without motion
       real(wp) :: scale
 
-      scale = self%stripes%scaling%factor(level, self%values(record), self%population%walls(wall))
+      scale = self%stripes%scaling%factor(level, self%values(record), self%wall)
    end function scale_to
 
    !> Factor on the record of the time history, with the sign of its polarity
@@ -311,7 +348,305 @@ contains
       real(wp) :: scale
 
       if (allocated(self%history%im_level)) then
-         scale = self%scale_to(1, self%history%record, self%history%im_level)
+         scale = self%scale_to(self%history%record, self%history%im_level)
+      else
+         scale = self%history%scale
+      end if
+      if (self%records_input%polarity == 'reversed') scale = -scale
+   end function history_scale
+
+   !> Path of the population
+   pure function population_path(self) result(path)
+      !> The case, its task 'typology'
+      class(case_type), intent(in) :: self
+      !> Path, relative to the current folder
+      character(len=:), allocatable :: path
+
+      path = beside(self%population_file, self%file)
+   end function population_path
+
+   !> The case as namelist text
+      procedure :: echo
+      !> Paths of the files it is made of
+      procedure :: inputs
+   end type case_type
+
+contains
+
+   !> Read a case and all its files, and check all of it
+   subroutine read_case(file, case, error, rows)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: file
+      !> The case
+      type(case_type), intent(out) :: case
+      !> The first thing that is wrong; of a population, everything
+      type(error_type), allocatable, intent(out) :: error
+      !> First and last row of the population that are to be run, from 1; all if absent
+      integer, intent(in), optional :: rows(2)
+
+      type(namelist_type) :: namelist
+      type(wall_input_type) :: wall
+
+      case%file = file
+      if (is_folder(file)) then
+         call raise_input(error, file//': is a folder, must be a namelist file')
+         return
+      end if
+      call read_namelist(file, namelist, error)
+      if (allocated(error)) return
+      call namelist%check_groups(group_names, error)
+      if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
+      if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
+      if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
+      if (.not. allocated(error)) call read_wall(namelist%group('wall'), wall, error)
+      if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
+      if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
+      if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
+      if (.not. allocated(error)) call check_combinations(namelist, case, error)
+      if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
+      if (.not. allocated(error)) call read_records(namelist%group('records'), case, error)
+      if (.not. allocated(error)) call measure_case(namelist, case, error)
+      if (allocated(error)) return
+      if (case%job%task == 'typology') then
+         call survey(case, rows, error)
+      else if (present(rows)) then
+         call raise_input(error, '--walls: only for task = ''typology''')
+      else
+         call check_scales(namelist, case, error)
+      end if
+   end subroutine read_case
+
+   !> Survey the population
+   subroutine survey(case, rows, error)
+      !> The case: its survey is made
+      type(case_type), intent(inout) :: case
+      !> First and last row that are to be run; all if absent
+      integer, intent(in), optional :: rows(2)
+      !> Everything that is wrong with the population
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: range(2)
+
+      range = [1, huge(1)]
+      if (present(rows)) range = rows
+      call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
+         & case%stripes, case%solver, range, error)
+      if (allocated(error)) return
+      if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
+         & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
+   end subroutine survey
+
+   !> Check that the groups suit the task
+   subroutine check_task(namelist, task, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The task
+      character(len=*), intent(in) :: task
+      !> A group too many or too few
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=10) :: needed, other
+      type(group_type) :: group
+
+      needed = 'wall'
+      other = 'population'
+      if (task == 'typology') then
+         needed = 'population'
+         other = 'wall'
+      end if
+      group = namelist%group(trim(needed))
+      if (group%line == 0) then
+         call raise_input(error, group%place()//': must be given for task = '''//task//'''')
+         return
+      end if
+      group = namelist%group(trim(other))
+      if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
+         & '): not for task = '''//task//''', which takes &'//trim(needed))
+   end subroutine check_task
+
+   !> Make the wall, or find the population
+   subroutine make_wall(namelist, input, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> The case: its wall is made
+      type(case_type), intent(inout) :: case
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      if (case%job%task == 'typology') then
+         group = namelist%group('population')
+         call read_population_group(group, case%population_file, error)
+         if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
+         return
+      end if
+      group = namelist%group('wall')
+      call new_wall(case%wall, input, error, case%solver%gravity)
+      call add_place(error, group%place())
+      if (allocated(error)) return
+      group = namelist%group('solver')
+      call check_limit(case%solver%solver, case%wall%mechanism, error)
+      if (.not. allocated(error)) &
+         & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
+      call add_place(error, group%place())
+      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
+   end subroutine make_wall
+
+   !> Check what belongs together
+   subroutine check_combinations(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case
+      type(case_type), intent(inout) :: case
+      !> What is missing
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
+         group = namelist%group('solver')
+         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         return
+      end if
+      group = namelist%group('stripes')
+      call check_states(case%stripes, case%solver%solver%edp_limit, error)
+      call add_place(error, group%place())
+      if (allocated(error)) return
+      if (case%job%histories .and. case%job%task /= 'typology') then
+         group = namelist%group('job')
+         call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', error)
+         return
+      end if
+      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
+      call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
+         & 'first, last and count')
+   end subroutine check_combinations
+
+   !> Read the accelerograms
+   subroutine read_records(group, case, error)
+      !> The group &records
+      type(group_type), intent(in) :: group
+      !> The case: its records are read
+      type(case_type), intent(inout) :: case
+      !> What is wrong with them
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_file(group, 'catalogue', case%records_input%catalogue, error)
+      if (allocated(error)) return
+      if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
+         call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
+         return
+      end if
+      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error)
+   end subroutine read_records
+
+   !> Check that a variable names a file that exists
+   subroutine check_file(group, name, path, error)
+      !> Group of the variable
+      type(group_type), intent(in) :: group
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Path as it was given
+      character(len=*), intent(in) :: path
+      !> There is no such file
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: file
+      logical :: exists
+
+      file = beside(path, group%file)
+      inquire (file=file, exist=exists)
+      if (is_folder(file)) then
+         call group%refuse(name, file//' is a folder, must be a file', error)
+      else if (.not. exists) then
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)', error)
+      end if
+   end subroutine check_file
+
+   !> Find the record of the time history, and measure the records where they are scaled to levels
+   subroutine measure_case(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case
+      type(case_type), intent(inout) :: case
+      !> No such record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      group = namelist%group('history')
+      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
+      if (allocated(error)) return
+      if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
+         & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
+      if (case%job%task /= 'history') call new_record_set(case%record_set, case%records)
+   end subroutine measure_case
+
+   !> Check that no record is scaled beyond all measure
+   subroutine check_scales(namelist, case, error)
+      !> The file
+      type(namelist_type), intent(in) :: namelist
+      !> The case
+      type(case_type), intent(in) :: case
+      !> A scale that is too large
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      real(wp) :: scale
+      integer :: i
+
+      if (case%job%task == 'history') then
+         group = namelist%group('history')
+         associate (record => case%records(case%history%record))
+            scale = abs(case%history_scale())
+            if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
+            if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
+               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
+                  & ' of 0 and cannot be scaled to a level', error)
+            else
+               call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
+                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+            end if
+         end associate
+         return
+      end if
+      group = namelist%group('stripes')
+      associate (highest => case%stripes%levels(size(case%stripes%levels)))
+         do i = 1, size(case%records)
+            if (case%scale_to(i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
+            call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
+               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+            return
+         end do
+      end associate
+   end subroutine check_scales
+
+   !> Factor that scales a record to a level
+   pure function scale_to(self, record, level) result(scale)
+      !> The case, of one wall
+      class(case_type), intent(in) :: self
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Level, in the unit of the intensity measure
+      real(wp), intent(in) :: level
+      !> The factor; 0 for a record without motion
+      real(wp) :: scale
+
+      scale = self%stripes%scaling%factor(level, self%values(record), self%wall)
+   end function scale_to
+
+   !> Factor on the record of the time history, with the sign of its polarity
+   pure function history_scale(self) result(scale)
+      !> The case
+      class(case_type), intent(in) :: self
+      !> The factor
+      real(wp) :: scale
+
+      if (allocated(self%history%im_level)) then
+         scale = self%scale_to(self%history%record, self%history%im_level)
       else
          scale = self%history%scale
       end if
@@ -343,7 +678,7 @@ contains
       if (allocated(self%population_file)) then
          call echo_population(self%population_file, lines)
       else
-         call echo_wall(self%population%walls(1)%input, lines)
+         call echo_wall(self%wall%input, lines)
       end if
       call echo_records(self%records_input, lines)
       if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, lines)
@@ -360,7 +695,7 @@ contains
 
       call paths%add(self%file)
       call paths%add(beside(self%records_input%catalogue, self%file))
-      if (allocated(self%population_file)) call paths%add(beside(self%population_file, self%file))
+      if (allocated(self%population_file)) call paths%add(self%population_path())
    end subroutine inputs
 
 end module dondolo_case

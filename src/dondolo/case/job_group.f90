@@ -16,8 +16,8 @@ module dondolo_job_group
    character(len=8), parameter :: task_names(3) = [character(len=8) :: 'history', 'stripes', 'typology']
 
    !> Variables of the group
-   character(len=7), parameter :: job_variables(4) = [character(len=7) :: 'task', 'title', 'output', 'threads']
-
+   character(len=9), parameter :: job_variables(5) = &
+      & [character(len=9) :: 'task', 'title', 'output', 'threads', 'histories']
 
    !> What is to be done
    type :: job_type
@@ -29,6 +29,8 @@ module dondolo_job_group
       character(len=:), allocatable :: output
       !> Number of threads; 0: as many as the computer, or OMP_NUM_THREADS, offers
       integer :: threads = 0
+      !> Task 'typology': write the table of all histories too?
+      logical :: histories = .false.
    end type job_type
 
 contains
@@ -50,6 +52,7 @@ contains
       if (.not. allocated(error)) call group%get_text('title', job%title, error)
       if (.not. allocated(error)) call group%get_text('output', job%output, error)
       if (.not. allocated(error)) call group%get_integer('threads', job%threads, error)
+      if (.not. allocated(error)) call group%get_logical('histories', job%histories, error)
       if (allocated(error)) return
       if (.not. any(job%task == task_names)) then
          call group%refuse('task', 'must be one of '//join(task_names), error)
@@ -74,6 +77,7 @@ contains
       call lines%add('&job '//assignment_text('task', job%task))
       call lines%add('     '//assignment_text('title', job%title))
       call lines%add('     '//assignment_text('output', job%output))
+      if (job%task == 'typology') call lines%add('     '//assignment_text('histories', job%histories))
       call lines%add('     '//assignment_text('threads', job%threads)//' /')
    end subroutine echo_job
 

@@ -2,179 +2,245 @@
 !> and p_occ.
 !>
 !> A cell that is empty was not given. A wall without a name is called 'wall' with the number of its row. Rows with the
-!> same name are mechanisms of the same wall; they stand one after the other.
+!> same name are mechanisms of the same wall; they stand one after the other. Rows are read one by one, so that a table
+!> may be longer than the memory.
 module dondolo_population
-   use dondolo_csv, only : csv_table_type, read_csv
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
+   use dondolo_name_index, only : name_index_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
    implicit none
    private
 
-   public :: population_type, read_population
+   public :: member_type, population_reader_type, read_population, check_weight
 
    !> Columns besides the variables of a wall
    character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
 
-   !> Walls and what each stands for
-   type :: population_type
-      !> The walls
-      type(wall_type), allocatable :: walls(:)
-      !> Weight of each, >= 0, not all 0
-      real(wp), allocatable :: weight(:)
-      !> Probability that its mechanism can occur
-      real(wp), allocatable :: p_occ(:)
-      !> Name of its group, empty if none was given
-      type(line_type), allocatable :: group(:)
-   end type population_type
+   !> A row: one mechanism of a wall
+   type :: member_type
+      !> The wall with this mechanism
+      type(wall_type) :: wall
+      !> Weight of the wall, >= 0
+      real(wp) :: weight = 1.0_wp
+      !> Probability that the mechanism can occur
+      real(wp) :: p_occ = 1.0_wp
+      !> Group of the wall, empty if none was given
+      character(len=:), allocatable :: group
+      !> Is it a further mechanism of the wall in the row before?
+      logical :: continues = .false.
+   end type member_type
+
+   !> A population that is being read
+   type :: population_reader_type
+      !> Number of the row that was read last
+      integer :: row = 0
+      !> The table
+      type(csv_reader_type) :: table
+      !> Gravity [m/s2]
+      real(wp), allocatable :: gravity
+      !> Are names looked up, to find those that stand twice? A table that was read before needs it no more
+      logical :: checks_names = .true.
+      !> Names of the walls so far
+      type(name_index_type) :: names
+      !> The wall of the row before, its first row
+      type(member_type) :: wall
+      !> Its mechanisms, with a blank after each
+      character(len=:), allocatable :: mechanisms
+   contains
+      !> Open a population
+      procedure :: open => open_population
+      !> Read the next row
+      procedure :: next
+      !> Pass over rows
+      procedure :: skip
+      !> Close it before its end is reached
+      procedure :: close => close_population
+   end type population_reader_type
 
 contains
 
-   !> Read a population
-   subroutine read_population(file, population, error, gravity)
+   !> Read all of a population
+   subroutine read_population(file, members, error, gravity)
       !> Path of the table
       character(len=*), intent(in) :: file
-      !> The population
-      type(population_type), intent(out) :: population
-      !> The table or one of its walls is wrong
+      !> Its rows
+      type(member_type), allocatable, intent(out) :: members(:)
+      !> Everything that is wrong
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
 
-      type(csv_table_type) :: table
-      type(wall_input_type) :: input
-      integer :: row
+      type(population_reader_type) :: reader
+      type(problems_type) :: problems
+      type(member_type), allocatable :: more(:)
+      logical :: found, has_weight
+      integer :: rows
 
-      call read_csv(file, table, error)
+      call reader%open(file, error, gravity)
       if (allocated(error)) return
-      call check_columns(table, error)
-      if (allocated(error)) return
-      allocate (population%walls(table%rows()), population%weight(table%rows()), population%p_occ(table%rows()), &
-         & population%group(table%rows()))
-      do row = 1, table%rows()
-         call read_row(table, row, input, population%weight(row), population%p_occ(row), error)
-         if (allocated(error)) return
-         population%group(row)%text = table%get_text(row, table%column('group'))
-         call check_line('name', input%name)
-         if (.not. allocated(error)) call check_line('group', population%group(row)%text)
-         if (allocated(error)) return
-         call new_wall(population%walls(row), input, error, gravity)
-         call add_place(error, table%place(row))
-         if (allocated(error)) return
-         call check_name(population, row, error)
-         call add_place(error, table%place(row))
-         if (allocated(error)) return
+      allocate (members(64))
+      has_weight = .false.
+      rows = 0
+      do
+         if (rows == size(members)) then
+            allocate (more(2*rows))
+            more(:rows) = members
+            call move_alloc(more, members)
+         end if
+         call reader%next(members(rows + 1), found, error)
+         if (.not. found) exit
+         if (.not. allocated(error)) then
+            rows = rows + 1
+            has_weight = has_weight .or. members(rows)%weight > 0.0_wp
+         end if
+         call problems%take(error)
       end do
-      if (.not. any(population%weight > 0.0_wp)) &
-         & call raise_input(error, file//': weight: must be positive for at least one wall')
-
-   contains
-
-      !> Check that a text stands on one line
-      subroutine check_line(name, text)
-         !> Name of its column
-         character(len=*), intent(in) :: name
-         !> The text
-         character(len=*), intent(in) :: text
-
-         if (scan(text, new_line('a')//achar(13)) > 0) &
-            & call raise_input(error, table%place(row)//': '//name//': must stand on one line')
-      end subroutine check_line
-
+      members = members(:rows)
+      if (.not. allocated(error) .and. problems%count == 0) call check_weight(file, has_weight, error)
+      call problems%take(error)
+      call problems%raise(error)
    end subroutine read_population
 
-   !> Check a row against those before it: another mechanism of the wall before, or a new wall
-   subroutine check_name(population, row, error)
-      !> The walls up to this row
-      type(population_type), intent(in) :: population
-      !> Number of the row
-      integer, intent(in) :: row
-      !> The name stands elsewhere too, or what is said of the wall differs
+   !> Check that some wall has a weight
+   subroutine check_weight(file, has_weight, error)
+      !> Path of the table
+      character(len=*), intent(in) :: file
+      !> Has one?
+      logical, intent(in) :: has_weight
+      !> None has
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: other
-      logical :: next_to_it
+      if (.not. has_weight) call raise_input(error, file//': weight: must be positive for at least one wall')
+   end subroutine check_weight
 
-      next_to_it = .true.
-      associate (name => population%walls(row)%input%name)
-         do other = row - 1, 1, -1
-            if (population%walls(other)%input%name /= name) then
-               next_to_it = .false.
-               cycle
-            end if
-            if (.not. next_to_it) then
-               call raise_input(error, 'name = '''//name//''': another wall has this name; mechanisms of one wall '// &
-                  & 'must stand in rows one after the other')
-            else if (population%walls(other)%input%mechanism == population%walls(row)%input%mechanism) then
-               call raise_input(error, 'name = '''//name//''': another row gives this wall the same mechanism')
-            else if (abs(population%weight(other) - population%weight(row)) > 0.0_wp) then
-               call raise_input(error, 'weight = '//to_text(population%weight(row))//': must be '// &
-                  & to_text(population%weight(other))//' as in the row before, which is of the same wall')
-            else if (population%group(other)%text /= population%group(row)%text) then
-               call raise_input(error, 'group = '''//population%group(row)%text//''': must be '''// &
-                  & population%group(other)%text//''' as in the row before, which is of the same wall')
-            end if
-            if (allocated(error)) return
-         end do
-      end associate
-   end subroutine check_name
-
-   !> Check the names of the columns
-   subroutine check_columns(table, error)
-      !> The table
-      type(csv_table_type), intent(in) :: table
-      !> A column that does not exist, or no walls
+   !> Open a population
+   subroutine open_population(self, file, error, gravity, checks_names)
+      !> The reader
+      class(population_reader_type), intent(inout) :: self
+      !> Path of the table
+      character(len=*), intent(in) :: file
+      !> No table, or a column that does not exist
       type(error_type), allocatable, intent(out) :: error
+      !> Gravity [m/s2], standard if absent
+      real(wp), intent(in), optional :: gravity
+      !> Are names to be looked up? Yes if absent
+      logical, intent(in), optional :: checks_names
 
       integer :: i
 
-      do i = 1, size(table%columns)
-         if (any(lower(table%columns(i)%text) == wall_variables)) cycle
-         if (any(lower(table%columns(i)%text) == own_columns)) cycle
-         call raise_input(error, table%file//': column '''//table%columns(i)%text//''': no such column; there are '// &
-            & join(wall_variables)//', '//join(own_columns))
+      self%row = 0
+      self%mechanisms = ''
+      if (present(gravity)) self%gravity = gravity
+      if (present(checks_names)) self%checks_names = checks_names
+      call self%table%open(file, error)
+      if (allocated(error)) return
+      do i = 1, size(self%table%columns)
+         associate (column => self%table%columns(i)%text)
+            if (any(lower(column) == wall_variables) .or. any(lower(column) == own_columns)) cycle
+            call raise_input(error, file//': column '''//column//''': no such column; there are '// &
+               & join(wall_variables)//', '//join(own_columns))
+         end associate
+         call self%close()
          return
       end do
-      if (table%rows() == 0) call raise_input(error, table%file//': no walls under the header')
-   end subroutine check_columns
+   end subroutine open_population
 
-   !> Read what one row says of a wall
-   subroutine read_row(table, row, input, weight, p_occ, error)
-      !> The table
-      type(csv_table_type), intent(in) :: table
-      !> Number of the row
-      integer, intent(in) :: row
+   !> Read the next row; after an error the rows behind it can be read
+   subroutine next(self, member, found, error)
+      !> The reader
+      class(population_reader_type), intent(inout) :: self
+      !> The row
+      type(member_type), intent(out) :: member
+      !> Was there a row, right or wrong?
+      logical, intent(out) :: found
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+
+      call self%table%next(found, error)
+      if (.not. found) then
+         if (.not. allocated(error) .and. self%row == 0) &
+            & call raise_input(error, self%table%lines%file//': no walls under the header')
+         return
+      end if
+      self%row = self%row + 1
+      if (allocated(error)) return
+      call read_row(self, input, member, error)
+      if (.not. allocated(error)) call new_wall(member%wall, input, error, self%gravity)
+      if (.not. allocated(error)) call place_row(self, member, error)
+      call add_place(error, self%table%place())
+   end subroutine next
+
+   !> Pass over rows
+   subroutine skip(self, rows, error)
+      !> The reader
+      class(population_reader_type), intent(inout) :: self
+      !> Number of rows
+      integer, intent(in) :: rows
+      !> The last of them is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(member_type) :: member
+      logical :: found
+      integer :: i
+
+      do i = 1, rows - 1
+         call self%table%next(found, error)
+         if (allocated(error)) return
+         self%row = self%row + 1
+      end do
+      ! The row after may go on with the wall of the last
+      if (rows > 0) call self%next(member, found, error)
+   end subroutine skip
+
+   !> Read what a row says
+   subroutine read_row(self, input, member, error)
+      !> The reader, with a row
+      type(population_reader_type), intent(in) :: self
       !> What is said of the wall
       type(wall_input_type), intent(out) :: input
-      !> Its weight
-      real(wp), intent(out) :: weight
-      !> Probability that its mechanism can occur
-      real(wp), intent(out) :: p_occ
-      !> A cell that is not a number, a weight or a probability out of range
+      !> The row: its weight, group and probability are set
+      type(member_type), intent(inout) :: member
+      !> A cell that is not a number, or a number out of range
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: largest_weight = 1.0e12_wp
       real(wp) :: number
-      integer :: i
+      integer :: i, column
 
-      input%name = 'wall '//to_text(row)
+      input%name = 'wall '//to_text(self%row)
       do i = 1, size(wall_texts)
-         if (given(wall_texts(i))) &
-            & call set_wall_text(input, wall_texts(i), table%get_text(row, table%column(trim(wall_texts(i)))))
+         column = given(wall_texts(i))
+         if (column > 0) call set_wall_text(input, wall_texts(i), self%table%get_text(column))
       end do
       do i = 1, size(wall_numbers)
-         if (.not. given(wall_numbers(i))) cycle
-         call table%get_real(row, table%column(trim(wall_numbers(i))), number, error)
+         column = given(wall_numbers(i))
+         if (column == 0) cycle
+         call self%table%get_real(column, number, error)
          if (allocated(error)) return
          call set_wall_number(input, wall_numbers(i), number)
       end do
-      call read_share('weight', weight, largest_weight)
-      if (.not. allocated(error)) call read_share('p_occ', p_occ, 1.0_wp)
+      member%group = self%table%get_text(self%table%column('group'))
+      call read_share('weight', member%weight, largest_weight)
+      if (.not. allocated(error)) call read_share('p_occ', member%p_occ, 1.0_wp)
+      if (.not. allocated(error)) call check_line('name', input%name)
+      if (.not. allocated(error)) call check_line('group', member%group)
 
    contains
+
+      !> Number of a column in which this row has something, else 0
+      integer function given(name)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+
+         given = self%table%column(trim(name))
+         if (len_trim(self%table%get_text(given)) == 0) given = 0
+      end function given
 
       !> Read a number that is 1 where it was not given
       subroutine read_share(name, share, largest)
@@ -185,22 +251,72 @@ contains
          !> The largest that is allowed; the smallest is 0
          real(wp), intent(in) :: largest
 
+         integer :: column
+
          share = 1.0_wp
-         if (.not. given(name)) return
-         call table%get_real(row, table%column(name), share, error)
+         column = given(name)
+         if (column == 0) return
+         call self%table%get_real(column, share, error)
          if (allocated(error)) return
-         if (.not. (share >= 0.0_wp .and. share <= largest)) call raise_input(error, table%place(row)//': '//name// &
-            & ' = '//to_text(share)//': must lie between 0 and '//to_text(largest))
+         if (.not. (share >= 0.0_wp .and. share <= largest)) call raise_input(error, name//' = '//to_text(share)// &
+            & ': must lie between 0 and '//to_text(largest))
       end subroutine read_share
 
-      !> Is there such a column, and does this row have something in it?
-      logical function given(name)
-         !> Name of the column
+      !> Check that a text stands on one line
+      subroutine check_line(name, text)
+         !> Name of its column
          character(len=*), intent(in) :: name
+         !> The text
+         character(len=*), intent(in) :: text
 
-         given = len_trim(table%get_text(row, table%column(trim(name)))) > 0
-      end function given
+         if (scan(text, new_line('a')//achar(13)) > 0) call raise_input(error, name//': must stand on one line')
+      end subroutine check_line
 
    end subroutine read_row
+
+   !> Place a row among those before it: a further mechanism of the wall before, or a new wall
+   subroutine place_row(self, member, error)
+      !> The reader; it remembers the wall
+      type(population_reader_type), intent(inout) :: self
+      !> The row: whether it continues the wall before is set
+      type(member_type), intent(inout) :: member
+      !> The name stands elsewhere too, or what is said of the wall differs
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: line
+
+      associate (name => member%wall%input%name, mechanism => member%wall%input%mechanism)
+         if (len(self%mechanisms) > 0) member%continues = self%wall%wall%input%name == name
+         if (.not. member%continues) then
+            line = 0
+            if (self%checks_names) call self%names%note(name, self%table%line, line)
+            if (line > 0) then
+               call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
+                  & '); mechanisms of one wall must stand one after the other')
+               return
+            end if
+            self%wall = member
+            self%mechanisms = mechanism//' '
+         else if (index(self%mechanisms, mechanism//' ') > 0) then
+            call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
+         else if (abs(self%wall%weight - member%weight) > 0.0_wp) then
+            call raise_input(error, 'weight = '//to_text(member%weight)//': must be '//to_text(self%wall%weight)// &
+               & ' as in the row before, which is of the same wall')
+         else if (self%wall%group /= member%group) then
+            call raise_input(error, 'group = '''//member%group//''': must be '''//self%wall%group// &
+               & ''' as in the row before, which is of the same wall')
+         else
+            self%mechanisms = self%mechanisms//mechanism//' '
+         end if
+      end associate
+   end subroutine place_row
+
+   !> Close it before its end is reached
+   subroutine close_population(self)
+      !> The reader
+      class(population_reader_type), intent(inout) :: self
+
+      call self%table%close()
+   end subroutine close_population
 
 end module dondolo_population

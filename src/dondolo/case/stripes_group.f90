@@ -6,19 +6,23 @@ module dondolo_stripes_group
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_stripes, only : check_levels
+   use dondolo_stripes, only : check_levels, check_thresholds
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: stripes_input_type, read_stripes_group, echo_stripes
+   public :: stripes_input_type, read_stripes_group, echo_stripes, check_states
    public :: stripes_variables
 
    !> Variables of the group
-   character(len=6), parameter :: stripes_variables(5) = [character(len=6) :: 'im', 'levels', 'first', 'last', 'count']
+   character(len=14), parameter :: stripes_variables(6) = &
+      & [character(len=14) :: 'im', 'levels', 'first', 'last', 'count', 'edp_thresholds']
 
-   !> More levels than this are surely a slip
-   integer, parameter :: most_levels = 1000
+   !> Those that give equally spaced levels
+   character(len=5), parameter :: grid_variables(3) = [character(len=5) :: 'first', 'last', 'count']
+
+   !> More levels or thresholds than these are surely a slip
+   integer, parameter :: most_levels = 1000, most_thresholds = 100
 
    !> What is said of the stripes
    type :: stripes_input_type
@@ -26,6 +30,8 @@ module dondolo_stripes_group
       type(scaling_type) :: scaling
       !> Levels, in the unit of the intensity measure; not allocated: not given
       real(wp), allocatable :: levels(:)
+      !> EDP thresholds, each a damage state; the last is the limit of the solver, collapse
+      real(wp), allocatable :: thresholds(:)
    end type stripes_input_type
 
 contains
@@ -62,10 +68,31 @@ contains
             return
          end if
       end if
+      allocate (stripes%thresholds(0))
+      if (group%has('edp_thresholds')) then
+         call group%get_reals('edp_thresholds', stripes%thresholds, error)
+         if (.not. allocated(error) .and. size(stripes%thresholds) > most_thresholds) &
+            & call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', error)
+         if (allocated(error)) return
+      end if
       if (.not. allocated(stripes%levels)) return
       call check_levels(stripes%levels, error)
       call add_place(error, group%place())
    end subroutine read_stripes_group
+
+   !> Check the EDP thresholds, and make collapse the last of them
+   subroutine check_states(stripes, edp_limit, error)
+      !> What is said of the stripes
+      type(stripes_input_type), intent(inout) :: stripes
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> A threshold that cannot be
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_thresholds(stripes%thresholds, edp_limit, error)
+      if (allocated(error)) return
+      stripes%thresholds = [pack(stripes%thresholds, stripes%thresholds < edp_limit), edp_limit]
+   end subroutine check_states
 
    !> Read first, last and count, if they were given
    subroutine read_grid(group, stripes, error)
@@ -80,9 +107,9 @@ contains
       integer :: count, i
 
       if (.not. any([group%has('first'), group%has('last'), group%has('count')])) return
-      do i = 3, size(stripes_variables)
-         if (group%has(trim(stripes_variables(i)))) cycle
-         call raise_input(error, group%place()//': '//trim(stripes_variables(i))// &
+      do i = 1, size(grid_variables)
+         if (group%has(trim(grid_variables(i)))) cycle
+         call raise_input(error, group%place()//': '//trim(grid_variables(i))// &
             & ': must be given: first, last and count belong together')
          return
       end do
@@ -131,7 +158,8 @@ contains
 
       if (allocated(stripes%levels)) then
          call lines%add('&stripes '//assignment_text('im', stripes%scaling%name))
-         call lines%add('         '//assignment_text('levels', stripes%levels)//' /')
+         call lines%add('         '//assignment_text('levels', stripes%levels))
+         call lines%add('         '//assignment_text('edp_thresholds', stripes%thresholds)//' /')
       else
          call lines%add('&stripes '//assignment_text('im', stripes%scaling%name)//' /')
       end if

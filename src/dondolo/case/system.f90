@@ -1,11 +1,13 @@
 !> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
 !> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions.
 module dondolo_system
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_long, &
+      & c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
 
-   public :: make_folder, remove_folder, rename_file, remove_file, is_folder, same_file
+   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file
    public :: writer_type, stderr_is_terminal
 
    !> A file being written
@@ -13,7 +15,7 @@ module dondolo_system
       !> Handle of the C library
       type(c_ptr) :: handle = c_null_ptr
    contains
-      !> Open a file, emptied if it exists
+      !> Open a file
       procedure :: open => open_writer
       !> Write a text
       procedure :: write => write_text
@@ -55,6 +57,15 @@ module dondolo_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_unlink
 
+      !> Cut a file to a length
+      integer(c_int) function c_truncate(path, length) bind(c, name='truncate')
+         import :: c_char, c_int, c_long
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+         !> Length [bytes]; off_t is a long on 64-bit systems
+         integer(c_long), value :: length
+      end function c_truncate
+
       !> The one absolute path of a file
       type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
          import :: c_char, c_ptr
@@ -76,7 +87,7 @@ module dondolo_system
          import :: c_char, c_ptr
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> 'w' to write
+         !> 'w' to write, 'a' to write behind what is there
          character(kind=c_char), intent(in) :: mode(*)
       end function c_fopen
 
@@ -148,6 +159,18 @@ contains
       stat = c_unlink(path//c_null_char)
    end subroutine remove_file
 
+   !> Cut a file to a length
+   subroutine cut_file(path, bytes, ok)
+      !> Path
+      character(len=*), intent(in) :: path
+      !> Bytes that stay
+      integer(int64), intent(in) :: bytes
+      !> It has this length now
+      logical, intent(out) :: ok
+
+      ok = c_truncate(path//c_null_char, int(bytes, c_long)) == 0
+   end subroutine cut_file
+
    !> Is a path a folder that exists?
    function is_folder(path)
       !> Path
@@ -189,16 +212,22 @@ contains
       stderr_is_terminal = c_isatty(standard_error) == 1
    end function stderr_is_terminal
 
-   !> Open a file, emptied if it exists
-   subroutine open_writer(self, path, ok)
+   !> Open a file
+   subroutine open_writer(self, path, ok, append)
       !> The file
       class(writer_type), intent(inout) :: self
       !> Path
       character(len=*), intent(in) :: path
       !> It can be written
       logical, intent(out) :: ok
+      !> Is to be written behind what is there? Otherwise a file that exists is emptied
+      logical, intent(in), optional :: append
 
-      self%handle = c_fopen(path//c_null_char, 'w'//c_null_char)
+      character(len=1) :: mode
+
+      mode = 'w'
+      if (present(append)) mode = merge('a', 'w', append)
+      self%handle = c_fopen(path//c_null_char, mode//c_null_char)
       ok = c_associated(self%handle)
    end subroutine open_writer
 

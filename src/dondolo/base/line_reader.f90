@@ -1,0 +1,131 @@
+!> The lines of a text file, one after the other, within a memory that does not depend on its length.
+module dondolo_line_reader
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_text_file, only : byte_order_mark, open_text, padding
+   implicit none
+   private
+
+   public :: line_reader_type
+
+   !> Bytes that are read at once
+   integer, parameter :: chunk = 65536
+
+   !> A file that is being read
+   type :: line_reader_type
+      !> Path of the file
+      character(len=:), allocatable :: file
+      !> Number of the line that was read last
+      integer :: number = 0
+      !> Its unit; 0: not open
+      integer :: unit = 0
+      !> Bytes that are left in the file beyond the chunk
+      integer(int64) :: left = 0
+      !> Part of the file
+      character(len=:), allocatable :: text
+      !> Position in it of what was not given out yet
+      integer :: at = 1
+   contains
+      !> Open a file
+      procedure :: open => open_reader
+      !> Read the next line
+      procedure :: next
+      !> Close the file
+      procedure :: close => close_reader
+   end type line_reader_type
+
+contains
+
+   !> Open a file
+   subroutine open_reader(self, file, error)
+      !> The reader
+      class(line_reader_type), intent(inout) :: self
+      !> Path
+      character(len=*), intent(in) :: file
+      !> The file is missing, unreadable or empty
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%close()
+      self%file = file
+      self%number = 0
+      self%at = 1
+      self%text = ''
+      call open_text(file, self%unit, self%left, error)
+      if (allocated(error)) return
+      call refill(self, error)
+      if (allocated(error)) return
+      if (index(self%text, byte_order_mark) == 1) self%at = 1 + len(byte_order_mark)
+   end subroutine open_reader
+
+   !> Read the next line: lines end in LF or CRLF
+   subroutine next(self, line, found, error)
+      !> The reader
+      class(line_reader_type), intent(inout) :: self
+      !> The line without its end; what may follow the last line, such as NUL or Ctrl-Z, is dropped from it
+      character(len=:), allocatable, intent(out) :: line
+      !> Was there one?
+      logical, intent(out) :: found
+      !> The file cannot be read
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: line_feed = achar(10), return = achar(13)
+      integer :: length
+
+      line = ''
+      found = .false.
+      do
+         length = index(self%text(self%at:), line_feed) - 1
+         if (length >= 0 .or. self%left == 0) exit
+         call refill(self, error)
+         if (allocated(error)) return
+      end do
+      if (length < 0 .and. self%at > len(self%text)) then
+         call self%close()
+         return
+      end if
+      found = .true.
+      self%number = self%number + 1
+      if (length < 0) then
+         line = self%text(self%at:self%at - 1 + verify(self%text(self%at:), padding, back=.true.))
+         self%at = len(self%text) + 1
+         return
+      end if
+      line = self%text(self%at:self%at + length - 1)
+      self%at = self%at + length + 1
+      if (length == 0) return
+      if (line(length:) == return) line = line(:length - 1)
+   end subroutine next
+
+   !> Read the next chunk behind what was not given out yet
+   subroutine refill(self, error)
+      !> The reader
+      class(line_reader_type), intent(inout) :: self
+      !> The file cannot be read
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: more
+      integer :: stat
+
+      allocate (character(len=int(min(self%left, int(chunk, int64)))) :: more)
+      read (self%unit, iostat=stat) more
+      if (stat /= 0) then
+         call raise_input(error, self%file//': cannot be read')
+         call self%close()
+         return
+      end if
+      self%left = self%left - len(more)
+      self%text = self%text(self%at:)//more
+      self%at = 1
+   end subroutine refill
+
+   !> Close the file; nothing happens if it is not open
+   subroutine close_reader(self)
+      !> The reader
+      class(line_reader_type), intent(inout) :: self
+
+      if (self%unit /= 0) close (self%unit)
+      self%unit = 0
+      self%left = 0
+   end subroutine close_reader
+
+end module dondolo_line_reader

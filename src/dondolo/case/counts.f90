@@ -1,0 +1,195 @@
+!> What is kept of one row of a population: how many histories reach each EDP threshold at each level, and the curves;
+!> and how it stands in a file.
+module dondolo_counts
+   use, intrinsic :: iso_fortran_env, only : int32, int64
+   use dondolo_fragility, only : fragility_type, status_names
+   use dondolo_kinds, only : wp
+   use dondolo_response, only : response_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: counts_type, shape_type, pack_counts, unpack_counts
+
+   !> Bytes of a real
+   integer, parameter :: bytes_of_real = storage_size(1.0_wp)/8
+
+   !> How many numbers there are of a row
+   type :: shape_type
+      !> Levels
+      integer :: levels = 0
+      !> EDP thresholds
+      integer :: thresholds = 0
+      !> Are all histories kept?
+      logical :: keeps_histories = .false.
+   end type shape_type
+
+   !> Counts of a row
+   type :: counts_type
+      !> Number of the row
+      integer :: row = 0
+      !> Is it a further mechanism of the wall in the row before?
+      logical :: continues = .false.
+      !> Number of its mechanism among mechanism_names
+      integer :: mechanism = 0
+      !> Number of its group; 0: none
+      integer :: group = 0
+      !> Weight of the wall
+      real(wp) :: weight = 0.0_wp
+      !> Probability that the mechanism can occur
+      real(wp) :: p_occ = 0.0_wp
+      !> Histories of a stripe
+      integer :: histories = 0
+      !> Histories that reach a threshold (levels, thresholds)
+      integer, allocatable :: reached(:, :)
+      !> Curve of each threshold
+      type(fragility_type), allocatable :: curve(:)
+      !> All histories (histories, levels), if they are kept
+      type(response_type), allocatable :: response(:, :)
+   end type counts_type
+
+   !> Integers of a row besides the counts, and reals besides the curves; reals of a curve; counts of work
+   integer, parameter :: own_integers = 5, own_reals = 2, curve_reals = 8, work_counts = 8
+
+contains
+
+   !> Rows as bytes: what was computed, the number of integers, all integers, all reals
+   function pack_counts(rows, work) result(bytes)
+      !> The rows
+      type(counts_type), intent(in) :: rows(:)
+      !> What was computed for them
+      type(work_type), intent(in) :: work
+      !> Bytes
+      character(len=:), allocatable :: bytes
+
+      integer(int32), allocatable :: integers(:)
+      real(wp), allocatable :: reals(:)
+      integer(int64) :: counted(work_counts)
+      integer :: i
+
+      allocate (integers(0), reals(0))
+      do i = 1, size(rows)
+         associate (row => rows(i))
+            integers = [integers, row%row, merge(1, 0, row%continues), row%mechanism, row%group, row%histories, &
+               & code_of(row%curve), reshape(row%reached, [size(row%reached)])]
+            reals = [reals, row%weight, row%p_occ, numbers_of(row%curve)]
+            if (.not. allocated(row%response)) cycle
+            associate (size_of => size(row%response))
+               integers = [integers, reshape(merge(1, 0, row%response%collapsed), [size_of]), &
+                  & reshape(row%response%impacts, [size_of])]
+               reals = [reals, reshape(row%response%edp, [size_of]), reshape(row%response%time_of_peak, [size_of])]
+            end associate
+         end associate
+      end do
+      counted = [work%histories, work%still, work%in_lanes, work%intervals, work%rocked, work%steps, work%evaluations, &
+         & work%impacts]
+      allocate (character(len=8*work_counts + 4 + 4*size(integers) + bytes_of_real*size(reals)) :: bytes)
+      bytes(:8*work_counts) = transfer(counted, bytes(:8*work_counts))
+      i = 8*work_counts
+      bytes(i + 1:i + 4) = transfer(size(integers, kind=int32), bytes(i + 1:i + 4))
+      i = i + 4
+      bytes(i + 1:i + 4*size(integers)) = transfer(integers, bytes(i + 1:i + 4*size(integers)))
+      i = i + 4*size(integers)
+      bytes(i + 1:) = transfer(reals, bytes(i + 1:))
+   end function pack_counts
+
+   !> Rows out of bytes
+   subroutine unpack_counts(bytes, count, shape, rows, work)
+      !> Bytes
+      character(len=*), intent(in) :: bytes
+      !> Number of rows
+      integer, intent(in) :: count
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The rows
+      type(counts_type), allocatable, intent(out) :: rows(:)
+      !> What was computed for them
+      type(work_type), intent(out) :: work
+
+      integer(int32), allocatable :: integers(:)
+      real(wp), allocatable :: reals(:)
+      integer(int64) :: counted(work_counts)
+      integer :: i, k, at, number, place, n
+
+      counted = transfer(bytes(:8*work_counts), counted)
+      work = work_type(histories=counted(1), still=counted(2), in_lanes=counted(3), intervals=counted(4), &
+         & rocked=counted(5), steps=counted(6), evaluations=counted(7), impacts=counted(8))
+      at = 8*work_counts
+      number = transfer(bytes(at + 1:at + 4), number)
+      at = at + 4
+      integers = transfer(bytes(at + 1:at + 4*number), [0_int32])
+      reals = transfer(bytes(at + 4*number + 1:), [0.0_wp])
+      allocate (rows(count))
+      at = 0
+      place = 0
+      do i = 1, count
+         associate (row => rows(i), m => shape%levels)
+            row%row = integers(at + 1)
+            row%continues = integers(at + 2) == 1
+            row%mechanism = integers(at + 3)
+            row%group = integers(at + 4)
+            row%histories = integers(at + 5)
+            row%weight = reals(place + 1)
+            row%p_occ = reals(place + 2)
+            at = at + own_integers
+            place = place + own_reals
+            allocate (row%curve(shape%thresholds))
+            do k = 1, shape%thresholds
+               call set_curve(row%curve(k), integers(at + k), reals(place + 1:place + curve_reals))
+               place = place + curve_reals
+            end do
+            at = at + shape%thresholds
+            row%reached = reshape(integers(at + 1:at + m*shape%thresholds), [m, shape%thresholds])
+            at = at + m*shape%thresholds
+            if (.not. shape%keeps_histories) cycle
+            n = row%histories*m
+            allocate (row%response(row%histories, m))
+            row%response%collapsed = reshape(integers(at + 1:at + n), [row%histories, m]) == 1
+            row%response%impacts = reshape(integers(at + n + 1:at + 2*n), [row%histories, m])
+            row%response%edp = reshape(reals(place + 1:place + n), [row%histories, m])
+            row%response%time_of_peak = reshape(reals(place + n + 1:place + 2*n), [row%histories, m])
+            at = at + 2*n
+            place = place + 2*n
+         end associate
+      end do
+   end subroutine unpack_counts
+
+   !> Place of the status of a curve among the names
+   elemental integer function code_of(curve)
+      !> Curve
+      type(fragility_type), intent(in) :: curve
+
+      code_of = findloc(status_names, curve%status, dim=1)
+   end function code_of
+
+   !> Numbers of curves, one curve after the other
+   pure function numbers_of(curves) result(numbers)
+      !> Curves
+      type(fragility_type), intent(in) :: curves(:)
+      !> Numbers
+      real(wp) :: numbers(curve_reals*size(curves))
+
+      integer :: k
+
+      numbers = [(curves(k)%theta, curves(k)%beta, curves(k)%covariance(1, 1), curves(k)%covariance(1, 2), &
+         & curves(k)%covariance(2, 2), curves(k)%log_likelihood, curves(k)%bracket, k=1, size(curves))]
+   end function numbers_of
+
+   !> Set a curve
+   pure subroutine set_curve(curve, code, numbers)
+      !> Curve
+      type(fragility_type), intent(inout) :: curve
+      !> Place of its status among the names
+      integer, intent(in) :: code
+      !> Its numbers
+      real(wp), intent(in) :: numbers(curve_reals)
+
+      curve%status = status_names(code)
+      curve%theta = numbers(1)
+      curve%beta = numbers(2)
+      curve%covariance = reshape([numbers(3), numbers(4), numbers(4), numbers(5)], [2, 2])
+      curve%log_likelihood = numbers(6)
+      curve%bracket = numbers(7:8)
+   end subroutine set_curve
+
+end module dondolo_counts

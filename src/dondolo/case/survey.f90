@@ -1,0 +1,178 @@
+!> Survey of a population before anything is run: every row is read and checked, and everything that is wrong is reported
+!> at once. The walls are not kept.
+module dondolo_survey
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_error, only : add_place, error_type, problems_type, raise_input
+   use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_kinds, only : wp
+   use dondolo_line_reader, only : line_reader_type
+   use dondolo_lines, only : lines_type
+   use dondolo_population, only : check_weight, member_type, population_reader_type
+   use dondolo_record, only : record_type
+   use dondolo_records_group, only : records_input_type
+   use dondolo_simulate, only : check_history
+   use dondolo_solver, only : check_limit
+   use dondolo_solver_group, only : solver_input_type
+   use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_stripes_group, only : stripes_input_type
+   use dondolo_text, only : to_text
+   use dondolo_typology, only : most_groups
+   use dondolo_warnings, only : scale_warning_type
+   implicit none
+   private
+
+   public :: survey_type, survey_population, number_of_group
+
+   !> What a survey has found
+   type :: survey_type
+      !> Rows: mechanisms of walls
+      integer :: rows = 0
+      !> Walls
+      integer :: walls = 0
+      !> Rows that are to be run
+      integer :: first = 1, last = 0
+      !> Histories of these rows, all levels
+      integer :: histories = 0
+      !> Names of the groups, in the order in which they appear
+      type(lines_type) :: groups
+      !> What there is to say of scale factors
+      type(scale_warning_type) :: scales
+      !> Fingerprint of the table
+      type(fingerprint_type) :: fingerprint
+   end type survey_type
+
+contains
+
+   !> Survey a population
+   subroutine survey_population(survey, file, records_input, records, values, stripes_input, solver_input, rows, error)
+      !> What is found
+      type(survey_type), intent(out) :: survey
+      !> Path of the table
+      character(len=*), intent(in) :: file
+      !> What is said of the accelerograms
+      type(records_input_type), intent(in) :: records_input
+      !> The accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> Values of the intensity measure for them as they stand
+      real(wp), intent(in) :: values(:)
+      !> Intensity measure and levels
+      type(stripes_input_type), intent(in) :: stripes_input
+      !> How the motions are computed
+      type(solver_input_type), intent(in) :: solver_input
+      !> First and last row that are to be run
+      integer, intent(in) :: rows(2)
+      !> Everything that is wrong with the table, or the first level that asks too much
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      type(stripes_type) :: plan
+      type(problems_type) :: problems
+      integer(int64) :: histories
+      logical :: found, has_weight
+
+      call reader%open(file, error, solver_input%gravity)
+      if (allocated(error)) return
+      survey%first = rows(1)
+      histories = 0
+      has_weight = .false.
+      do
+         call reader%next(member, found, error)
+         if (.not. found) exit
+         survey%rows = reader%row
+         if (.not. allocated(error)) then
+            if (.not. member%continues) survey%walls = survey%walls + 1
+            has_weight = has_weight .or. member%weight > 0.0_wp
+            call note_group(survey%groups, member%group, error)
+            if (.not. allocated(error)) call check_limit(solver_input%solver, member%wall%mechanism, error)
+            if (.not. allocated(error)) call check_history(solver_input%solver, member%wall%mechanism, .false., error)
+            call add_place(error, reader%table%place())
+         end if
+         if (.not. allocated(error)) then
+            call plan_stripes(plan, member%wall, records, stripes_input%levels, stripes_input%scaling, values, &
+               & records_input%polarity, solver_input%solver, error)
+            if (allocated(error)) then
+               call add_place(error, reader%table%place())
+               call reader%close()
+               return
+            end if
+            call survey%scales%look(plan, records, reader%row)
+            if (reader%row >= rows(1) .and. reader%row <= rows(2)) histories = histories + size(plan%scale)
+         end if
+         call problems%take(error)
+      end do
+      survey%last = min(rows(2), survey%rows)
+      if (.not. allocated(error) .and. problems%count == 0) call check_weight(file, has_weight, error)
+      if (.not. allocated(error) .and. problems%count == 0) call check_size(file, histories, error)
+      call problems%take(error)
+      call problems%raise(error)
+      if (allocated(error)) return
+      survey%histories = int(histories)
+      call add_lines(file, survey%fingerprint, error)
+   end subroutine survey_population
+
+   !> Note a group, if it is new
+   subroutine note_group(groups, name, error)
+      !> Names of the groups
+      type(lines_type), intent(inout) :: groups
+      !> Name of a group, empty for none
+      character(len=*), intent(in) :: name
+      !> There are too many
+      type(error_type), allocatable, intent(out) :: error
+
+      if (len(name) == 0 .or. number_of_group(groups, name) > 0) return
+      if (groups%count == most_groups) then
+         call raise_input(error, 'group = '''//name//''': there may be at most '//to_text(most_groups)//' groups')
+      else
+         call groups%add(name)
+      end if
+   end subroutine note_group
+
+   !> Number of a group
+   pure integer function number_of_group(groups, name) result(number)
+      !> Names of the groups
+      type(lines_type), intent(in) :: groups
+      !> Name of a group; there is none of an empty name
+      character(len=*), intent(in) :: name
+
+      do number = groups%count, 1, -1
+         if (groups%line(number)%text == name) exit
+      end do
+   end function number_of_group
+
+   !> Check that the histories can be counted
+   subroutine check_size(file, histories, error)
+      !> Path of the table
+      character(len=*), intent(in) :: file
+      !> Histories of all rows that are to be run
+      integer(int64), intent(in) :: histories
+      !> They are too many
+      type(error_type), allocatable, intent(out) :: error
+
+      if (histories > huge(1)) call raise_input(error, file//': '//to_text(histories)//' histories: run at most '// &
+         & to_text(huge(1))//' at a time, parts of the population with --walls FIRST:LAST')
+   end subroutine check_size
+
+   !> Add the lines of a file to a fingerprint
+   subroutine add_lines(file, fingerprint, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Fingerprint
+      type(fingerprint_type), intent(inout) :: fingerprint
+      !> It cannot be read
+      type(error_type), allocatable, intent(out) :: error
+
+      type(line_reader_type) :: reader
+      character(len=:), allocatable :: line
+      logical :: found
+
+      call reader%open(file, error)
+      if (allocated(error)) return
+      do
+         call reader%next(line, found, error)
+         if (allocated(error) .or. .not. found) return
+         call fingerprint%add_text(line)
+      end do
+   end subroutine add_lines
+
+end module dondolo_survey
