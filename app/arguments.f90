@@ -4,6 +4,7 @@ module dondolo_arguments
    use dondolo_job_group, only : task_names
    use dondolo_ensemble, only : largest_threads
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_text, only : join, to_text
    implicit none
@@ -16,7 +17,7 @@ module dondolo_arguments
 
    !> What the command line asks for
    type :: arguments_type
-      !> 'run', 'check', 'template', 'benchmark', 'version' or 'help'
+      !> 'run', 'check', 'merge', 'template', 'benchmark', 'version' or 'help'
       character(len=:), allocatable :: action
       !> Path of the case
       character(len=:), allocatable :: case_file
@@ -26,6 +27,10 @@ module dondolo_arguments
       real(wp) :: seconds = 1.0_wp
       !> Number of threads; not allocated: the case's
       integer, allocatable :: threads
+      !> First and last row of the population that are to be run; not allocated: all
+      integer, allocatable :: rows(:)
+      !> Files of counts to be taken together
+      type(lines_type) :: parts
       !> Print errors and warnings only
       logical :: quiet = .false.
    end type arguments_type
@@ -62,13 +67,19 @@ contains
          else if (word == '--benchmark' .or. index(word, '--benchmark=') == 1) then
             call set_action('benchmark')
             if (.not. allocated(error)) call take_seconds(word, i, arguments, error)
+         else if (word == '--merge') then
+            call set_action('merge')
+         else if (word == '--walls' .or. index(word, '--walls=') == 1) then
+            call take_rows(word, i, arguments, error)
          else if (word == '--threads' .or. index(word, '--threads=') == 1) then
             call take_threads(word, i, arguments, error)
          else if (index(word, '-') == 1) then
-            call raise_input(error, word//': no such option; there are --check, --template, --benchmark, '// &
-               & '--threads, --quiet, --version, --help')
+            call raise_input(error, word//': no such option; there are --check, --walls, --merge, --template, '// &
+               & '--benchmark, --threads, --quiet, --version, --help')
          else if (len(word) == 0) then
             call raise_input(error, 'the name of the case is empty'//see_help)
+         else if (allocated(arguments%case_file) .and. arguments%action == 'merge') then
+            call arguments%parts%add(word)
          else if (allocated(arguments%case_file)) then
             call raise_input(error, word//': one case at a time, '//arguments%case_file//' was given before')
          else
@@ -76,12 +87,20 @@ contains
          end if
          if (allocated(error)) return
       end do
-      if (arguments%action == 'run' .or. arguments%action == 'check') then
+      if (any(arguments%action == [character(len=5) :: 'run', 'check', 'merge'])) then
          if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
       else if (allocated(arguments%case_file) .and. arguments%action == 'template') then
          call raise_input(error, arguments%case_file//': --template takes no case, it prints one')
       else if (allocated(arguments%case_file) .and. arguments%action == 'benchmark') then
          call raise_input(error, arguments%case_file//': --benchmark takes no case, it has its own')
+      end if
+
+      if (allocated(error)) return
+      if (arguments%action == 'merge' .and. arguments%parts%count == 0) then
+         call raise_input(error, '--merge: the files of counts must follow the case: dondolo --merge CASE.nml '// &
+            & 'OUTPUT_walls_*.counts')
+      else if (allocated(arguments%rows) .and. all(arguments%action /= [character(len=5) :: 'run', 'check'])) then
+         call raise_input(error, '--walls: cannot go together with --'//arguments%action)
       end if
 
    contains
@@ -154,6 +173,40 @@ contains
       if (.not. ok) call raise_input(error, '--benchmark '//value//': must be a length of a measurement between '// &
          & to_text(shortest)//' and '//to_text(longest)//' s')
    end subroutine take_seconds
+
+   !> The rows of --walls: `--walls=FIRST:LAST`, or the next word
+   subroutine take_rows(word, i, arguments, error)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> What the command line asks for
+      type(arguments_type), intent(inout) :: arguments
+      !> Not two numbers
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: value
+      integer :: first, last, colon
+      logical :: ok, ok_too
+
+      if (index(word, '=') > 0) then
+         value = word(index(word, '=') + 1:)
+      else
+         value = argument(i)
+         i = i + 1
+      end if
+      colon = index(value, ':')
+      call parse_integer(value(:colon - 1), first, ok)
+      call parse_integer(value(colon + 1:), last, ok_too)
+      ok = ok .and. ok_too .and. colon > 0
+      if (ok) ok = first >= 1 .and. last >= first
+      if (ok) then
+         arguments%rows = [first, last]
+      else
+         call raise_input(error, '--walls '//value//': must be the first and the last row of the population that are '// &
+            & 'to be run, such as --walls 1:500')
+      end if
+   end subroutine take_rows
 
    !> The number of --threads: `--threads=N`, or the next word
    subroutine take_threads(word, i, arguments, error)

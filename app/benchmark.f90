@@ -3,11 +3,13 @@ module dondolo_benchmark
    use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
    use dondolo_case, only : case_type
+   use dondolo_counts, only : counts_type
    use dondolo_ensemble, only : engine_text
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
-   use dondolo_run_case, only : results_type, run_case
+   use dondolo_population, only : member_type
+   use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
    use dondolo_text, only : to_text
    use dondolo_version, only : dondolo_version_text
@@ -47,23 +49,24 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(case_type) :: work
+      type(member_type), allocatable :: walls(:)
       type(fingerprint_type) :: fingerprint
       character(len=160) :: line
       real(wp) :: once, alone, strong, weak, histories, arithmetic
       integer :: copies, team
 
-      call make_work(work, error)
-      if (.not. allocated(error)) call find_fingerprint(work, fingerprint, error)
-      if (.not. allocated(error)) call measure(work, 1, 1, once, error)
+      call make_work(work, walls, error)
+      if (.not. allocated(error)) call find_fingerprint(work, walls, fingerprint, error)
+      if (.not. allocated(error)) call measure(work, walls, 1, 1, once, error)
       if (allocated(error)) return
       copies = max(1, nint(seconds/once))
       histories = real(copies, wp)*real(sum(fingerprint%histories), wp)
-      if (.not. quiet) call print_head(work, fingerprint, copies)
+      if (.not. quiet) call print_head(work, size(walls), fingerprint, copies)
       team = 1
       do
-         call measure(work, copies, team, strong, error)
+         call measure(work, walls, copies, team, strong, error)
          if (.not. allocated(error)) weak = strong
-         if (.not. allocated(error) .and. team > 1) call measure(work, copies*team, team, weak, error)
+         if (.not. allocated(error) .and. team > 1) call measure(work, walls, copies*team, team, weak, error)
          if (allocated(error)) return
          if (team == 1) alone = strong
          write (line, '(i7, 2(i14, f10.2, f12.3))') team, nint(histories/strong), alone/strong, &
@@ -87,9 +90,11 @@ contains
    end subroutine run_benchmark
 
    !> Run the work once, and keep what can be compared
-   subroutine find_fingerprint(case, fingerprint, error)
+   subroutine find_fingerprint(case, walls, fingerprint, error)
       !> The work
       type(case_type), intent(in) :: case
+      !> Its walls
+      type(member_type), intent(in) :: walls(:)
       !> What it gives
       type(fingerprint_type), intent(out) :: fingerprint
       !> It could not be run
@@ -98,8 +103,8 @@ contains
       type(stripes_type) :: stripes
       integer :: i, kind
 
-      do i = 1, size(case%population%walls)
-         associate (wall => case%population%walls(i))
+      do i = 1, size(walls)
+         associate (wall => walls(i)%wall)
             call multiple_stripe(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling%name, &
                & case%records_input%polarity, case%solver%solver, 0, error)
             if (allocated(error)) return
@@ -108,16 +113,18 @@ contains
          fingerprint%collapses(kind) = fingerprint%collapses(kind) + sum(stripes%collapses())
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)
          fingerprint%edps = fingerprint%edps + sum(nint(1.0e6_wp*stripes%response%edp, int64))
-         fingerprint%operations = fingerprint%operations + real(operations_per_step(case, i), wp) &
+         fingerprint%operations = fingerprint%operations + real(operations_per_step(case, walls(i)%wall), wp) &
             & *real(stripes%work%steps, wp)
          call fingerprint%work%add(stripes%work)
       end do
    end subroutine find_fingerprint
 
    !> Time that the work takes, several times over
-   subroutine measure(case, copies, threads, seconds, error)
+   subroutine measure(case, walls, copies, threads, seconds, error)
       !> The work
       type(case_type), intent(in) :: case
+      !> Its walls
+      type(member_type), intent(in) :: walls(:)
       !> How many times over
       integer, intent(in) :: copies
       !> Number of threads
@@ -127,16 +134,15 @@ contains
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
-      type(case_type) :: longer
-      type(results_type) :: results
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
       integer(int64) :: start
       real(wp) :: spent(times)
       integer :: i
 
-      longer = repeat_walls(case, copies)
       do i = 1, times
          call system_clock(start)
-         call run_case(longer, results, error, threads)
+         call run_rows(case, repeat_walls(walls, copies), 1, rows, work, error, threads, 0)
          if (allocated(error)) return
          spent(i) = seconds_since(start)
       end do
@@ -172,9 +178,11 @@ contains
    end function rate_of
 
    !> Print what is measured, and of what
-   subroutine print_head(case, fingerprint, copies)
+   subroutine print_head(case, walls, fingerprint, copies)
       !> The work
       type(case_type), intent(in) :: case
+      !> Number of its walls
+      integer, intent(in) :: walls
       !> What it gives
       type(fingerprint_type), intent(in) :: fingerprint
       !> How many times over it is done
@@ -186,7 +194,7 @@ contains
          & 'options: '//compiler_options(), &
          & 'engine: '//engine_text(fingerprint%work)
       associate (work => fingerprint%work)
-         write (output_unit, '(a)') 'work: '//to_text(size(case%population%walls))//' walls, '// &
+         write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
             & to_text(size(case%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
             & ' levels, '//to_text(copies)//' times over', &
             & '   '//to_text(work%histories)//' histories, '//to_text(work%still)//' of them never move; '// &

@@ -3,14 +3,12 @@ module dondolo_benchmark_walls
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
    use dondolo_normal_form, only : new_normal_form, normal_form_type
-   use dondolo_population, only : population_type
+   use dondolo_population, only : member_type
    use dondolo_record_set, only : new_record_set
    use dondolo_scaling, only : new_scaling
    use dondolo_stripes, only : measure_records
    use dondolo_synthetic_suite, only : suite_record, synthetic44
-   use dondolo_text, only : to_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private
@@ -25,17 +23,19 @@ module dondolo_benchmark_walls
 
 contains
 
-   !> The case that the benchmark runs: three walls of each mechanism
-   subroutine make_work(case, error)
-      !> The case
+   !> What the benchmark runs: three walls of each mechanism
+   subroutine make_work(case, members, error)
+      !> The case, without walls
       type(case_type), intent(out) :: case
+      !> The walls
+      type(member_type), allocatable, intent(out) :: members(:)
       !> It could not be made
       type(error_type), allocatable, intent(out) :: error
 
       type(wall_input_type) :: input
       integer :: i, j, number
 
-      allocate (case%records(2*size(synthetic44)), case%population%walls(size(mechanism_names)*size(heights)))
+      allocate (case%records(2*size(synthetic44)), members(size(mechanism_names)*size(heights)))
       do i = 1, size(case%records)
          call suite_record((i + 1)/2, 2 - modulo(i, 2), case%records(i), error)
          if (allocated(error)) return
@@ -48,66 +48,47 @@ contains
             input%mechanism = trim(mechanism_names(i))
             input%height = heights(j)
             input%thickness = thicknesses(j)
-            call new_wall(case%population%walls(number), input, error)
+            call new_wall(members(number)%wall, input, error)
             if (allocated(error)) return
+            members(number)%group = ''
          end do
       end do
-      call set_rows(case%population)
       case%job%task = 'typology'
       case%records_input%polarity = 'as_recorded'
       case%stripes%levels = levels
+      case%stripes%thresholds = [case%solver%solver%edp_limit]
       call new_scaling(case%stripes%scaling, 'pga', error)
       case%values = measure_records(case%stripes%scaling%measure, case%records, 1)
       call new_record_set(case%record_set, case%records)
    end subroutine make_work
 
-   !> The same work several times over
-   function repeat_walls(case, times) result(longer)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> How many times its walls come
+   !> The same walls several times over
+   function repeat_walls(members, times) result(longer)
+      !> The walls
+      type(member_type), intent(in) :: members(:)
+      !> How many times they come
       integer, intent(in) :: times
-      !> The case with as many walls
-      type(case_type) :: longer
+      !> As many walls
+      type(member_type), allocatable :: longer(:)
 
-      integer :: i, walls
-
-      longer = case
-      walls = size(case%population%walls)
-      longer%population%walls = [(case%population%walls(modulo(i, walls) + 1), i=0, times*walls - 1)]
-      call set_rows(longer%population)
-   end function repeat_walls
-
-   !> Every row is a wall of its own that counts as any other
-   subroutine set_rows(population)
-      !> The population, its walls set
-      type(population_type), intent(inout) :: population
-
-      type(line_type) :: no_group
       integer :: i
 
-      no_group%text = ''
-      do i = 1, size(population%walls)
-         population%walls(i)%input%name = 'wall '//to_text(i)
-      end do
-      population%weight = spread(1.0_wp, 1, size(population%walls))
-      population%p_occ = population%weight
-      population%group = spread(no_group, 1, size(population%walls))
-   end subroutine set_rows
+      longer = [(members(modulo(i, size(members)) + 1), i=0, times*size(members) - 1)]
+   end function repeat_walls
 
    !> Multiplications and additions of a step of the engine lanes, counted in its source (lane_step.inc); comparisons,
    !> events, and the search for the start of rocking are not counted
    integer function operations_per_step(case, wall)
       !> The case
       type(case_type), intent(in) :: case
-      !> Number of the wall
-      integer, intent(in) :: wall
+      !> The wall
+      type(wall_type), intent(in) :: wall
 
       !> Of each degree of the polynomials a and b with four derivatives, and of all the rest
       integer, parameter :: each_degree = 20, others = 195
       type(normal_form_type) :: form
 
-      associate (mechanism => case%population%walls(wall)%mechanism)
+      associate (mechanism => wall%mechanism)
          form = new_normal_form(mechanism, case%solver%solver%edp_limit*mechanism%capacity)
       end associate
       operations_per_step = each_degree*form%degree + others

@@ -12,6 +12,9 @@ module dondolo_help
       & '', &
       & '   dondolo CASE.nml             run a case and write its result files', &
       & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
+      & '   dondolo --walls A:B CASE.nml run rows A to B of a population only, into a file of counts', &
+      & '   dondolo --merge CASE.nml COUNTS ...', &
+      & '                                take such files together and write the result files', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
       & '   dondolo --version            print the version, and the build variant for this processor', &
@@ -32,6 +35,9 @@ module dondolo_help
       & 'Groups &stripes and &history may stand in any case: a task checks both and uses what it needs, so that', &
       & 'one file serves to run the stripes of a wall and to look at one of its histories.', &
       & 'Paths in a case are relative to the case, those of the results to the current folder.', &
+      & '', &
+      & 'A population runs in blocks, and a checkpoint, OUTPUT.checkpoint, grows with them: a run that was killed', &
+      & 'goes on where it was when it is started again. At the end the checkpoint is removed.', &
       & '', &
       & 'Exit code: 0 done, 1 failed while running, 2 wrong input (nothing is run or written then).']
 

@@ -4,7 +4,7 @@ program dondolo_main
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type, read_case
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_input
    use dondolo_help, only : print_help
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant
@@ -12,7 +12,9 @@ program dondolo_main
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
-   use dondolo_run_case, only : results_type, run_case
+   use dondolo_results, only : results_type
+   use dondolo_run_case, only : run_case
+   use dondolo_run_population, only : is_part, merge_population
    use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : stderr_is_terminal
@@ -51,11 +53,14 @@ contains
 
       type(case_type) :: case
       type(results_type) :: results
-      type(lines_type) :: paths
       integer(int64) :: start, finish, rate
       integer :: threads
 
-      call read_case(arguments%case_file, case, error)
+      if (allocated(arguments%rows)) then
+         call read_case(arguments%case_file, case, error, arguments%rows)
+      else
+         call read_case(arguments%case_file, case, error)
+      end if
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
       if (arguments%action == 'check') then
@@ -63,6 +68,11 @@ contains
          return
       end if
       threads = team(case%job%threads)
+      if (arguments%action == 'merge') then
+         call merge_parts(case, arguments%parts, results, error)
+         if (.not. allocated(error)) call finish_run(case, results, 0.0_wp, threads, error)
+         return
+      end if
 
       call system_clock(start, rate)
       if (stderr_is_terminal() .and. .not. arguments%quiet) then
@@ -74,13 +84,53 @@ contains
       end if
       if (allocated(error)) return
       call system_clock(finish)
-
-      call write_reports(case, results, paths, error)
-      if (allocated(error)) return
-      call print_warnings(results%warnings)
-      if (.not. arguments%quiet) &
-         & call print_summary(case, results, paths, real(finish - start, wp)/real(rate, wp), threads)
+      call finish_run(case, results, real(finish - start, wp)/real(rate, wp), threads, error)
    end subroutine serve
+
+   !> Take the parts of a population together
+   subroutine merge_parts(case, parts, results, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Paths of the files of counts
+      type(lines_type), intent(in) :: parts
+      !> Results
+      type(results_type), intent(inout) :: results
+      !> Not a case of a population, or a file that does not belong to it
+      type(error_type), allocatable, intent(out) :: error
+
+      if (case%job%task /= 'typology') then
+         call raise_input(error, '--merge: only for task = ''typology''')
+      else
+         call merge_population(case, parts, results, error)
+      end if
+   end subroutine merge_parts
+
+   !> Write the reports, unless the run was one part of a population, and print the results at a glance
+   subroutine finish_run(case, results, seconds, threads, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(inout) :: results
+      !> Time of the computation [s]
+      real(wp), intent(in) :: seconds
+      !> Number of threads
+      integer, intent(in) :: threads
+      !> The reports could not be written
+      type(error_type), allocatable, intent(out) :: error
+
+      type(lines_type) :: paths
+
+      if (case%job%task == 'typology' .and. is_part(case)) then
+         call paths%add(results%counts%files(1)%path)
+      else
+         call write_reports(case, results, paths, error)
+         if (allocated(error)) return
+         ! The checkpoint of a whole population has served; parts are the user's
+         if (case%job%task == 'typology' .and. arguments%action == 'run') call results%counts%remove()
+      end if
+      call print_warnings(results%warnings)
+      if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
+   end subroutine finish_run
 
    !> Number of threads
    integer function team(threads)

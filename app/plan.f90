@@ -5,18 +5,21 @@ module dondolo_plan
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_population, only : member_type, population_reader_type
    use dondolo_record_table, only : record_table
+   use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
    use dondolo_text, only : to_text
-   use dondolo_warnings, only : rounded
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : rounded, scale_warning_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: print_plan, print_walls
+   public :: print_plan, print_wall
 
-   !> Rows of a table that are shown before it is cut
-   integer, parameter, public :: shown_rows = 20
+   !> Width of the column of names
+   integer, parameter :: name_width = 30
 
 contains
 
@@ -27,15 +30,21 @@ contains
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(scale_warning_type) :: scales
       type(work_type) :: work
 
-      if (case%job%task /= 'history') call plan_case(case, work, error)
+      if (case%job%task /= 'history') call plan_case(case, work, scales, error)
       if (allocated(error)) return
       write (output_unit, '(a)') case%file//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//case%job%task
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
-      call print_walls(case)
+      if (case%job%task == 'typology') then
+         call print_population(case, error)
+         if (allocated(error)) return
+      else
+         call print_wall(case%wall)
+      end if
       call print_records(case)
       if (case%job%task == 'history') then
          write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
@@ -44,39 +53,82 @@ contains
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
          & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
+      if (size(case%stripes%thresholds) > 1) &
+         & write (output_unit, '(a)') 'EDP thresholds:'//list(case%stripes%thresholds)
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
-      call print_largest_scale(case)
+      write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
+         & ''' at level '//to_text(scales%level)//')'
    end subroutine print_plan
 
-   !> Print the walls and their static quantities
-   subroutine print_walls(case)
+   !> Print the one wall and its static quantities
+   subroutine print_wall(wall)
+      !> The wall
+      type(wall_type), intent(in) :: wall
+
+      integer :: width
+
+      width = min(max(4, len(wall%input%name)), name_width)
+      call print_head(width)
+      call print_row(wall, width)
+      write (output_unit, '(a)') ''
+   end subroutine print_wall
+
+   !> Print the first rows of the population
+   subroutine print_population(case, error)
       !> The case
       type(case_type), intent(in) :: case
+      !> The population has changed
+      type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, walls, width
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      logical :: found
+      integer :: i
 
-      walls = size(case%population%walls)
-      width = 4
-      do i = 1, walls
-         width = max(width, len(case%population%walls(i)%input%name))
-      end do
-      width = min(width, 30)
+      associate (survey => case%survey)
+         call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         if (.not. allocated(error)) call reader%skip(survey%first - 1, error)
+         if (allocated(error)) return
+         if (survey%walls < survey%rows) write (output_unit, '(a)') to_text(survey%walls)//' walls, with '// &
+            & to_text(survey%rows)//' mechanisms in all'
+         if (survey%last - survey%first + 1 < survey%rows) write (output_unit, '(a)') 'rows '// &
+            & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)
+         call print_head(name_width)
+         do i = survey%first, min(survey%last, survey%first + shown_rows - 1)
+            call reader%next(member, found, error)
+            if (allocated(error) .or. .not. found) return
+            call print_row(member%wall, name_width)
+         end do
+         call reader%close()
+         if (survey%last >= i) write (output_unit, '(a)') '... and '//to_text(survey%last - i + 1)//' more'
+      end associate
+      write (output_unit, '(a)') ''
+   end subroutine print_population
+
+   !> Print the head of the table of walls
+   subroutine print_head(width)
+      !> Width of the column of names
+      integer, intent(in) :: width
+
       write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
          & 'p', 'capacity', 'speed'
       write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
-      do i = 1, min(walls, shown_rows)
-         associate (wall => case%population%walls(i))
-            write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
-               & wall%input%mechanism, wall%input%height, wall%input%thickness, &
-               & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
-               & wall%mechanism%capacity, wall%mechanism%restitution
-         end associate
-      end do
-      if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
-      write (output_unit, '(a)') ''
-   end subroutine print_walls
+   end subroutine print_head
+
+   !> Print a wall and its static quantities
+   subroutine print_row(wall, width)
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Width of the column of names
+      integer, intent(in) :: width
+
+      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
+         & wall%input%mechanism, wall%input%height, wall%input%thickness, &
+         & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
+         & wall%mechanism%capacity, wall%mechanism%restitution
+   end subroutine print_row
 
    !> Print the records
    subroutine print_records(case)
@@ -100,28 +152,6 @@ contains
       end do
       write (output_unit, '(a)') ''
    end subroutine print_records
-
-   !> Print the largest scale factor
-   subroutine print_largest_scale(case)
-      !> The case
-      type(case_type), intent(in) :: case
-
-      real(wp) :: scale, largest
-      integer :: i, j, at
-
-      largest = 0.0_wp
-      at = 1
-      do i = 1, size(case%records)
-         do j = 1, size(case%population%walls)
-            scale = case%scale_to(j, i, case%stripes%levels(size(case%stripes%levels)))
-            if (scale <= largest) cycle
-            largest = scale
-            at = i
-         end do
-      end do
-      write (output_unit, '(a)') 'largest scale factor: '//rounded(largest)//' (record '''//case%records(at)%name// &
-         & ''' at the highest level)'
-   end subroutine print_largest_scale
 
    !> Numbers with blanks between them
    pure function list(values) result(text)

@@ -2,12 +2,11 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
-   use dondolo_ensemble, only : engine_text
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_plan, only : print_walls, shown_rows
-   use dondolo_run_case, only : results_type
+   use dondolo_plan, only : print_wall
+   use dondolo_results, only : results_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : whole_population
    use dondolo_warnings, only : rounded
@@ -29,7 +28,7 @@ contains
       type(results_type), intent(in) :: results
       !> The files that were written
       type(lines_type), intent(in) :: paths
-      !> Time of the computation [s]
+      !> Time of the computation [s]; 0: nothing was computed, counts were merged
       real(wp), intent(in) :: seconds
       !> Number of threads
       integer, intent(in) :: threads
@@ -39,14 +38,20 @@ contains
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
       select case (case%job%task)
       case ('history')
-         call print_walls(case)
+         call print_wall(case%wall)
          call print_history(case, results)
       case ('stripes')
-         call print_walls(case)
+         call print_wall(case%wall)
          call print_stripes(case, results)
       case ('typology')
-         call print_curves(case, results)
-         call print_typology(case, results)
+         if (allocated(results%typologies)) then
+            call print_curves(case, results)
+            call print_typology(case, results)
+         else
+            write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
+               & to_text(case%survey%rows)//' are complete; when all are, take them together:', &
+               & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
+         end if
       end select
       write (output_unit, '(a)') ''
       if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
@@ -67,14 +72,22 @@ contains
       integer, intent(in) :: threads
 
       character(len=:), allocatable :: crew
-      integer :: histories
+      integer(int64) :: histories
 
-      histories = size(case%stripes%levels)*sum(results%histories)
+      histories = results%work%histories
+      if (case%solver%solver%estimate_error) histories = histories/2
       crew = ' threads'
       if (threads == 1) crew = ' thread'
-      write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
-         & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
-         & ', engine '//engine_text(results%work)
+      if (results%resumed > 0) then
+         write (output_unit, '(a)') to_text(histories)//' histories, those of rows 1 to '//to_text(results%resumed)// &
+            & ' by an earlier run, engine '//results%engine()
+      else if (seconds > 0.0_wp) then
+         write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
+            & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
+            & ', engine '//results%engine()
+      else
+         write (output_unit, '(a)') to_text(histories)//' histories, engine '//results%engine()
+      end if
       associate (work => results%work)
          write (output_unit, '(a)') 'never moved: '//share(work%still, work%histories)//' histories; rocking: '// &
             & share(work%rocked, work%intervals)//' sample intervals'
@@ -164,19 +177,27 @@ contains
       character(len=120) :: line
       character(len=24) :: counts
       real(wp) :: fraction
-      integer :: j
+      integer :: j, k, histories
 
       head = head_of_levels(case)
+      histories = size(results%stripes%record)
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
-         counts = to_text(results%collapses(j, 1))//'/'//to_text(results%histories(1))
-         fraction = real(results%collapses(j, 1), wp)/real(results%histories(1), wp)
+         associate (collapses => results%reached(j, size(results%reached, 2)))
+            counts = to_text(collapses)//'/'//to_text(histories)
+            fraction = real(collapses, wp)/real(histories, wp)
+         end associate
          write (line, '(a, a12, f10.3, 2x, a)') right(rounded(case%stripes%levels(j)), len(head)), &
             & trim(adjustl(counts)), fraction, bar(fraction)
          write (output_unit, '(a)') trim(line)
       end do
       write (output_unit, '(a)') ''
-      call print_fit(results%fragility(1), case%stripes%scaling%unit_after_blank())
+      do k = 1, size(results%fragility) - 1
+         write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
+         call print_fit(results%fragility(k), case%stripes%scaling%unit_after_blank())
+      end do
+      if (size(results%fragility) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
+      call print_fit(results%fragility(size(results%fragility)), case%stripes%scaling%unit_after_blank())
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%stripes%response%edp_error))
    end subroutine print_stripes
@@ -207,26 +228,26 @@ contains
       character(len=30) :: name
       character(len=12) :: theta
       character(len=10) :: beta
-      integer :: i, walls
+      integer :: i, more
 
-      walls = size(case%population%walls)
       name = 'wall'
       theta = 'theta'//case%stripes%scaling%unit_after_blank()
       write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', trim(theta), 'beta', 'status'
-      do i = 1, min(walls, shown_rows)
-         name = case%population%walls(i)%input%name
+      do i = 1, size(results%shown)
+         name = results%shown(i)%name
          theta = '-'
          beta = '-'
-         associate (curve => results%fragility(i))
+         associate (curve => results%shown(i)%curve)
             if (curve%has_fit()) then
                theta = rounded(curve%theta)
                beta = rounded(curve%beta)
             end if
-            write (output_unit, '(a, a15, 2a10, 2x, a)') name, case%population%walls(i)%input%mechanism, &
+            write (output_unit, '(a, a15, 2a10, 2x, a)') name, results%shown(i)%mechanism, &
                & trim(theta), adjustr(beta), trim(curve%status)
          end associate
       end do
-      if (walls > shown_rows) write (output_unit, '(a)') '... and '//to_text(walls - shown_rows)//' more'
+      more = case%survey%rows - size(results%shown)
+      if (more > 0) write (output_unit, '(a)') '... and '//to_text(more)//' more'
       write (output_unit, '(a)') ''
    end subroutine print_curves
 
@@ -239,10 +260,11 @@ contains
 
       character(len=:), allocatable :: head, who
       character(len=120) :: line
-      integer :: i, j
+      integer :: i, j, k, thresholds
 
       head = head_of_levels(case)
-      associate (typology => results%typologies(whole_population(results%typologies)))
+      thresholds = size(results%typologies, 2)
+      associate (typology => results%typologies(whole_population(results%typologies(:, thresholds)), thresholds))
          write (output_unit, '(a, a15, a12)') head, 'mean fraction', 'mean curve'
          do j = 1, size(typology%levels)
             write (line, '(a, f15.3, f12.3, 2x, a)') right(rounded(typology%levels(j)), len(head)), &
@@ -251,18 +273,22 @@ contains
          end do
          write (output_unit, '(a)') ''
       end associate
-      do i = 1, size(results%typologies)
-         associate (group => results%typologies(i)%group, fit => results%typologies(i)%fit)
-            who = 'population, '//results%typologies(i)%mechanism
-            if (len(group) > 0) who = 'group '''//group//''', '//results%typologies(i)%mechanism
-            if (fit%has_fit()) then
-               write (output_unit, '(a)') who//': theta = '//rounded(fit%theta)// &
-                  & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(fit%beta)//', status '// &
-                  & trim(fit%status)
-            else
-               write (output_unit, '(a)') who//': no fragility curve, status '//trim(fit%status)
-            end if
-         end associate
+      do k = 1, thresholds
+         do i = 1, size(results%typologies, 1)
+            associate (typology => results%typologies(i, k))
+               who = 'population, '//typology%mechanism
+               if (len(typology%group) > 0) who = 'group '''//typology%group//''', '//typology%mechanism
+               if (k < thresholds) who = who//', EDP '//rounded(case%stripes%thresholds(k))
+               if (typology%fit%has_fit()) then
+                  write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
+                     & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &
+                     & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
+                     & '), status '//trim(typology%fit%status)
+               else
+                  write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
+               end if
+            end associate
+         end do
       end do
    end subroutine print_typology
 

@@ -32,7 +32,9 @@ module dondolo_template
       & '                                        ! of this file; put yours. Columns: name, mechanism,', &
       & '                                        ! height, thickness, density, hinge, restitution,', &
       & '                                        ! restitution_value, restitution_factor, overburden,', &
-      & '                                        ! eccentricity (m, kg/m3, N/m), weight (default 1)', &
+      & '                                        ! eccentricity (m, kg/m3, N/m), weight (default 1),', &
+      & '                                        ! group, p_occ (that the mechanism can occur, 0 to 1).', &
+      & '                                        ! Rows with one name are mechanisms of one wall', &
       & '/']
 
    !> The records
@@ -52,6 +54,7 @@ module dondolo_template
       & '                                                 ! (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)', &
       & '   levels = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8    ! required: increasing, in the unit of im', &
       & '   ! first = 0.1, last = 0.8, count = 8          ! or instead: equally spaced, both ends included', &
+      & '   ! edp_thresholds = 0.1, 0.4                   ! damage states before collapse, rotation / capacity', &
       & '/']
 
    !> The time history
@@ -78,6 +81,8 @@ contains
       call print_line('   output = ''out/'//task//''''//repeat(' ', 15 - len(task))// &
          & '! what the names of the result files begin with, relative to the current')
       call print_line('                                 ! folder; default ''dondolo''')
+      if (task == 'typology') &
+         & call print_line('   histories = .false.           ! write the table of all histories too?')
       call print_line('   threads = 0                   ! 0: all, or OMP_NUM_THREADS')
       call print_line('/')
       if (task == 'typology') then

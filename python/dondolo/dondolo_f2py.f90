@@ -379,9 +379,9 @@ end subroutine catalogue_table
 ! text: their groups
 subroutine read_walls(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_walls, parcel_type, report, send
+   use dondolo_boundary, only : pack_members, parcel_type, report, send
    use dondolo_error, only : error_type
-   use dondolo_population, only : population_type, read_population
+   use dondolo_population, only : member_type, read_population
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: path
@@ -389,20 +389,15 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(population_type) :: population
+   type(member_type), allocatable :: members(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   integer :: i
 
    handle = 0
    sizes = 0
-   call read_population(path, population, error, gravity)
+   call read_population(path, members, error, gravity)
    if (.not. allocated(error)) then
-      call pack_walls(population%walls, parcel)
-      parcel%reals = [parcel%reals, population%weight, population%p_occ]
-      do i = 1, size(population%group)
-         parcel%text = parcel%text//population%group(i)%text//new_line('a')
-      end do
+      call pack_members(members, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)

@@ -2,12 +2,16 @@
 module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version
    use dondolo_case, only : case_type
-   use dondolo_ensemble, only : engine_text
    use dondolo_error, only : add_place, error_type
+   use dondolo_job_group, only : job_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_population, only : member_type
+   use dondolo_report_rows, only : fragility_head, fragility_row, history_head, history_row, stripes_head, &
+      & stripes_row, typology_head, typology_row, wall_cells, wall_head, wall_row
    use dondolo_result_files, only : check_output, result_files_type
-   use dondolo_run_case, only : results_type
+   use dondolo_results, only : results_type
+   use dondolo_row_reports, only : write_rows
    use dondolo_text, only : to_table, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_work, only : work_names, work_type
@@ -28,24 +32,25 @@ contains
       type(lines_type) :: inputs
 
       call case%inputs(inputs)
-      call check_output(case%job%output, suffixes(case%job%task), inputs, error)
+      call check_output(case%job%output, suffixes(case%job), inputs, error)
       call add_place(error, case%file//': &job: output = '''//case%job%output//'''')
    end subroutine check_reports
 
    !> What the names of the result files of a task end with
-   pure function suffixes(task) result(names)
-      !> Task
-      character(len=*), intent(in) :: task
+   pure function suffixes(job) result(names)
+      !> What is to be done
+      type(job_type), intent(in) :: job
       !> Ends of the names
       character(len=15), allocatable :: names(:)
 
-      select case (task)
+      select case (job%task)
       case ('history')
          names = [character(len=15) :: '_walls.csv', '_history.csv']
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv']
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv']
+         if (job%histories) names = [names(1), character(len=15) :: '_histories.csv', names(2:)]
       end select
    end function suffixes
 
@@ -54,7 +59,7 @@ contains
       !> The case
       type(case_type), intent(in) :: case
       !> Its results
-      type(results_type), intent(in) :: results
+      type(results_type), intent(inout) :: results
       !> The files that were written
       type(lines_type), intent(out) :: paths
       !> They could not be written
@@ -65,31 +70,53 @@ contains
       integer :: i
 
       files%prefix = case%job%output
-      names = suffixes(case%job%task)
+      names = suffixes(case%job)
       do i = 1, size(names)
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
          call write_head(case, results, files)
-         select case (names(i))
-         case ('_walls.csv')
-            call write_walls(case, files)
-         case ('_histories.csv')
-            call write_histories(case, results, files)
-         case ('_stripes.csv')
-            call write_stripes(case, results, files)
-         case ('_fragility.csv')
-            call write_fragility(case, results, files)
-         case ('_typology.csv')
-            call write_typology(case, results, files)
-         case ('_history.csv')
-            call write_history(case, results, files)
-         end select
+         if (case%job%task == 'typology' .and. names(i) /= '_typology.csv') then
+            call write_rows(case, results%counts, trim(names(i)), files, error)
+         else
+            call write_table(case, results, trim(names(i)), files)
+         end if
+         if (allocated(error)) then
+            call files%abandon()
+            return
+         end if
          call files%finish(error)
          if (allocated(error)) return
       end do
       call files%commit(error)
       paths = files%paths
    end subroutine write_reports
+
+   !> Write one table
+   subroutine write_table(case, results, name, files)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+      !> What the name of the file ends with
+      character(len=*), intent(in) :: name
+      !> Files
+      type(result_files_type), intent(inout) :: files
+
+      select case (name)
+      case ('_walls.csv')
+         call write_wall(case, files)
+      case ('_histories.csv')
+         call write_histories(case, results, files)
+      case ('_stripes.csv')
+         call write_stripes(case, results, files)
+      case ('_fragility.csv')
+         call write_fragility(case, results, files)
+      case ('_typology.csv')
+         call write_typology(case, results, files)
+      case ('_history.csv')
+         call write_history(case, results, files)
+      end select
+   end subroutine write_table
 
    !> Comment lines: which program, which case, what was computed, and what to beware of
    subroutine write_head(case, results, files)
@@ -105,7 +132,7 @@ contains
 
       call files%line('# dondolo '//dondolo_version_text)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
-      call files%line('# engine and build variant: '//engine_text(results%work))
+      call files%line('# engine and build variant: '//results%engine())
       call case%echo(echo)
       do i = 1, echo%count
          call files%line('# '//echo%line(i)%text)
@@ -147,34 +174,22 @@ contains
       if (len(unit) == 0) unit = '1'
    end function unit_of_levels
 
-   !> The walls and their static quantities
-   subroutine write_walls(case, files)
+   !> The one wall
+   subroutine write_wall(case, files)
       !> The case
       type(case_type), intent(in) :: case
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      integer :: i
+      type(member_type) :: member
 
-      call files%line('wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,'// &
-         & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,'// &
-         & 'capacity_rad,restitution,weight,group,p_occ')
-      do i = 1, size(case%population%walls)
-         associate (wall => case%population%walls(i))
-            call files%line(wall_cells(case, i)//','//to_table(wall%input%height)//','// &
-               & to_table(wall%input%thickness)//','//to_table(wall%input%density)//','// &
-               & given(wall%input%hinge)//','//wall%input%restitution//','// &
-               & given(wall%input%restitution_value)//','//to_table(wall%input%restitution_factor)//','// &
-               & given(wall%input%overburden)//','//given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
-               & to_table(wall%mechanism%frequency_parameter())//','// &
-               & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
-               & to_table(wall%mechanism%restitution)//','//to_table(case%population%weight(i))//','// &
-               & quoted(case%population%group(i)%text)//','//to_table(case%population%p_occ(i)))
-         end associate
-      end do
-   end subroutine write_walls
+      member%wall = case%wall
+      member%group = ''
+      call files%line(wall_head)
+      call files%line(wall_row(member))
+   end subroutine write_wall
 
-   !> All histories
+   !> All histories of the one wall
    subroutine write_histories(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
@@ -184,30 +199,24 @@ contains
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: last
-      character(len=11) :: polarity
       integer :: i, j
 
       last = ''
       if (case%solver%solver%estimate_error) last = ',edp_error'
-      call files%line('wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'//last)
+      call files%line(history_head//last)
       associate (stripes => results%stripes)
          do j = 1, size(stripes%levels)
             do i = 1, size(stripes%record)
-               polarity = merge('reversed   ', 'as_recorded', stripes%polarity(i) < 0)
-               associate (response => stripes%response(i, j))
-                  if (case%solver%solver%estimate_error) last = ','//to_table(response%edp_error)
-                  call files%line(wall_cells(case, 1)//','//quoted(case%records(stripes%record(i))%name)//','// &
-                     & trim(polarity)//','//stripes%im//','//to_table(stripes%levels(j))//','// &
-                     & to_table(stripes%scale(i, j))//','//to_table(response%edp)//','// &
-                     & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
-                     & to_table(response%time_of_peak)//last)
-               end associate
+               if (case%solver%solver%estimate_error) last = ','//to_table(stripes%response(i, j)%edp_error)
+               call files%line(history_row(wall_cells(case%wall), case%records(stripes%record(i))%name, &
+                  & stripes%polarity(i), stripes%im, stripes%levels(j), stripes%scale(i, j), &
+                  & stripes%response(i, j))//last)
             end do
          end do
       end associate
    end subroutine write_histories
 
-   !> Collapses at every level
+   !> Histories of the one wall that reach each threshold at every level
    subroutine write_stripes(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
@@ -216,20 +225,20 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      integer :: i, j
+      integer :: j, k
 
-      call files%line('wall,mechanism,im,im_level,histories,collapses,fraction')
-      do i = 1, size(case%population%walls)
-         do j = 1, size(case%stripes%levels)
-            call files%line(wall_cells(case, i)//','//case%stripes%scaling%name//','// &
-               & to_table(case%stripes%levels(j))//','// &
-               & to_text(results%histories(i))//','//to_text(results%collapses(j, i))//','// &
-               & to_table(real(results%collapses(j, i), wp)/real(results%histories(i), wp)))
+      call files%line(stripes_head)
+      associate (stripes => results%stripes)
+         do k = 1, size(case%stripes%thresholds)
+            do j = 1, size(stripes%levels)
+               call files%line(stripes_row(wall_cells(case%wall), stripes%im, stripes%levels(j), &
+                  & size(stripes%record), results%reached(j, k), case%stripes%thresholds(k)))
+            end do
          end do
-      end do
+      end associate
    end subroutine write_stripes
 
-   !> Curves of the walls; cells are empty where there is no fit or the bracket is open
+   !> Curves of the one wall
    subroutine write_fragility(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
@@ -238,23 +247,16 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      character(len=:), allocatable :: fit
-      integer :: i
+      integer :: k
 
-      call files%line('wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high')
-      do i = 1, size(case%population%walls)
-         associate (curve => results%fragility(i))
-            fit = ',,,,'
-            if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
-               & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','//to_table(curve%log_likelihood)
-            call files%line(wall_cells(case, i)//','//case%stripes%scaling%name//','//fit//','// &
-               & trim(curve%status)//','// &
-               & bound(curve%bracket(1))//','//bound(curve%bracket(2)))
-         end associate
+      call files%line(fragility_head)
+      do k = 1, size(case%stripes%thresholds)
+         call files%line(fragility_row(wall_cells(case%wall), results%stripes%im, results%fragility(k), &
+            & case%stripes%thresholds(k)))
       end do
    end subroutine write_fragility
 
-   !> Curve of the population
+   !> Curves of the population
    subroutine write_typology(case, results, files)
       !> The case
       type(case_type), intent(in) :: case
@@ -263,27 +265,16 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      character(len=:), allocatable :: fit, dispersion
-      integer :: i, j
+      integer :: i, j, k
 
-      call files%line('mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
-         & 'fractile_50,fractile_84,beta_walls,beta_records')
-      do i = 1, size(results%typologies)
-         associate (typology => results%typologies(i))
-            fit = ','
-            if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
-            dispersion = ','
-            if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','// &
-               & to_table(typology%beta_records)
-            do j = 1, size(typology%levels)
-               call files%line(typology%mechanism//','//case%stripes%scaling%name//','// &
-                  & to_table(typology%levels(j))//','// &
-                  & to_table(typology%weight)//','//to_table(typology%mean_fraction(j))//','// &
-                  & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status)//','// &
-                  & quoted(typology%group)//','//to_table(typology%fractile(1, j))//','// &
-                  & to_table(typology%fractile(2, j))//','//to_table(typology%fractile(3, j))//','//dispersion)
+      call files%line(typology_head)
+      do k = 1, size(case%stripes%thresholds)
+         do i = 1, size(results%typologies, 1)
+            do j = 1, size(case%stripes%levels)
+               call files%line(typology_row(results%typologies(i, k), case%stripes%scaling%name, j, &
+                  & case%stripes%thresholds(k)))
             end do
-         end associate
+         end do
       end do
    end subroutine write_typology
 
@@ -308,7 +299,7 @@ contains
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
          call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp')
-         capacity = case%population%walls(1)%mechanism%capacity
+         capacity = case%wall%mechanism%capacity
          do i = 1, trace%rows
             call files%line(to_table(trace%time(i))//','//to_table(trace%acceleration(i))//','// &
                & to_table(trace%rotation(i))//','//to_table(trace%velocity(i))//','// &
@@ -316,59 +307,5 @@ contains
          end do
       end associate
    end subroutine write_history
-
-   !> Name and mechanism of a wall
-   pure function wall_cells(case, i) result(cells)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Number of the wall
-      integer, intent(in) :: i
-      !> Two cells
-      character(len=:), allocatable :: cells
-
-      cells = quoted(case%population%walls(i)%input%name)//','//case%population%walls(i)%input%mechanism
-   end function wall_cells
-
-   !> A text as a cell: in quotes where RFC 4180 asks for them
-   pure function quoted(text) result(cell)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Cell
-      character(len=:), allocatable :: cell
-
-      integer :: i
-
-      cell = text
-      ! A # would begin a comment; quotes keep it a cell
-      if (scan(text, ',"#'//new_line('a')//achar(13)) == 0) return
-      cell = '"'
-      do i = 1, len(text)
-         cell = cell//text(i:i)
-         if (text(i:i) == '"') cell = cell//'"'
-      end do
-      cell = cell//'"'
-   end function quoted
-
-   !> A number that not every wall has
-   pure function given(value) result(cell)
-      !> The number
-      real(wp), allocatable, intent(in) :: value
-      !> Cell, empty if there is no number
-      character(len=:), allocatable :: cell
-
-      cell = ''
-      if (allocated(value)) cell = to_table(value)
-   end function given
-
-   !> A bound of the median
-   pure function bound(value) result(cell)
-      !> The bound, 0 or huge where the side is open
-      real(wp), intent(in) :: value
-      !> Cell, empty where the side is open
-      character(len=:), allocatable :: cell
-
-      cell = ''
-      if (value > 0.0_wp .and. value < huge(value)) cell = to_table(value)
-   end function bound
 
 end module dondolo_reports

@@ -9,7 +9,7 @@ module dondolo_result_files
    implicit none
    private
 
-   public :: result_files_type, check_output
+   public :: result_files_type, check_output, make_folders
 
    !> The files of a run
    type :: result_files_type
@@ -32,6 +32,8 @@ module dondolo_result_files
       procedure :: finish
       !> Give all files their names
       procedure :: commit
+      !> Leave nothing of the run
+      procedure :: abandon
    end type result_files_type
 
 contains
@@ -155,7 +157,7 @@ contains
       if (self%ok) then
          call self%paths%add(self%prefix//suffix)
       else
-         call abandon(self)
+         call self%abandon()
          call raise_failure(error, self%prefix//suffix//'.part: cannot be written')
       end if
    end subroutine begin
@@ -180,7 +182,7 @@ contains
       call self%writer%close(self%ok)
       if (self%ok) return
       call raise_failure(error, self%paths%line(self%paths%count)%text//': cannot be written whole: is the disk full?')
-      call abandon(self)
+      call self%abandon()
    end subroutine finish
 
    !> Give all files their names
@@ -196,18 +198,20 @@ contains
          call rename_file(self%paths%line(i)%text//'.part', self%paths%line(i)%text, self%ok)
          if (self%ok) cycle
          call raise_failure(error, self%paths%line(i)%text//': cannot be replaced')
-         call abandon(self)
+         call self%abandon()
          return
       end do
    end subroutine commit
 
    !> Remove what has been written; folders that are not empty stay
    subroutine abandon(self)
-      !> The files of the run
-      type(result_files_type), intent(inout) :: self
+      !> The files of the run; the one that is being written is closed
+      class(result_files_type), intent(inout) :: self
 
       integer :: i
+      logical :: ok
 
+      call self%writer%close(ok)
       do i = 1, self%paths%count
          call remove_file(self%paths%line(i)%text//'.part')
       end do

@@ -246,13 +246,14 @@ contains
       if (c_fwrite(text, 1_c_size_t, length, self%handle) /= length) ok = .false.
    end subroutine write_text
 
-   !> Close the file
+   !> Close the file; nothing happens if it is not open
    subroutine close_writer(self, ok)
       !> The file
       class(writer_type), intent(inout) :: self
       !> Set to false when what was written last did not reach the disk; left alone otherwise
       logical, intent(inout) :: ok
 
+      if (.not. c_associated(self%handle)) return
       if (c_fclose(self%handle) /= 0) ok = .false.
       self%handle = c_null_ptr
    end subroutine close_writer

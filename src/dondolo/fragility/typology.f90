@@ -16,7 +16,7 @@ module dondolo_typology
    implicit none
    private
 
-   public :: typology_type, combination_type, combine_population, whole_population, fractile_shares
+   public :: typology_type, combination_type, combine_population, whole_population, fractile_shares, most_groups
 
    !> Shares of the weight that the fractiles stand for: the median, and one standard deviation of a normal variable
    real(wp), parameter :: fractile_shares(3) = [0.16_wp, 0.5_wp, 0.84_wp]
@@ -77,6 +77,8 @@ module dondolo_typology
       procedure :: add
       !> All walls have come by
       procedure :: end_pass
+      !> Is this the first pass, which needs the fits of the walls?
+      procedure :: is_summing
    end type combination_type
 
 contains
@@ -166,6 +168,14 @@ contains
          end associate
       end do
    end subroutine add
+
+   !> Is this the first pass, which needs the fits of the walls?
+   pure logical function is_summing(self)
+      !> The curves in the making
+      class(combination_type), intent(in) :: self
+
+      is_summing = .not. allocated(self%fractiles)
+   end function is_summing
 
    !> All walls have come by
    subroutine end_pass(self, error)

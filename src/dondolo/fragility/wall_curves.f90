@@ -48,7 +48,8 @@ module dondolo_wall_curves
 contains
 
    !> A wall from the counts and curves of its mechanisms
-   subroutine new_wall_curves(wall, group, weight, mechanisms, p_occ, curves, collapses, histories, levels, error)
+   subroutine new_wall_curves(wall, group, weight, mechanisms, p_occ, curves, collapses, histories, levels, error, &
+      & is_fitted)
       !> The wall
       type(wall_curves_type), intent(out) :: wall
       !> Name of its group, empty if none was given
@@ -69,6 +70,8 @@ contains
       real(wp), intent(in) :: levels(:)
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
+      !> Is the wall as a whole to be fitted? Yes if absent
+      logical, intent(in), optional :: is_fitted
 
       real(wp) :: n(size(levels)), part(size(levels), size(mechanisms) + 1)
 
@@ -81,6 +84,9 @@ contains
       wall%histories = histories
       wall%combined = curves(1)
       if (.not. wall%is_mixed()) return
+      if (present(is_fitted)) then
+         if (.not. is_fitted) return
+      end if
       n = real(wall%combined_histories(), wp)
       part = wall%fractions()
       call fit_fragility(wall%combined, levels, n*part(:, size(part, 2)), n, error)

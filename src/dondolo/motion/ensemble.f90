@@ -131,9 +131,11 @@ contains
    end subroutine run_queue
 
    !> The engines that have computed histories, each with the build variant that ran
-   function engine_text(work) result(text)
+   function engine_text(work, variant) result(text)
       !> What was computed
       type(work_type), intent(in) :: work
+      !> Build variant of the engine lanes, if it ran elsewhere
+      character(len=*), intent(in), optional :: variant
       !> `lanes (avx512)`, `rk45 (baseline)` or both
       character(len=:), allocatable :: text
 
@@ -144,7 +146,11 @@ contains
       else
          text = ''
       end if
-      text = 'lanes ('//build_variant()//')'//text
+      if (present(variant)) then
+         text = 'lanes ('//trim(variant)//')'//text
+      else
+         text = 'lanes ('//build_variant()//')'//text
+      end if
    end function engine_text
 
    !> Check that an engine can compute a mechanism

@@ -1,0 +1,194 @@
+!> The rows of the result tables, as lines of text.
+module dondolo_report_rows
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_population, only : member_type
+   use dondolo_response, only : response_type
+   use dondolo_text, only : to_table, to_text
+   use dondolo_typology, only : typology_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: wall_head, wall_row, stripes_head, stripes_row, fragility_head, fragility_row
+   public :: typology_head, typology_row, history_head, history_row, wall_cells
+
+   !> Names of the columns of each table
+   character(len=*), parameter :: &
+      & wall_head = 'wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,'// &
+      & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,'// &
+      & 'capacity_rad,restitution,weight,group,p_occ', &
+      & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
+      & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
+      & 'bracket_high,edp_threshold', &
+      & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
+      & 'fractile_50,fractile_84,beta_walls,beta_records,edp_threshold', &
+      & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
+
+contains
+
+   !> Name and mechanism of a wall
+   pure function wall_cells(wall) result(cells)
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Two cells
+      character(len=:), allocatable :: cells
+
+      cells = quoted(wall%input%name)//','//wall%input%mechanism
+   end function wall_cells
+
+   !> A wall and its static quantities
+   function wall_row(member) result(row)
+      !> The wall, one mechanism of it
+      type(member_type), intent(in) :: member
+      !> Row
+      character(len=:), allocatable :: row
+
+      associate (wall => member%wall)
+         row = wall_cells(wall)//','//to_table(wall%input%height)//','//to_table(wall%input%thickness)//','// &
+            & to_table(wall%input%density)//','//given(wall%input%hinge)//','//wall%input%restitution//','// &
+            & given(wall%input%restitution_value)//','//to_table(wall%input%restitution_factor)//','// &
+            & given(wall%input%overburden)//','//given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
+            & to_table(wall%mechanism%frequency_parameter())//','//to_table(wall%mechanism%trigger_acceleration())// &
+            & ','//to_table(wall%mechanism%capacity)//','//to_table(wall%mechanism%restitution)//','// &
+            & to_table(member%weight)//','//quoted(member%group)//','//to_table(member%p_occ)
+      end associate
+   end function wall_row
+
+   !> Histories that reach an EDP threshold at a level
+   pure function stripes_row(cells, im, level, histories, reached, threshold) result(row)
+      !> Name and mechanism of the wall
+      character(len=*), intent(in) :: cells
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> Level
+      real(wp), intent(in) :: level
+      !> Histories
+      integer, intent(in) :: histories
+      !> Those that reach the threshold
+      integer, intent(in) :: reached
+      !> The threshold
+      real(wp), intent(in) :: threshold
+      !> Row
+      character(len=:), allocatable :: row
+
+      row = cells//','//im//','//to_table(level)//','//to_text(histories)//','//to_text(reached)//','// &
+         & to_table(real(reached, wp)/real(histories, wp))//','//to_table(threshold)
+   end function stripes_row
+
+   !> The curve of a wall; cells are empty where there is no fit or the bracket is open
+   pure function fragility_row(cells, im, curve, threshold) result(row)
+      !> Name and mechanism of the wall
+      character(len=*), intent(in) :: cells
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> Its EDP threshold
+      real(wp), intent(in) :: threshold
+      !> Row
+      character(len=:), allocatable :: row
+
+      character(len=:), allocatable :: fit
+
+      fit = ',,,,'
+      if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
+         & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','//to_table(curve%log_likelihood)
+      row = cells//','//im//','//fit//','//trim(curve%status)//','//bound(curve%bracket(1))//','// &
+         & bound(curve%bracket(2))//','//to_table(threshold)
+   end function fragility_row
+
+   !> A curve of the population at a level
+   pure function typology_row(typology, im, level, threshold) result(row)
+      !> The curve
+      type(typology_type), intent(in) :: typology
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> Number of the level
+      integer, intent(in) :: level
+      !> EDP threshold
+      real(wp), intent(in) :: threshold
+      !> Row
+      character(len=:), allocatable :: row
+
+      character(len=:), allocatable :: fit, dispersion
+
+      fit = ','
+      if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
+      dispersion = ','
+      if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','//to_table(typology%beta_records)
+      row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
+         & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
+         & trim(typology%fit%status)//','//quoted(typology%group)//','//to_table(typology%fractile(1, level))//','// &
+         & to_table(typology%fractile(2, level))//','//to_table(typology%fractile(3, level))//','//dispersion//','// &
+         & to_table(threshold)
+   end function typology_row
+
+   !> A history
+   pure function history_row(cells, record, polarity, im, level, scale, response) result(row)
+      !> Name and mechanism of the wall
+      character(len=*), intent(in) :: cells
+      !> Name of the record
+      character(len=*), intent(in) :: record
+      !> +1 as recorded, -1 reversed
+      integer, intent(in) :: polarity
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> Level
+      real(wp), intent(in) :: level
+      !> Factor on the record
+      real(wp), intent(in) :: scale
+      !> The response
+      type(response_type), intent(in) :: response
+      !> Row
+      character(len=:), allocatable :: row
+
+      row = cells//','//quoted(record)//','//trim(merge('reversed   ', 'as_recorded', polarity < 0))//','//im//','// &
+         & to_table(level)//','//to_table(scale)//','//to_table(response%edp)//','// &
+         & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
+         & to_table(response%time_of_peak)
+   end function history_row
+
+   !> A text as a cell: in quotes where RFC 4180 asks for them
+   pure function quoted(text) result(cell)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Cell
+      character(len=:), allocatable :: cell
+
+      integer :: i
+
+      cell = text
+      ! A # would begin a comment; quotes keep it a cell
+      if (scan(text, ',"#'//new_line('a')//achar(13)) == 0) return
+      cell = '"'
+      do i = 1, len(text)
+         cell = cell//text(i:i)
+         if (text(i:i) == '"') cell = cell//'"'
+      end do
+      cell = cell//'"'
+   end function quoted
+
+   !> A number that not every wall has
+   pure function given(value) result(cell)
+      !> The number
+      real(wp), allocatable, intent(in) :: value
+      !> Cell, empty if there is no number
+      character(len=:), allocatable :: cell
+
+      cell = ''
+      if (allocated(value)) cell = to_table(value)
+   end function given
+
+   !> A bound of the median
+   pure function bound(value) result(cell)
+      !> The bound, 0 or huge where the side is open
+      real(wp), intent(in) :: value
+      !> Cell, empty where the side is open
+      character(len=:), allocatable :: cell
+
+      cell = ''
+      if (value > 0.0_wp .and. value < huge(value)) cell = to_table(value)
+   end function bound
+
+end module dondolo_report_rows

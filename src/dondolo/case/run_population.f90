@@ -1,0 +1,275 @@
+!> A population, from its table to its curves, within a memory that does not depend on the number of its walls.
+!>
+!> Blocks of rows are read, run, and their counts appended to a file. When that is complete the curves are made of it
+!> (dondolo_combine_rows). A run that was killed goes on with the file that it left; files that hold parts of the
+!> population are taken together.
+module dondolo_run_population
+   use dondolo_case, only : case_type
+   use dondolo_combine_rows, only : combine_rows
+   use dondolo_counts, only : counts_type, shape_type
+   use dondolo_counts_file, only : append_counts, counts_file_type, counts_key_type, create_counts, inspect_counts
+   use dondolo_ensemble, only : team_of
+   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_lane_variants, only : build_variant
+   use dondolo_lines, only : lines_type
+   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_queue, only : progress_interface
+   use dondolo_result_files, only : make_folders
+   use dondolo_results, only : results_type
+   use dondolo_run_rows, only : run_rows
+   use dondolo_system, only : cut_file
+   use dondolo_text, only : to_text
+   use dondolo_version, only : dondolo_version_text
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: run_population, merge_population, counts_path, is_part
+
+   !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
+   integer, parameter :: histories_of_thread = 100000
+
+contains
+
+   !> Run the rows of a population that the case asks for, or those that an earlier run has left
+   subroutine run_population(case, results, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(inout) :: results
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      type(counts_file_type) :: file
+
+      call find_start(case, file, results%resumed, error)
+      if (.not. allocated(error)) call run_blocks(case, file, error, team, progress)
+      if (allocated(error)) return
+      results%counts%files = [file]
+      results%work = file%work
+      if (.not. is_part(case)) call combine_rows(case, results, error)
+   end subroutine run_population
+
+   !> Take the files that hold the parts of a population together
+   subroutine merge_population(case, paths, results, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Paths of the files, in any order
+      type(lines_type), intent(in) :: paths
+      !> Results
+      type(results_type), intent(inout) :: results
+      !> A file is none of this case, or not complete, or rows are missing or stand in two files
+      type(error_type), allocatable, intent(out) :: error
+
+      type(counts_file_type), allocatable :: files(:)
+      type(counts_key_type) :: key
+      integer :: i, j, done
+      logical :: exists
+
+      allocate (files(paths%count))
+      key = key_of(case)
+      do i = 1, size(files)
+         call inspect_counts(paths%line(i)%text, files(i), exists, error)
+         if (allocated(error)) return
+         if (.not. exists) then
+            call raise_input(error, paths%line(i)%text//': no such file, or nothing in it')
+            return
+         end if
+         if (i == 1) key%variant = files(1)%key%variant
+         call check_key(files(i), key, error)
+         if (allocated(error)) return
+         if (files(i)%done < files(i)%last) then
+            call raise_input(error, files(i)%path//': ends with row '//to_text(files(i)%done)//', its last is '// &
+               & to_text(files(i)%last)//': run it again to complete it')
+            return
+         end if
+      end do
+      done = 0
+      allocate (results%counts%files(0))
+      do i = 1, size(files)
+         j = minloc(files%first, dim=1, mask=files%first > done)
+         if (j == 0) j = 1
+         if (files(j)%first /= done + 1) exit
+         results%counts%files = [results%counts%files, files(j)]
+         done = files(j)%last
+         call results%work%add(files(j)%work)
+      end do
+      if (done < case%survey%rows) then
+         call raise_input(error, '--merge: row '//to_text(done + 1)//' of '//to_text(case%survey%rows)// &
+            & ' stands in none of the files')
+      else if (size(results%counts%files) < size(files)) then
+         call raise_input(error, '--merge: some rows stand in more than one of the files')
+      end if
+      if (.not. allocated(error)) call combine_rows(case, results, error)
+   end subroutine merge_population
+
+   !> Are only some rows of the population to be run?
+   pure logical function is_part(case)
+      !> The case
+      type(case_type), intent(in) :: case
+
+      is_part = case%survey%last - case%survey%first + 1 < case%survey%rows
+   end function is_part
+
+   !> Path of the file of counts: that of a part stays, that of a whole population is there while it runs
+   pure function counts_path(case) result(path)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Path
+      character(len=:), allocatable :: path
+
+      path = case%job%output//'.checkpoint'
+      if (is_part(case)) path = case%job%output//'_walls_'//to_text(case%survey%first)//'-'// &
+         & to_text(case%survey%last)//'.counts'
+   end function counts_path
+
+   !> What files of counts of a case have in common
+   function key_of(case) result(key)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Key
+      type(counts_key_type) :: key
+
+      type(fingerprint_type) :: fingerprint
+      integer :: i
+
+      fingerprint = case%survey%fingerprint
+      call fingerprint%add_text(dondolo_version_text)
+      call fingerprint%add_text(case%stripes%scaling%name)
+      call fingerprint%add_text(case%records_input%polarity)
+      call fingerprint%add_text(trim(case%solver%solver%engine))
+      call fingerprint%add_reals([case%stripes%levels, case%stripes%thresholds, case%solver%gravity, &
+         & case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit])
+      do i = 1, size(case%records)
+         call fingerprint%add_text(case%records(i)%name)
+         call fingerprint%add_reals([case%records(i)%dt])
+         call fingerprint%add_reals(case%records(i)%acceleration)
+      end do
+      key%input = fingerprint%text()
+      key%variant = build_variant()
+      key%shape = shape_type(size(case%stripes%levels), size(case%stripes%thresholds), case%job%histories)
+   end function key_of
+
+   !> Check that a file belongs to a case
+   subroutine check_key(file, key, error)
+      !> The file
+      type(counts_file_type), intent(in) :: file
+      !> Key of the case
+      type(counts_key_type), intent(in) :: key
+      !> It does not
+      type(error_type), allocatable, intent(out) :: error
+
+      if (file%key%input /= key%input .or. file%key%shape%levels /= key%shape%levels .or. &
+         & file%key%shape%thresholds /= key%shape%thresholds) then
+         call raise_input(error, file%path//': is of other walls, records, levels or settings, or of another version')
+      else if (file%key%shape%keeps_histories .neqv. key%shape%keeps_histories) then
+         call raise_input(error, file%path//': was made with another value of &job: histories')
+      else if (file%key%variant /= key%variant) then
+         call raise_input(error, file%path//': was made by build variant '//trim(file%key%variant)//', not '// &
+            & trim(key%variant)//'; DONDOLO_VARIANT can name one for all')
+      end if
+   end subroutine check_key
+
+   !> Find the file that an earlier run has left, or begin one
+   subroutine find_start(case, file, resumed, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The file
+      type(counts_file_type), intent(out) :: file
+      !> Last row that it has; 0 if it is new
+      integer, intent(out) :: resumed
+      !> It is of another case, or cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      type(lines_type) :: made
+      type(counts_key_type) :: key
+      logical :: exists, ok
+
+      resumed = 0
+      key = key_of(case)
+      call inspect_counts(counts_path(case), file, exists, error)
+      if (allocated(error)) return
+      associate (survey => case%survey)
+         if (exists) then
+            call check_key(file, key, error)
+            if (allocated(error)) then
+               error%message = error%message//'; remove it to begin anew'
+               return
+            end if
+            if (file%done >= file%first) resumed = file%done
+            ! What a killed run left of a block
+            call cut_file(file%path, file%bytes, ok)
+            if (.not. ok) call raise_failure(error, file%path//': cannot be written')
+            return
+         end if
+         call make_folders(case%job%output, made, ok)
+         call create_counts(file%path, key, survey%first, survey%last, error)
+         if (.not. allocated(error)) call inspect_counts(file%path, file, exists, error)
+      end associate
+   end subroutine find_start
+
+   !> Run block after block
+   subroutine run_blocks(case, file, error, team, progress)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The file of counts; complete at the end
+      type(counts_file_type), intent(inout) :: file
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      type(population_reader_type) :: reader
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
+      integer :: block, count, i
+      logical :: found
+
+      associate (survey => case%survey)
+         block = block_size(case, team)
+         call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         if (.not. allocated(error)) call reader%skip(file%done, error)
+         do while (file%done < survey%last .and. .not. allocated(error))
+            count = min(block, survey%last - file%done)
+            allocate (members(count))
+            do i = 1, count
+               call reader%next(members(i), found, error)
+               if (.not. found .and. .not. allocated(error)) &
+                  & call raise_failure(error, case%population_path()//': has changed while it was read')
+               if (allocated(error)) exit
+            end do
+            if (allocated(error)) exit
+            call run_rows(case, members, file%done + 1, rows, work, error, team, int(file%work%histories), progress)
+            if (.not. allocated(error)) call append_counts(file%path, rows, work, error)
+            call file%work%add(work)
+            file%done = file%done + count
+            deallocate (members)
+         end do
+         call reader%close()
+         if (present(progress) .and. .not. allocated(error)) call progress(int(file%work%histories), survey%histories)
+      end associate
+   end subroutine run_blocks
+
+   !> Rows of a block, a multiple of the number of threads
+   integer function block_size(case, team)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Number of threads; 0: all
+      integer, intent(in) :: team
+
+      integer :: threads, of_a_row
+
+      threads = team_of(team, huge(1))
+      of_a_row = max(1, case%survey%histories/(case%survey%last - case%survey%first + 1))
+      block_size = threads*max(1, histories_of_thread/of_a_row)
+   end function block_size
+
+end module dondolo_run_population
