@@ -30,6 +30,7 @@ from dondolo.processing import RotD, band_pass, correct_baseline, resample, reve
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
+from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
@@ -42,6 +43,7 @@ __all__ = [
     "Bootstrap",
     "Boundary",
     "Case",
+    "Choice",
     "Comparison",
     "DondoloError",
     "DondoloWarning",
@@ -51,6 +53,8 @@ __all__ = [
     "InputError",
     "IntensityComparison",
     "Interrupted",
+    "Lognormal",
+    "Normal",
     "OneSidedWall",
     "OverturningSpectrum",
     "Population",
@@ -63,8 +67,10 @@ __all__ = [
     "StoredResults",
     "Stripes",
     "Terms",
+    "Triangular",
     "TwoBlockWall",
     "Typology",
+    "Uniform",
     "Wall",
     "Window",
     "Work",
@@ -102,6 +108,7 @@ __all__ = [
     "rotate",
     "rotd",
     "run_case",
+    "sample_population",
     "simulate",
     "synthetic_records",
     "trim",

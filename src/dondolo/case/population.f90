@@ -8,6 +8,7 @@ module dondolo_population
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
+   use dondolo_name_index, only : name_index_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
@@ -46,6 +47,7 @@ contains
 
       type(csv_table_type) :: table
       type(wall_input_type) :: input
+      type(name_index_type) :: names
       integer :: row
 
       call read_csv(file, table, error)
@@ -64,7 +66,7 @@ contains
          call new_wall(population%walls(row), input, error, gravity)
          call add_place(error, table%place(row))
          if (allocated(error)) return
-         call check_name(population, row, error)
+         call check_name(population, row, names, error)
          call add_place(error, table%place(row))
          if (allocated(error)) return
       end do
@@ -87,28 +89,23 @@ contains
    end subroutine read_population
 
    !> Check a row against those before it: another mechanism of the wall before, or a new wall
-   subroutine check_name(population, row, error)
+   subroutine check_name(population, row, names, error)
       !> The walls up to this row
       type(population_type), intent(in) :: population
       !> Number of the row
       integer, intent(in) :: row
+      !> Names of the walls in the rows before; this one is added
+      type(name_index_type), intent(inout) :: names
       !> The name stands elsewhere too, or what is said of the wall differs
       type(error_type), allocatable, intent(out) :: error
 
       integer :: other
-      logical :: next_to_it
+      logical :: known
 
-      next_to_it = .true.
       associate (name => population%walls(row)%input%name)
          do other = row - 1, 1, -1
-            if (population%walls(other)%input%name /= name) then
-               next_to_it = .false.
-               cycle
-            end if
-            if (.not. next_to_it) then
-               call raise_input(error, 'name = '''//name//''': another wall has this name; mechanisms of one wall '// &
-                  & 'must stand in rows one after the other')
-            else if (population%walls(other)%input%mechanism == population%walls(row)%input%mechanism) then
+            if (population%walls(other)%input%name /= name) exit
+            if (population%walls(other)%input%mechanism == population%walls(row)%input%mechanism) then
                call raise_input(error, 'name = '''//name//''': another row gives this wall the same mechanism')
             else if (abs(population%weight(other) - population%weight(row)) > 0.0_wp) then
                call raise_input(error, 'weight = '//to_text(population%weight(row))//': must be '// &
@@ -119,6 +116,10 @@ contains
             end if
             if (allocated(error)) return
          end do
+         if (other < row - 1) return
+         call names%add(name, known)
+         if (known) call raise_input(error, 'name = '''//name//''': another wall has this name; mechanisms of one '// &
+            & 'wall must stand in rows one after the other')
       end associate
    end subroutine check_name
 
