@@ -26,6 +26,7 @@ from dondolo.plots import (
     plot_stripes,
     plot_typology,
 )
+from dondolo.plots_population import plot_population
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
@@ -92,6 +93,7 @@ __all__ = [
     "plot_history",
     "plot_intensities",
     "plot_overturning_spectrum",
+    "plot_population",
     "plot_stripes",
     "plot_typology",
     "plot_wall",

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+import textwrap
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -284,7 +285,7 @@ def sample_population(
         np.repeat(common.get("weight", np.ones(n)), len(own)),
         (group,) * (n * len(own)),
         np.stack(p_occ, axis=1).ravel(),
-        tuple(f"{prefix}: {line}" for line in _origin(own, n, seed, variables, correlation, properties)),
+        _origin(f"{prefix}: {n} walls, a Latin hypercube of the seed {seed}", own, variables, correlation, properties),
     )
 
 
@@ -434,22 +435,20 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
 
 
 def _origin(
+    title: str,
     own: Mapping[str, Mapping[str, Property]],
-    n: int,
-    seed: int,
     variables: Mapping[str, Property],
     correlation: Mapping[tuple[str, str], float],
     properties: Mapping[str, Property],
-) -> Iterator[str]:
-    """What was sampled, line by line."""
-    yield f"{n} walls, a Latin hypercube of the seed {seed}"
-    common = {**variables, **properties}
-    own_ones = {f"{kind}.{what}": value for kind, extra in own.items() for what, value in extra.items()}
-    for what, value in (common | own_ones).items():
-        said = f"computed by {value.__name__}" if hasattr(value, "__name__") else repr(value)
-        yield f"{what} = {said}"
-    for pair, value in correlation.items():
-        yield f"correlation of {pair[0]} and {pair[1]} = {value!r}"
+) -> tuple[str, ...]:
+    """What was sampled, in lines."""
+    given: dict[str, Property] = {**variables, **properties}
+    given |= {f"{mechanism}.{what}": value for mechanism, extra in own.items() for what, value in extra.items()}
+    said = [title]
+    for what, value in given.items():
+        said.append(f"{what} computed by {value.__name__}" if hasattr(value, "__name__") else f"{what} = {value!r}")
+    said += [f"correlation of {pair[0]} and {pair[1]} = {value!r}" for pair, value in correlation.items()]
+    return tuple(textwrap.wrap("; ".join(said), 110, break_long_words=False, break_on_hyphens=False))
 
 
 def _cut_normal(probability: FloatArray, low: float | None, high: float | None) -> FloatArray:
