@@ -37,8 +37,8 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
     Returns
     -------
     ndarray of two Axes
-        Thickness against height [m], with lines of equal slenderness; and the weight of the walls that begin to rock
-        in an interval of ground acceleration [g].
+        Thickness against height [m], with lines of equal slenderness; and the weight of what begins to rock in an
+        interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
 
     Raises
     ------
@@ -73,7 +73,7 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
             np.histogram(trigger[here], edges, weights=population.weights[here])[0],
             edges,
             color=colour,
-            linestyle=_LINES[i % len(_LINES)],
+            linestyle=_LINES[(i + i // len(_COLOURS)) % len(_LINES)],
             linewidth=1.4,
             label=key or "no group",
         )
@@ -98,6 +98,6 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
     below.set_xlim(left=0.0)
     below.set_ylim(bottom=0.0)
     below.set_xlabel("trigger acceleration [g]")
-    below.set_ylabel("weight of the walls")
+    below.set_ylabel("weight")
     style.legend(below, loc="upper left", bbox_to_anchor=(1.09, 1.0))
     return np.asarray([above, below])

@@ -347,8 +347,8 @@ def _draw(
     if not names:
         return {}
     probabilities = qmc.LatinHypercube(len(names), seed=np.random.default_rng(seed)).random(n)
-    correlated = np.flatnonzero((matrix != np.eye(len(names))).any(axis=0))
-    if len(correlated):
+    correlated = sorted({names.index(what) for pair in correlation for what in pair})
+    if correlated:
         part = _reorder(probabilities[:, correlated], matrix[np.ix_(correlated, correlated)])
         probabilities[:, correlated] = part
     samples = {what: distributions[what].quantile(probabilities[:, i]) for i, what in enumerate(names)}
@@ -370,9 +370,9 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
         value = _binding.as_number("correlation", given)
         if not -1.0 < value < 1.0:
             raise InputError(f"correlation of {pair[0]} and {pair[1]} = {value:g}: must lie between -1 and 1")
-        i, k = names.index(pair[0]), names.index(pair[1])
-        if matrix[i, k] != 0.0:
+        if pair[::-1] in correlation:
             raise InputError(f"correlation of {pair[0]} and {pair[1]}: is given twice")
+        i, k = names.index(pair[0]), names.index(pair[1])
         matrix[i, k] = matrix[k, i] = value
     smallest = np.linalg.eigvalsh(matrix).min() if len(names) else 1.0
     if smallest < 1e-9:
