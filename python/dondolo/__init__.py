@@ -26,10 +26,12 @@ from dondolo.plots import (
     plot_stripes,
     plot_typology,
 )
+from dondolo.plots_population import plot_population
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
+from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
@@ -42,6 +44,7 @@ __all__ = [
     "Bootstrap",
     "Boundary",
     "Case",
+    "Choice",
     "Comparison",
     "DondoloError",
     "DondoloWarning",
@@ -51,6 +54,8 @@ __all__ = [
     "InputError",
     "IntensityComparison",
     "Interrupted",
+    "Lognormal",
+    "Normal",
     "OneSidedWall",
     "OverturningSpectrum",
     "Population",
@@ -63,8 +68,10 @@ __all__ = [
     "StoredResults",
     "Stripes",
     "Terms",
+    "Triangular",
     "TwoBlockWall",
     "Typology",
+    "Uniform",
     "Wall",
     "Window",
     "Work",
@@ -86,6 +93,7 @@ __all__ = [
     "plot_history",
     "plot_intensities",
     "plot_overturning_spectrum",
+    "plot_population",
     "plot_stripes",
     "plot_typology",
     "plot_wall",
@@ -102,6 +110,7 @@ __all__ = [
     "rotate",
     "rotd",
     "run_case",
+    "sample_population",
     "simulate",
     "synthetic_records",
     "trim",

@@ -10,7 +10,7 @@ import functools
 import os
 import sys
 import warnings
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -263,22 +263,46 @@ def _default_settings() -> FloatArray:
     return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
 
 
+def flat_wall(name: str, mechanism: str, restitution: str, numbers: Sequence[float | None], gravity: float) -> FlatWall:
+    """A wall as Fortran takes it, of values that it has checked."""
+    return FlatWall(
+        "\n".join((name, mechanism, restitution)).encode(),
+        np.array([0.0 if value is None else value for value in numbers]),
+        np.array([value is not None for value in numbers], dtype=np.int32),
+        gravity,
+    )
+
+
 def describe_wall(
     name: str | None, mechanism: str, restitution: str | None, numbers: Sequence[Any], gravity: Any
-) -> tuple[FlatWall, WallData]:
+) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
+    values = {
+        what: [as_number(what, value)] for what, value in zip(WALL_NUMBERS, numbers, strict=True) if value is not None
+    }
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
+    return describe_walls([name], [mechanism], [restitution], values, [pull])[0]
+
+
+def describe_walls(
+    names: Sequence[str | None],
+    mechanisms: Sequence[str],
+    restitutions: Sequence[str | None],
+    numbers: Mapping[str, ArrayLike],
+    gravity: ArrayLike,
+) -> list[WallData]:
+    """The same for many walls; numbers that are not there get their defaults."""
+    count = len(names)
+    values, given = np.zeros((count, len(WALL_NUMBERS))), np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
+    for what, column in numbers.items():
+        values[:, WALL_NUMBERS.index(what)] = column
+        given[:, WALL_NUMBERS.index(what)] = 1
     texts = b"\n".join(
         b"" if text is None else as_text(what, text)
-        for what, text in (("name", name), ("mechanism", mechanism), ("restitution", restitution))
+        for wall in zip(names, mechanisms, restitutions, strict=True)
+        for what, text in zip(("name", "mechanism", "restitution"), wall, strict=True)
     )
-    values = np.array(
-        [0.0 if value is None else as_number(what, value) for what, value in zip(WALL_NUMBERS, numbers, strict=True)]
-    )
-    given = np.array([value is not None for value in numbers], dtype=np.int32)
-    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    parcel = receive(*_core.describe_wall(texts, values, given, pull))
-    data = unpack_walls(parcel, 1)[0]
-    return FlatWall(texts, values, given, pull), data
+    return unpack_walls(receive(*_core.describe_walls(texts, values.T, given.T, gravity)), count)
 
 
 def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
@@ -294,27 +318,22 @@ def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
-    walls = []
     known = len(WALL_NUMBERS)
-    for i in range(count):
-        numbers = parcel.reals[reals + i * _WALL_REALS :][:_WALL_REALS]
-        given = parcel.integers[integers + i * _WALL_INTEGERS :][:_WALL_INTEGERS]
-        name, mechanism, restitution = parcel.lines[lines + 3 * i : lines + 3 * i + 3]
-        walls.append(
-            WallData(
-                name,
-                mechanism,
-                restitution,
-                {
-                    what: float(value) if mask else None
-                    for what, value, mask in zip(WALL_NUMBERS, numbers[:known], given[:known], strict=True)
-                },
-                float(numbers[known]),
-                tuple(float(value) for value in numbers[known + 1 :]),
-                bool(given[known]),
-            )
+    rows = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
+    masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
+    return [
+        WallData(
+            *parcel.lines[lines + 3 * i : lines + 3 * i + 3],
+            {
+                what: value if mask else None
+                for what, value, mask in zip(WALL_NUMBERS, row[:known], given[:known], strict=True)
+            },
+            row[known],
+            tuple(row[known + 1 :]),
+            bool(given[known]),
         )
-    return walls
+        for i, (row, given) in enumerate(zip(rows, masks, strict=True))
+    ]
 
 
 def walls_end(count: int) -> tuple[int, int, int]:

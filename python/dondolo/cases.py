@@ -29,6 +29,8 @@ class Case:
     records : tuple of Record
     im, polarity, engine : str
     levels : ndarray, shape (levels,)
+    edp_thresholds : ndarray, shape (thresholds,)
+        Damage states, rotation / capacity; the last is edp_limit, collapse.
     rtol, atol, edp_limit : float
     estimate_error : bool
     threads : int
@@ -47,6 +49,7 @@ class Case:
     polarity: str
     engine: str
     levels: _binding.FloatArray
+    edp_thresholds: _binding.FloatArray
     rtol: float
     atol: float
     edp_limit: float
@@ -110,16 +113,15 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         The first thing that is wrong, with the sentence of the executable.
     """
     parcel = _binding.receive(*_core.read_case(_binding.as_path(path)))
-    walls, levels, records, threads, record = (int(value) for value in parcel.integers[:5])
+    walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]
-    weights = 5 + levels
-    weight, p_occ = parcel.reals[weights : weights + 2 * walls].reshape(2, walls)
-    groups = parcel.lines[6 : 6 + walls]
-    places = [weights + 2 * walls, 5, 6 + walls]
+    places = [5 + levels + thresholds, 6, 6]
     people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
-    places = [place + more for place, more in zip(places, _binding.walls_end(walls), strict=True)]
-    motions = _binding.unpack_records(parcel, records, *places)
+    reals, integers, lines = (place + more for place, more in zip(places, _binding.walls_end(walls), strict=True))
+    weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
+    groups = parcel.lines[lines : lines + walls]
+    motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
     return Case(
         task,
         title,
@@ -129,7 +131,8 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         im,
         polarity,
         engine,
-        parcel.reals[5:weights].copy(),
+        parcel.reals[5 : 5 + levels].copy(),
+        parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
         rtol,
         atol,
         edp_limit,

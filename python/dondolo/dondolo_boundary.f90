@@ -8,6 +8,7 @@ module dondolo_boundary
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_lines, only : lines_type
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_population, only : member_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_response_spectrum, only : largest_period, smallest_period
@@ -18,8 +19,8 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
-   public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
+   public :: report, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
+   public :: set_walls, set_records, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
    integer, parameter, public :: wall_numbers = 8
@@ -99,26 +100,22 @@ contains
       message = error%message
    end subroutine report
 
-   !> One line out of a text
-   pure function line_of(text, number) result(line)
+   !> The next line of a text
+   pure subroutine next_line(text, at, line)
       !> Lines, separated by new_line
       character(len=*), intent(in) :: text
-      !> Number of the line, from 1
-      integer, intent(in) :: number
-      !> The line; blanks at its end are lost
-      character(len=:), allocatable :: line
+      !> Position: where the line begins, then where the next one does; 1 for the first
+      integer, intent(inout) :: at
+      !> The line; blanks at its end are lost, and after the last line it is empty
+      character(len=:), allocatable, intent(out) :: line
 
-      integer :: first, length, i
+      integer :: length
 
-      first = 1
-      do i = 1, number
-         length = index(text(first:), new_line('a')) - 1
-         if (length < 0) length = len(text) - first + 1
-         if (i == number) exit
-         first = min(first + length + 1, len(text) + 1)
-      end do
-      line = trim(text(first:first + length - 1))
-   end function line_of
+      length = index(text(at:), new_line('a')) - 1
+      if (length < 0) length = len(text) - at + 1
+      line = trim(text(at:at + length - 1))
+      at = min(at + length + 1, len(text) + 1)
+   end subroutine next_line
 
    !> Lines as one text
    pure function pack_lines(lines) result(text)
@@ -127,11 +124,18 @@ contains
       !> The same, each ended by new_line
       character(len=:), allocatable :: text
 
-      integer :: i
+      integer :: i, length, at
 
-      text = ''
+      length = 0
       do i = 1, lines%count
-         text = text//lines%line(i)%text//new_line('a')
+         length = length + len(lines%line(i)%text) + 1
+      end do
+      allocate (character(len=length) :: text)
+      at = 0
+      do i = 1, lines%count
+         length = len(lines%line(i)%text) + 1
+         text(at + 1:at + length) = lines%line(i)%text//new_line('a')
+         at = at + length
       end do
    end function pack_lines
 
@@ -223,13 +227,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(wall_input_type) :: input
-      integer :: i
+      integer :: i, at
 
+      at = 1
       do i = 1, size(walls)
          input = wall_input_type()
-         call set_text(input%name, line_of(texts, 3*i - 2))
-         call set_text(input%mechanism, line_of(texts, 3*i - 1))
-         call set_text(input%restitution, line_of(texts, 3*i))
+         call set_text(input%name)
+         call set_text(input%mechanism)
+         call set_text(input%restitution)
          call set_number(input%height, 1)
          call set_number(input%thickness, 2)
          call set_number(input%density, 3)
@@ -246,14 +251,15 @@ contains
 
    contains
 
-      !> Set a text that was given
-      subroutine set_text(variable, text)
+      !> Set a text to the next line, if it was given
+      subroutine set_text(variable)
          !> The variable
          character(len=:), allocatable, intent(inout) :: variable
-         !> Its text, empty if not given
-         character(len=*), intent(in) :: text
 
-         if (len(text) > 0) variable = text
+         character(len=:), allocatable :: text
+
+         call next_line(texts, at, text)
+         if (len(text) > 0) call move_alloc(text, variable)
       end subroutine set_text
 
       !> Set a number that was given
@@ -276,13 +282,16 @@ contains
       !> text: its three lines
       type(parcel_type), intent(inout) :: parcel
 
-      real(c_double) :: numbers(wall_numbers)
-      integer(c_int) :: given(wall_numbers)
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = wall_numbers + 7
+      type(lines_type) :: lines
+      integer(c_int), allocatable :: integers(:, :)
+      real(c_double), allocatable :: reals(:, :)
       integer :: i
 
       if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
       if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
       if (.not. allocated(parcel%text)) parcel%text = ''
+      allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)))
       do i = 1, size(walls)
          associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
             call get_number(1, input%height)
@@ -293,14 +302,18 @@ contains
             call get_number(6, input%restitution_factor)
             call get_number(7, input%overburden)
             call get_number(8, input%eccentricity)
-            parcel%integers = [parcel%integers, given, merge(1, 0, mechanism%two_sided)]
-            parcel%reals = [parcel%reals, numbers, walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
+            integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
+            reals(wall_numbers + 1:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
                & mechanism%restitution]
-            parcel%text = parcel%text//input%name//new_line('a')//input%mechanism//new_line('a')// &
-               & input%restitution//new_line('a')
+            call lines%add(input%name)
+            call lines%add(input%mechanism)
+            call lines%add(input%restitution)
          end associate
       end do
+      parcel%integers = [parcel%integers, integers]
+      parcel%reals = [parcel%reals, reals]
+      parcel%text = parcel%text//pack_lines(lines)
 
    contains
 
@@ -311,12 +324,34 @@ contains
          !> The number; not allocated: it does not apply
          real(c_double), allocatable, intent(in) :: variable
 
-         given(k) = merge(1, 0, allocated(variable))
-         numbers(k) = 0.0_c_double
-         if (allocated(variable)) numbers(k) = variable
+         integers(k, i) = merge(1, 0, allocated(variable))
+         reals(k, i) = 0.0_c_double
+         if (allocated(variable)) reals(k, i) = variable
       end subroutine get_number
 
    end subroutine pack_walls
+
+   !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
+   !> mechanisms; text: their groups
+   subroutine pack_members(members, parcel)
+      !> The rows
+      type(member_type), intent(in) :: members(:)
+      !> What was in it stays before them
+      type(parcel_type), intent(inout) :: parcel
+
+      type(wall_type), allocatable :: walls(:)
+      type(lines_type) :: groups
+      integer :: i
+
+      allocate (walls(size(members)))
+      do i = 1, size(members)
+         walls(i) = members(i)%wall
+         call groups%add(members(i)%group)
+      end do
+      call pack_walls(walls, parcel)
+      parcel%reals = [parcel%reals, members%weight, members%p_occ]
+      parcel%text = parcel%text//pack_lines(groups)
+   end subroutine pack_members
 
    !> Make records of what Python has checked when it made its own
    subroutine set_records(records, names, lengths, dt, acceleration)
@@ -331,12 +366,13 @@ contains
       !> All samples, one record after the other [m/s2]
       real(c_double), intent(in) :: acceleration(:)
 
-      integer :: i, from
+      integer :: i, from, at
 
       allocate (records(size(lengths)))
       from = 0
+      at = 1
       do i = 1, size(records)
-         records(i)%name = line_of(names, i)
+         call next_line(names, at, records(i)%name)
          records(i)%dt = dt(i)
          records(i)%acceleration = acceleration(from + 1:from + lengths(i))
          from = from + lengths(i)
@@ -350,6 +386,7 @@ contains
       !> Integers: lengths, numbers of metadata; reals: time steps, all samples; text: names, then keys and values
       type(parcel_type), intent(inout) :: parcel
 
+      type(lines_type) :: lines
       real(c_double), allocatable :: reals(:)
       integer :: i, k, from, samples
 
@@ -359,17 +396,19 @@ contains
       samples = 0
       do i = 1, size(records)
          samples = samples + size(records(i)%acceleration)
-         parcel%integers = [parcel%integers, size(records(i)%acceleration)]
-         parcel%text = parcel%text//records(i)%name//new_line('a')
+         call lines%add(records(i)%name)
       end do
-      parcel%integers = [parcel%integers, (records(i)%metadata%count(), i=1, size(records))]
+      parcel%integers = [parcel%integers, (size(records(i)%acceleration), i=1, size(records)), &
+         & (records(i)%metadata%count(), i=1, size(records))]
       do i = 1, size(records)
          do k = 1, records(i)%metadata%count()
             associate (entry => records(i)%metadata%entries(k))
-               parcel%text = parcel%text//entry%key//new_line('a')//entry%value//new_line('a')
+               call lines%add(entry%key)
+               call lines%add(entry%value)
             end associate
          end do
       end do
+      parcel%text = parcel%text//pack_lines(lines)
       from = size(parcel%reals)
       allocate (reals(from + size(records) + samples))
       reals(:from) = parcel%reals

@@ -53,8 +53,8 @@ subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    call take(handle, integers, reals, characters)
 end subroutine take_parcel
 
-! A wall with its defaults filled in and its static quantities, as pack_walls has them
-subroutine describe_wall(texts, numbers, given, gravity, handle, sizes, stat, message)
+! Walls with their defaults filled in and their static quantities, as pack_walls has them
+subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
@@ -62,24 +62,25 @@ subroutine describe_wall(texts, numbers, given, gravity, handle, sizes, stat, me
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts
-   real(c_double), intent(in) :: numbers(8), gravity
-   integer(c_int), intent(in) :: given(8)
+   integer(c_int), intent(in) :: w, given(8, w)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
+   type(wall_type), allocatable :: walls(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   allocate (walls(w))
+   call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) then
       call pack_walls(walls, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
-end subroutine describe_wall
+end subroutine describe_walls
 
 ! Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
 subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, message)
@@ -902,14 +903,17 @@ subroutine probability(theta, beta, x, n, p)
    p = curve%probability(x)
 end subroutine probability
 
-! Read a case. Integers: number of walls, of levels, of records, threads, record of the history from 1, then walls and
-! records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history
-! (with its sign), levels, weights, walls, records; text: task, title, output, im, polarity, engine, then walls and records
+! Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
+! 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
+! the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
+! task, title, output, im, polarity, engine, then walls, their groups, and records
 subroutine read_case(path, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_records, pack_walls, parcel_type, report, send
+   use dondolo_boundary, only : pack_lines, pack_members, pack_records, parcel_type, report, send
    use dondolo_case, only : case_type, load_case => read_case
    use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_population, only : member_type, read_population
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: path
@@ -917,30 +921,41 @@ subroutine read_case(path, handle, sizes, stat, message)
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
    type(case_type) :: case
+   type(member_type), allocatable :: members(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   character(len=1), parameter :: line = new_line('a')
+   type(lines_type) :: lines
    real(c_double) :: scale
-   integer :: i
 
    handle = 0
    sizes = 0
    call load_case(path, case, error)
    if (.not. allocated(error)) then
+      if (case%job%task == 'typology') then
+         call read_population(case%population_path(), members, error, case%solver%gravity)
+      else
+         allocate (members(1))
+         members(1)%wall = case%wall
+         members(1)%group = ''
+      end if
+   end if
+   if (.not. allocated(error)) then
       if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
       scale = 1
       if (case%job%task == 'history') scale = case%history_scale()
-      parcel%integers = [size(case%population%walls), size(case%stripes%levels), size(case%records), &
-         & case%job%threads, case%history%record]
+      parcel%integers = [size(members), size(case%stripes%levels), size(case%records), &
+         & size(case%stripes%thresholds), case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
          & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
-         & case%population%weight, case%population%p_occ]
-      parcel%text = case%job%task//line//case%job%title//line//case%job%output//line// &
-         & case%stripes%scaling%name//line//case%records_input%polarity//line//trim(case%solver%solver%engine)//line
-      do i = 1, size(case%population%group)
-         parcel%text = parcel%text//case%population%group(i)%text//line
-      end do
-      call pack_walls(case%population%walls, parcel)
+         & case%stripes%thresholds]
+      call lines%add(case%job%task)
+      call lines%add(case%job%title)
+      call lines%add(case%job%output)
+      call lines%add(case%stripes%scaling%name)
+      call lines%add(case%records_input%polarity)
+      call lines%add(trim(case%solver%solver%engine))
+      parcel%text = pack_lines(lines)
+      call pack_members(members, parcel)
       call pack_records(case%records, parcel)
       call send(parcel, handle, sizes)
    end if

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,13 +18,23 @@ if TYPE_CHECKING:
     from dondolo.motion import Response
     from dondolo.stripes import Stripes
     from dondolo.typology import Typology
-    from dondolo.walls import Wall
+    from dondolo.walls import Population, Wall
 
 Table = dict[str, Sequence[Any]]
 
 
-def cell(value: Any) -> str:
-    """A value as it stands in a table: 17 significant digits, flags 0/1, empty where there is none."""
+def digits(value: float) -> str:
+    """A number with 17 significant digits, as the executable writes it."""
+    return f"{value:.16E}"
+
+
+def shortest(value: float) -> str:
+    """A number with as few digits as tell it from all others: for tables that people read and change."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def cell(value: Any, number: Callable[[float], str] = digits) -> str:
+    """A value as it stands in a table: flags 0/1, empty where there is none."""
     if value is None:
         return ""
     if isinstance(value, str):
@@ -33,12 +43,12 @@ def cell(value: Any) -> str:
         return str(int(value))
     if isinstance(value, (int, np.integer)):
         return str(value)
-    return "" if np.isnan(value) else f"{value:.16E}"
+    return "" if np.isnan(value) else number(value)
 
 
 def quoted(text: str) -> str:
-    """A text as a cell: in quotes where RFC 4180 asks for them, or where a # would begin a comment."""
-    if any(character in text for character in ',"#\n\r'):
+    """A text as a cell: in quotes where RFC 4180 asks for them, or where a # or blanks would be lost."""
+    if any(character in text for character in ',"#\n\r') or text != text.strip():
         return '"' + text.replace('"', '""') + '"'
     return text
 
@@ -55,10 +65,19 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
     comments : iterable of str
         Lines for the head of the file.
     """
+    write_lines(path, csv_lines(table, [f"dondolo {_binding.constants().version}", *comments]))
+
+
+def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], str] = digits) -> list[str]:
+    """Lines of a table: comments, names of the columns, rows."""
+    lines = [*(f"# {comment}" for comment in comments), ",".join(table)]
+    return lines + [",".join(cell(value, number) for value in row) for row in zip(*table.values(), strict=True)]
+
+
+def write_lines(path: str | os.PathLike[str], lines: Sequence[str]) -> None:
+    """Write a text file; it appears whole or not at all."""
     target = Path(path)
     part = target.with_name(target.name + ".part")
-    lines = [f"# dondolo {_binding.constants().version}", *(f"# {comment}" for comment in comments), ",".join(table)]
-    lines += [",".join(map(cell, row)) for row in zip(*table.values(), strict=True)]
     try:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")
         part.replace(target)
@@ -114,6 +133,14 @@ def walls_table(
         "group": list(groups),
         "p_occ": list(p_occ),
     }
+
+
+def population_table(population: Population) -> Table:
+    """Columns of a population's table, as it is read."""
+    names = ("name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value")
+    names += ("restitution_factor", "overburden", "eccentricity")
+    table: Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
+    return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
 
 
 def history_table(response: Response) -> Table:

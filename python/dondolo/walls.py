@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import copy
 import dataclasses
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import Any, ClassVar, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -66,14 +69,31 @@ class Wall:
     def __post_init__(self) -> None:
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
-        numbers = [getattr(self, what, None) for what in _binding.WALL_NUMBERS]
-        flat, data = _binding.describe_wall(self.name, self.mechanism, self.restitution, numbers, self.gravity)
-        filled: dict[str, Any] = {"name": data.name, "restitution": data.restitution, "gravity": data.gravity}
-        own = {field.name for field in dataclasses.fields(self)}
-        filled |= {what: value for what, value in data.numbers.items() if what in own}
-        filled |= {"_flat": flat, "_statics": data.statics, "_two_sided": data.two_sided}
+        self._fill(_binding.describe_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity))
+
+    def _numbers(self) -> list[Any]:
+        """Its numbers in the order of Fortran, None where one does not apply."""
+        return [getattr(self, what, None) for what in _binding.WALL_NUMBERS]
+
+    def _fill(self, data: _binding.WallData) -> None:
+        """Take over what Fortran has understood."""
+        own = type(self).__dataclass_fields__
+        filled: dict[str, Any] = {what: value for what, value in data.numbers.items() if what in own}
+        filled |= {"name": data.name, "restitution": data.restitution, "gravity": data.gravity}
+        filled |= {"_statics": data.statics, "_two_sided": data.two_sided}
         for what, value in filled.items():
             object.__setattr__(self, what, value)
+
+    def _renamed(self, name: str) -> Wall:
+        """The same wall with another name, which stands on one line."""
+        other = copy.copy(self)
+        object.__setattr__(other, "name", name)
+        return other
+
+    @property
+    def _flat(self) -> _binding.FlatWall:
+        """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
+        return _binding.flat_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity)
 
     @property
     def radius(self) -> float:
@@ -269,14 +289,13 @@ MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedW
 
 
 def wall_from(data: _binding.WallData) -> Wall:
-    """A wall that Fortran has read."""
-    kind = MECHANISMS[data.mechanism]
-    own = {field.name for field in dataclasses.fields(kind)}
-    numbers = {what: value for what, value in data.numbers.items() if what in own}
-    return kind(**numbers, restitution=data.restitution, gravity=data.gravity, name=data.name)
+    """A wall that Fortran has understood already."""
+    wall = object.__new__(MECHANISMS[data.mechanism])
+    wall._fill(data)
+    return wall
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Population:
     """Walls and how many of the kind each stands for.
 
@@ -293,12 +312,31 @@ class Population:
         Name of the group that each belongs to, for curves by group; empty if left out.
     p_occ : ndarray, shape (walls,)
         Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
+    origin : tuple of str
+        Where the walls come from, in lines for the head of a file.
+
+    Raises
+    ------
+    InputError
+        The walls, or what is said of them, do not go together.
+
+    Examples
+    --------
+    >>> walls = [OneSidedWall(3.0, 0.25, name="a"), TwoBlockWall(3.0, 0.25, name="a"), OneSidedWall(6.0, 0.5, name="b")]
+    >>> population = Population(walls, weights=[2.0, 2.0, 5.0], groups=["low", "low", "high"], p_occ=[0.4, 0.6, 1.0])
+    >>> population
+    <Population: walls 2, mechanisms 3, sum of the weights 7, groups 'low' (1), 'high' (1)>
+    >>> population[2].name
+    'b'
+    >>> [wall.mechanism for wall in population.group("low")]
+    ['one_sided', 'two_block']
     """
 
     walls: tuple[Wall, ...]
     weights: _binding.FloatArray = None  # type: ignore[assignment]
     groups: tuple[str, ...] = None  # type: ignore[assignment]
     p_occ: _binding.FloatArray = None  # type: ignore[assignment]
+    origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         walls = (self.walls,) if isinstance(self.walls, Wall) else tuple(self.walls)
@@ -307,22 +345,24 @@ class Population:
         for wall in walls:
             if not isinstance(wall, Wall):
                 raise InputError(f"walls: {type(wall).__name__} is no wall")
-        weights = _shares("weight", self.weights, len(walls), math.inf)
+        if len(walls) > 1:
+            walls = tuple(
+                wall._renamed(f"wall {i}") if wall.name == _UNNAMED else wall for i, wall in enumerate(walls, 1)
+            )
+        weights = _shares("weight", self.weights, walls, math.inf)
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
-        p_occ = _shares("p_occ", self.p_occ, len(walls), 1.0)
+        p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
         groups = ("",) * len(walls) if self.groups is None else tuple(self.groups)
         if len(groups) != len(walls):
             raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
-        for group in groups:
-            _binding.as_text("group", group)
-        if len(walls) > 1:
-            walls = tuple(
-                dataclasses.replace(wall, name=f"wall {i}") if wall.name == _UNNAMED else wall
-                for i, wall in enumerate(walls, 1)
-            )
+        for wall, group in zip(walls, groups, strict=True):
+            _on_one_line("group", group, wall)
+        for line in self.origin:
+            _binding.as_text("origin", line)
         _check_names(walls, weights, groups)
-        for name, value in (("walls", walls), ("weights", weights), ("groups", groups), ("p_occ", p_occ)):
+        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": tuple(self.origin)}
+        for name, value in filled.items():
             object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
@@ -331,19 +371,110 @@ class Population:
     def __iter__(self) -> Iterator[Wall]:
         return iter(self.walls)
 
-    def __getitem__(self, index: int) -> Wall:
+    @overload
+    def __getitem__(self, index: int) -> Wall: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Population: ...
+
+    def __getitem__(self, index: int | slice) -> Wall | Population:
+        """One of the walls, or a population of those in a slice."""
+        if isinstance(index, slice):
+            return self._chosen(range(len(self))[index])
         return self.walls[index]
 
+    def __add__(self, other: Population) -> Population:
+        """Both populations together; no wall may have a name of the other's."""
+        if not isinstance(other, Population):
+            return NotImplemented
+        names = {wall.name for wall in self.walls} - {_UNNAMED}
+        for wall in other.walls:
+            if wall.name in names:
+                raise InputError(f"name = {wall.name!r}: both populations have a wall of this name")
+        return Population(
+            self.walls + other.walls,
+            np.concatenate([self.weights, other.weights]),
+            self.groups + other.groups,
+            np.concatenate([self.p_occ, other.p_occ]),
+            self.origin + other.origin,
+        )
+
+    def group(self, name: str) -> Population:
+        """The walls of a group."""
+        chosen = [i for i, group in enumerate(self.groups) if group == name]
+        if not chosen:
+            known = ", ".join(map(repr, dict.fromkeys(self.groups)))
+            raise InputError(f"group = {name!r}: must be one of {known}")
+        return self._chosen(chosen)
+
+    def _chosen(self, chosen: Sequence[int]) -> Population:
+        """A population of some of the walls."""
+        index = np.fromiter(chosen, dtype=np.intp)
+        return Population(
+            tuple(self.walls[i] for i in chosen),
+            self.weights[index],
+            tuple(self.groups[i] for i in chosen),
+            self.p_occ[index],
+            self.origin,
+        )
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """How many there are, name and text."""
+        names = [wall.name for wall in self.walls]
+        first = [i for i, name in enumerate(names) if i == 0 or name != names[i - 1]]
+        groups = Counter(self.groups[i] for i in first)
+        facts = [
+            ("walls", str(len(first))),
+            ("mechanisms", str(len(self))),
+            ("sum of the weights", f"{self.weights[first].sum():.6g}"),
+            ("groups", ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
+        ]
+        return facts if any(groups) else facts[:-1]
+
+    def _ranges(self) -> list[tuple[str, str]]:
+        """Between which values the properties lie, name and text."""
+
+        def between(what: str, values: Iterable[float], unit: str = "") -> tuple[str, str]:
+            values = list(values)
+            return what, f"{min(values):.4g} to {max(values):.4g} {unit}".strip()
+
+        return [
+            between("height", (wall.height for wall in self.walls), "m"),
+            between("thickness", (wall.thickness for wall in self.walls), "m"),
+            between("height / thickness", (wall.height / wall.thickness for wall in self.walls)),
+            between("trigger", (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
+            between("p_occ", self.p_occ),
+        ]
+
     def __repr__(self) -> str:
-        return f"<Population of {len(self)} walls, sum of the weights {self.weights.sum():.6g}>"
+        return "<Population: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
+
+    def _repr_html_(self) -> str:
+        return tables.html_of("Population", [*self._facts(), *self._ranges()])
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights as a pandas DataFrame."""
         return tables.frame(self._table())
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the walls as the executable's ``_walls.csv``."""
-        tables.write_csv(path, self._table())
+        """Write the table that `read_population` and the executable read.
+
+        Parameters
+        ----------
+        path : path
+            The file; its folder must exist.
+
+        Raises
+        ------
+        DondoloError
+            It cannot be written.
+
+        Notes
+        -----
+        What is read back is the same to the bit. Gravity is no column: it is given again when the table is read. The
+        lines of `origin` stand at the head.
+        """
+        tables.write_lines(path, tables.csv_lines(tables.population_table(self), self.origin, tables.shortest))
 
     def _table(self) -> tables.Table:
         return tables.walls_table(self.walls, self.weights, self.groups, self.p_occ)
@@ -355,7 +486,8 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
     Parameters
     ----------
     path : path
-        A CSV table: one row a wall, columns named as the parameters of the walls, and weight.
+        A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group and
+        p_occ.
     gravity : float, optional
         [m/s2], 9.81 if left out.
 
@@ -369,18 +501,28 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
         The table or one of its walls is wrong.
     """
     walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
-    return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ)
+    origin = (f"read from {Path(path).name}",)
+    return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ, origin)
 
 
-def _shares(name: str, values: ArrayLike | None, count: int, largest: float) -> _binding.FloatArray:
+def _on_one_line(what: str, text: str, wall: Wall) -> None:
+    """Check a text of a wall."""
+    try:
+        _binding.as_text(what, text)
+    except InputError as error:
+        raise InputError(f"wall {wall.name!r}: {error}") from None
+
+
+def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> _binding.FloatArray:
     """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
-    shares = np.ones(count) if values is None else _binding.as_array(name, values).copy()
-    if len(shares) != count:
-        raise InputError(f"{count} walls, {len(shares)} values of {name}: must be as many")
-    for share in shares:
-        if not (0.0 <= share <= largest and share < math.inf):
-            allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
-            raise InputError(f"{name} = {share}: {allowed}")
+    shares = np.ones(len(walls)) if values is None else _binding.as_array(name, values).copy()
+    if len(shares) != len(walls):
+        raise InputError(f"{len(walls)} walls, {len(shares)} values of {name}: must be as many")
+    wrong = ~((shares >= 0.0) & (shares <= largest) & (shares < math.inf))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
+        raise InputError(f"wall {walls[first].name!r}: {name} = {shares[first]}: {allowed}")
     shares.flags.writeable = False
     return shares
 
@@ -394,7 +536,8 @@ def _check_names(walls: Sequence[Wall], weights: _binding.FloatArray, groups: Se
             continue
         if walls[i - 1].name != wall.name:
             raise InputError(
-                f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must stand one after the other"
+                f"name = {wall.name!r}: another wall has this name; "
+                "mechanisms of one wall must stand one after the other"
             )
         if wall.mechanism in (other.mechanism for other in walls[one:i]):
             raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")

@@ -18,6 +18,7 @@ import pytest
         ("process_records", ["process_records.png"]),
         ("overturning", ["overturning.png", "overturning_boundaries.csv"]),
         ("synthetic_motions", ["synthetic_motions.png"]),
+        ("sampled_population", ["sampled_population.png", "town.csv"]),
     ],
 )
 def test_example(example, figures, root, tmp_path):

@@ -41,7 +41,8 @@ contains
 
       if (.not. allocated(self%key)) call make_room(self, 1024)
       if (2*self%names >= size(self%key)) call make_room(self, 2*size(self%key))
-      key = key_of(name)
+      ! Blanks at the end do not tell names apart
+      key = key_of(trim(name))
       place = place_of(self, key)
       known = 0
       if (self%key(place) == key) then

@@ -4,8 +4,10 @@ module dondolo_combine_rows
    use dondolo_case, only : case_type
    use dondolo_counts, only : counts_type
    use dondolo_error, only : error_type
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
-   use dondolo_results, only : results_type, shown_row_type, shown_rows
+   use dondolo_results, only : results_type, shown_rows
    use dondolo_typology, only : combination_type
    use dondolo_wall, only : mechanism_names
    use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
@@ -63,7 +65,7 @@ contains
       type(counts_type) :: counts
       logical :: found, is_there
 
-      allocate (results%shown(0))
+      allocate (results%shown(min(shown_rows, case%survey%rows)))
       call results%counts%open(error)
       if (.not. allocated(error)) &
          & call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
@@ -74,8 +76,11 @@ contains
          if (allocated(error) .or. .not. is_there) exit
          associate (input => member%wall%input, curve => counts%curve(size(counts%curve)))
             call fits%look(curve, input%name)
-            if (counts%row <= shown_rows) &
-               & results%shown = [results%shown, shown_row_type(input%name, input%mechanism, curve)]
+            if (counts%row <= shown_rows) then
+               results%shown(counts%row)%name = input%name
+               results%shown(counts%row)%mechanism = input%mechanism
+               results%shown(counts%row)%curve = curve
+            end if
          end associate
       end do
       call reader%close()
@@ -129,18 +134,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(wall_curves_type) :: wall
+      type(fragility_type) :: curve(size(rows))
       character(len=mechanism_length) :: mechanism(size(rows))
       character(len=:), allocatable :: group
-      integer :: reached(size(case%stripes%levels), size(rows)), m
+      real(wp) :: p_occ(size(rows))
+      integer :: reached(size(case%stripes%levels), size(rows)), histories(size(rows)), m
 
       group = ''
       if (rows(1)%group > 0) group = case%survey%groups%line(rows(1)%group)%text
       do m = 1, size(rows)
          mechanism(m) = mechanism_names(rows(m)%mechanism)
+         p_occ(m) = rows(m)%p_occ
+         curve(m) = rows(m)%curve(threshold)
          reached(:, m) = rows(m)%reached(:, threshold)
+         histories(m) = rows(m)%histories
       end do
-      call new_wall_curves(wall, group, rows(1)%weight, mechanism, rows%p_occ, [(rows(m)%curve(threshold), &
-         & m=1, size(rows))], reached, rows%histories, case%stripes%levels, error, combination%is_summing())
+      call new_wall_curves(wall, group, rows(1)%weight, mechanism, p_occ, curve, reached, histories, &
+         & case%stripes%levels, error, combination%is_summing())
       if (.not. allocated(error)) call combination%add(wall)
    end subroutine add_wall
 

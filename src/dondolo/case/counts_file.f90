@@ -181,7 +181,8 @@ contains
 
       call self%close()
       self%at = 0
-      self%rows = [counts_type ::]
+      if (allocated(self%rows)) deallocate (self%rows)
+      allocate (self%rows(0))
       open (newunit=self%unit, file=self%path, access='stream', form='unformatted', action='read', status='old', &
          & iostat=stat)
       if (stat == 0) read (self%unit, iostat=stat) head
@@ -199,6 +200,7 @@ contains
       !> The file has changed since it was inspected
       type(error_type), allocatable, intent(out) :: error
 
+      type(counts_type), allocatable :: rows(:)
       type(work_type) :: work
       integer(int64) :: bytes
 
@@ -209,11 +211,12 @@ contains
          else if (self%done < self%first) then
             return
          end if
-         call read_block(self, self%rows, work, bytes, found)
+         call read_block(self, rows, work, bytes, found)
          if (.not. found) then
             call raise_failure(error, self%path//': has changed while it was read')
             return
          end if
+         call move_alloc(rows, self%rows)
          self%at = 0
       end if
       self%at = self%at + 1

@@ -50,7 +50,7 @@ contains
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv']
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv']
-         if (job%histories) names = [names(1), character(len=15) :: '_histories.csv', names(2:)]
+         if (job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
       end select
    end function suffixes
 

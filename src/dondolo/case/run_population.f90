@@ -50,7 +50,8 @@ contains
       call find_start(case, file, results%resumed, error)
       if (.not. allocated(error)) call run_blocks(case, file, error, team, progress)
       if (allocated(error)) return
-      results%counts%files = [file]
+      allocate (results%counts%files(1))
+      results%counts%files(1) = file
       results%work = file%work
       if (.not. is_part(case)) call combine_rows(case, results, error)
    end subroutine run_population
@@ -90,20 +91,21 @@ contains
          end if
       end do
       done = 0
-      allocate (results%counts%files(0))
+      allocate (results%counts%files(size(files)))
       do i = 1, size(files)
          j = minloc(files%first, dim=1, mask=files%first > done)
-         if (j == 0) j = 1
+         if (j == 0) exit
          if (files(j)%first /= done + 1) exit
-         results%counts%files = [results%counts%files, files(j)]
+         results%counts%files(i) = files(j)
          done = files(j)%last
          call results%work%add(files(j)%work)
       end do
-      if (done < case%survey%rows) then
+      if (i <= size(files)) then
+         call raise_input(error, '--merge: row '//to_text(done + 1)//' stands in none of the files, or some row in '// &
+            & 'more than one')
+      else if (done < case%survey%rows) then
          call raise_input(error, '--merge: row '//to_text(done + 1)//' of '//to_text(case%survey%rows)// &
             & ' stands in none of the files')
-      else if (size(results%counts%files) < size(files)) then
-         call raise_input(error, '--merge: some rows stand in more than one of the files')
       end if
       if (.not. allocated(error)) call combine_rows(case, results, error)
    end subroutine merge_population
@@ -208,8 +210,8 @@ contains
             return
          end if
          call make_folders(case%job%output, made, ok)
-         call create_counts(file%path, key, survey%first, survey%last, error)
-         if (.not. allocated(error)) call inspect_counts(file%path, file, exists, error)
+         call create_counts(counts_path(case), key, survey%first, survey%last, error)
+         if (.not. allocated(error)) call inspect_counts(counts_path(case), file, exists, error)
       end associate
    end subroutine find_start
 

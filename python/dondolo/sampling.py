@@ -1,0 +1,483 @@
+"""Sampled populations: walls whose properties are drawn from distributions.
+
+Samples are a Latin hypercube (McKay, Beckman and Conover 1979): the range of every property is cut into as many parts
+of equal probability as there are walls, and each part holds one wall. Correlation is brought in by changing the order
+of the samples of a property alone (Iman and Conover 1982), so that this stays so.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import textwrap
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo import _binding
+from dondolo.errors import InputError
+from dondolo.walls import MECHANISMS, Population, Wall, wall_from
+
+FloatArray = _binding.FloatArray
+
+_PROPERTIES = (*_binding.WALL_NUMBERS, "restitution", "weight", "p_occ")
+
+
+class Distribution:
+    """What the distributions share: quantiles."""
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Uniform(Distribution):
+    """All values between two alike.
+
+    Parameters
+    ----------
+    low, high : float
+        The smallest and the largest value.
+    """
+
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        return self.low + (self.high - self.low) * probability
+
+
+@dataclass(frozen=True)
+class Triangular(Distribution):
+    """What is known where an expert gives the smallest, the most likely and the largest value.
+
+    Parameters
+    ----------
+    low, mode, high : float
+        The smallest, the most likely and the largest value.
+    """
+
+    low: float
+    mode: float
+    high: float
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        _check_ends(self.low, self.high)
+        if not self.low <= self.mode <= self.high:
+            raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        from scipy import stats
+
+        width = self.high - self.low
+        return stats.triang((self.mode - self.low) / width, self.low, width).ppf(probability)
+
+
+@dataclass(frozen=True)
+class Normal(Distribution):
+    """The normal distribution, whole or cut off.
+
+    Parameters
+    ----------
+    mean, sd : float
+        Mean and standard deviation, of the whole distribution.
+    low, high : float, optional
+        Where it is cut off: what lies beyond is spread over what is left in proportion, so that the distribution keeps
+        its shape and no samples gather at the ends.
+    """
+
+    mean: float
+    sd: float
+    low: float | None = None
+    high: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        if not self.sd > 0.0:
+            raise InputError(f"sd = {self.sd:g}: must be positive")
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
+        return self.mean + self.sd * _cut_normal(probability, *ends)
+
+
+@dataclass(frozen=True)
+class Lognormal(Distribution):
+    """The lognormal distribution, whole or cut off.
+
+    Parameters
+    ----------
+    median : float
+        Median, of the whole distribution.
+    beta : float
+        Standard deviation of the logarithm, of the whole distribution.
+    low, high : float, optional
+        Where it is cut off, as for `Normal`.
+    """
+
+    median: float
+    beta: float
+    low: float | None = None
+    high: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        for what in ("median", "beta", "low", "high"):
+            value = getattr(self, what)
+            if value is not None and not value > 0.0:
+                raise InputError(f"{what} = {value:g}: must be positive")
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
+        return self.median * np.exp(self.beta * _cut_normal(probability, *ends))
+
+
+@dataclass(frozen=True)
+class Choice(Distribution):
+    """One of some values.
+
+    Parameters
+    ----------
+    values : sequence of float
+        The values, rising.
+    probabilities : sequence of float, optional
+        Their probabilities, with the sum 1; all alike if left out.
+    """
+
+    values: tuple[float, ...]
+    probabilities: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        values = _binding.as_array("values", self.values)
+        shares = np.full(len(values), 1.0 / len(values))
+        if len(self.probabilities):
+            shares = _binding.as_array("probabilities", self.probabilities)
+        if len(shares) != len(values):
+            raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
+        if not (np.diff(values) > 0.0).all():
+            raise InputError("values: must rise from one to the next")
+        if not ((shares >= 0.0).all() and abs(shares.sum() - 1.0) < 1e-9):
+            raise InputError(f"probabilities: must not be negative and have the sum 1, not {shares.sum():.6g}")
+        object.__setattr__(self, "values", tuple(values.tolist()))
+        object.__setattr__(self, "probabilities", tuple(shares.tolist()))
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        ends = np.cumsum(self.probabilities)[:-1]
+        return np.asarray(self.values)[np.searchsorted(ends, probability)]
+
+
+Samples = Mapping[str, FloatArray]
+Property = float | str | Distribution | Callable[[Samples], Any]
+
+
+def sample_population(
+    mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],
+    n: int,
+    seed: int,
+    variables: Mapping[str, Distribution] | None = None,
+    correlation: Mapping[tuple[str, str], float] | None = None,
+    group: str = "",
+    name: str = "",
+    gravity: float | None = None,
+    **properties: Property,
+) -> Population:
+    """A population of walls with sampled properties.
+
+    A property is a number (or a text, for `restitution`), a distribution, or a function of what was sampled, which
+    gets the samples by name, one array of n numbers each, and returns an array of n numbers or a number.
+
+    Parameters
+    ----------
+    mechanisms : str, iterable of str, or mapping
+        'one_sided', 'free_standing' or 'two_block', or several of them: each wall then has all of them. A mapping gives
+        each mechanism properties of its own, besides or instead of the common ones:
+        ``{"one_sided": {"p_occ": 0.4}, "two_block": {"p_occ": 0.6, "hinge": Uniform(0.5, 0.7)}}``.
+    n : int
+        Number of walls.
+    seed : int
+        Seed of the random numbers; the same seed gives the same walls.
+    variables : mapping, optional
+        Distributions of what is no property of a wall, but properties are functions of (the number of storeys).
+    correlation : mapping, optional
+        Pairs of names of sampled properties and variables, and the correlation of each pair; a property of one
+        mechanism is named as in "two_block.hinge". Pairs that are not named have none.
+    group : str, optional
+        Group of all walls.
+    name : str, optional
+        Walls are called so with their number: 'facades 0001'. The name of the group if left out.
+    gravity : float, optional
+        [m/s2], 9.81 if left out.
+    **properties
+        Those of the walls - height, thickness, density, restitution, restitution_value, restitution_factor, for
+        'two_block' hinge, overburden, eccentricity - and weight and p_occ.
+
+    Returns
+    -------
+    Population
+        Its rows go wall by wall, the mechanisms of a wall in their order; `origin` says what was sampled.
+
+    Raises
+    ------
+    InputError
+        What was asked for makes no sense; or a sample that no wall can have, with the names of the wall and the
+        property. Nothing is left out or moved: cut the distribution off, or make the property a function of the others.
+
+    Notes
+    -----
+    A correlation is that of the normal scores (the Gaussian copula): of the values of two normal distributions, of the
+    logarithms of two lognormal ones. The rank correlation is 6/pi asin(rho/2). The correlation of the sample's scores
+    is the one asked for, but for what the order of n numbers cannot give.
+
+    References
+    ----------
+    McKay, Beckman and Conover (1979), Technometrics 21, 239-245; Iman and Conover (1982), Communications in Statistics:
+    Simulation and Computation 11, 311-334.
+
+    Examples
+    --------
+    >>> facades = sample_population(
+    ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": Triangular(0.5, 0.6, 0.75)}},
+    ...     n=100,
+    ...     seed=1,
+    ...     height=Lognormal(3.2, 0.15, low=2.4, high=4.5),
+    ...     thickness=Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
+    ...     correlation={("height", "thickness"): 0.5},
+    ...     group="facades",
+    ... )
+    >>> facades
+    <Population: walls 100, mechanisms 200, sum of the weights 100, groups 'facades' (100)>
+    >>> facades[0].name
+    'facades 0001'
+    """
+    own = _as_mechanisms(mechanisms)
+    n, seed = _whole("n", n, 1), _whole("seed", seed, 0)
+    variables, correlation = dict(variables or {}), dict(correlation or {})
+    _check_variables(variables)
+    _check_properties(own, properties)
+    sampled = _draw(n, seed, _distributions(own, variables, properties), correlation)
+
+    known = {what: sampled[what] for what in variables}
+    common = _evaluate(properties, "", sampled, known, n)
+    prefix = name or group or "wall"
+    names = [f"{prefix} {i:0{max(4, len(str(n)))}d}" for i in range(1, n + 1)]
+    walls, p_occ = [], []
+    for mechanism, extra in own.items():
+        values = common | _evaluate(extra, f"{mechanism}.", sampled, known | common, n)
+        walls.append(_walls(mechanism, names, values, gravity))
+        p_occ.append(values.get("p_occ", np.ones(n)))
+    return Population(
+        tuple(wall for row in zip(*walls, strict=True) for wall in row),
+        np.repeat(common.get("weight", np.ones(n)), len(own)),
+        (group,) * (n * len(own)),
+        np.stack(p_occ, axis=1).ravel(),
+        _origin(f"{prefix}: {n} walls, a Latin hypercube of the seed {seed}", own, variables, correlation, properties),
+    )
+
+
+def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
+    """Mechanisms and what each has of its own."""
+    if isinstance(mechanisms, str):
+        mechanisms = (mechanisms,)
+    own = mechanisms if isinstance(mechanisms, Mapping) else {mechanism: {} for mechanism in mechanisms}
+    if not own:
+        raise InputError("mechanisms: must be given")
+    for mechanism in own:
+        if mechanism not in MECHANISMS:
+            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+    return {mechanism: dict(extra) for mechanism, extra in own.items()}
+
+
+def _check_variables(variables: Mapping[str, Any]) -> None:
+    """What is sampled for functions only must not look like a property."""
+    for what, value in variables.items():
+        if what in _PROPERTIES:
+            raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
+        if not isinstance(value, Distribution):
+            raise InputError(f"{what} = {value!r}: must be a distribution")
+
+
+def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Mapping[str, Property]) -> None:
+    """Every property must be one of the walls, and of the right kind."""
+    for mechanism, extra in (("", properties), *own.items()):
+        for what, value in extra.items():
+            if what not in _PROPERTIES:
+                raise InputError(f"{what!r}: no such property of walls; there are {', '.join(_PROPERTIES)}")
+            if what == "weight" and mechanism:
+                raise InputError("weight: belongs to the wall, not to one of its mechanisms")
+            if isinstance(value, str) != (what == "restitution"):
+                raise InputError(f"{what} = {value!r}: must be a {'text' if what == 'restitution' else 'number'}")
+        for kind in [mechanism] if mechanism else own:
+            for what in extra:
+                if what in _binding.WALL_NUMBERS and what not in MECHANISMS[kind].__dataclass_fields__:
+                    raise InputError(f"{what}: {kind} walls have none; give it to the mechanism that has it")
+
+
+def _distributions(
+    own: Mapping[str, Mapping[str, Property]], variables: Mapping[str, Any], properties: Mapping[str, Property]
+) -> dict[str, Distribution]:
+    """All that is sampled, by the names that a correlation has for them."""
+    named = {**variables, **properties}
+    named |= {f"{mechanism}.{what}": value for mechanism, extra in own.items() for what, value in extra.items()}
+    return {what: value for what, value in named.items() if isinstance(value, Distribution)}
+
+
+def _draw(
+    n: int, seed: int, distributions: Mapping[str, Distribution], correlation: Mapping[tuple[str, str], float]
+) -> dict[str, FloatArray]:
+    """Samples of all that is sampled."""
+    from scipy.stats import qmc
+
+    names = list(distributions)
+    matrix = _matrix(names, correlation)
+    if not names:
+        return {}
+    probabilities = qmc.LatinHypercube(len(names), seed=np.random.default_rng(seed)).random(n)
+    correlated = sorted({names.index(what) for pair in correlation for what in pair})
+    if correlated:
+        part = _reorder(probabilities[:, correlated], matrix[np.ix_(correlated, correlated)])
+        probabilities[:, correlated] = part
+    samples = {what: distributions[what].quantile(probabilities[:, i]) for i, what in enumerate(names)}
+    for values in samples.values():
+        values.flags.writeable = False
+    return samples
+
+
+def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) -> FloatArray:
+    """Matrix of the correlations of all that is sampled."""
+    matrix = np.eye(len(names))
+    for pair, given in correlation.items():
+        if isinstance(pair, str) or len(pair) != 2 or pair[0] == pair[1]:
+            raise InputError(f"correlation: {pair!r}: must be two names")
+        for what in pair:
+            if what not in names:
+                known = ", ".join(map(repr, names)) or "none"
+                raise InputError(f"correlation: {what!r} is not sampled; these are: {known}")
+        value = _binding.as_number("correlation", given)
+        if not -1.0 < value < 1.0:
+            raise InputError(f"correlation of {pair[0]} and {pair[1]} = {value:g}: must lie between -1 and 1")
+        if pair[::-1] in correlation:
+            raise InputError(f"correlation of {pair[0]} and {pair[1]}: is given twice")
+        i, k = names.index(pair[0]), names.index(pair[1])
+        matrix[i, k] = matrix[k, i] = value
+    smallest = np.linalg.eigvalsh(matrix).min() if len(names) else 1.0
+    if smallest < 1e-9:
+        raise InputError(
+            f"correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is "
+            f"{smallest:.3g}, must be positive"
+        )
+    return matrix
+
+
+def _reorder(probabilities: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Change the order in each column so that the normal scores of the ranks have the given correlation.
+
+    Scores without correlation, L^-1 z with the Cholesky factor L of their own correlation, get the one wanted; their
+    ranks are taken over (Iman and Conover 1982).
+    """
+    from scipy import linalg, stats
+
+    n, count = probabilities.shape
+    rows = np.argsort(np.argsort(probabilities, axis=0), axis=0)
+    scores = stats.norm.ppf((rows + 1.0) / (n + 1.0))
+    try:
+        own = np.linalg.cholesky(np.atleast_2d(np.corrcoef(scores, rowvar=False)))
+    except np.linalg.LinAlgError:
+        raise InputError(f"n = {n}: too few walls for {count} correlated properties") from None
+    wanted = np.linalg.cholesky(matrix) @ linalg.solve_triangular(own, scores.T, lower=True)
+    ranks = np.argsort(np.argsort(wanted, axis=1), axis=1)
+    return np.take_along_axis(np.sort(probabilities, axis=0), ranks.T, axis=0)
+
+
+def _evaluate(
+    properties: Mapping[str, Property], prefix: str, sampled: Samples, known: Samples, n: int
+) -> dict[str, Any]:
+    """Values of all walls; functions come last, in their order, and see what is known before."""
+    values: dict[str, Any] = {}
+    for what, value in properties.items():
+        if isinstance(value, Distribution):
+            values[what] = sampled[prefix + what]
+        elif isinstance(value, str):
+            values[what] = value
+        elif not callable(value):
+            values[what] = np.full(n, _binding.as_number(what, value))
+    for what, value in properties.items():
+        if callable(value):
+            answer = np.asarray(value({**known, **values}))
+            if answer.dtype.kind not in "biuf" or answer.shape not in ((), (n,)):
+                raise InputError(f"{what}: its function must return {n} numbers or one")
+            values[what] = np.broadcast_to(answer.astype(np.float64), n)
+    return values
+
+
+def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
+    """Walls of one mechanism."""
+    pull = _binding.constants().gravity if gravity is None else _binding.as_number("gravity", gravity)
+    n = len(names)
+    numbers = {what: value for what, value in values.items() if what in _binding.WALL_NUMBERS}
+    restitutions = [values.get("restitution")] * n
+    data = _binding.describe_walls(names, [mechanism] * n, restitutions, numbers, np.full(n, pull))
+    return [wall_from(one) for one in data]
+
+
+def _origin(
+    title: str,
+    own: Mapping[str, Mapping[str, Property]],
+    variables: Mapping[str, Property],
+    correlation: Mapping[tuple[str, str], float],
+    properties: Mapping[str, Property],
+) -> tuple[str, ...]:
+    """What was sampled, in lines."""
+    given: dict[str, Property] = {**variables, **properties}
+    given |= {f"{mechanism}.{what}": value for mechanism, extra in own.items() for what, value in extra.items()}
+    said = [title]
+    for what, value in given.items():
+        said.append(f"{what} computed by {value.__name__}" if hasattr(value, "__name__") else f"{what} = {value!r}")
+    said += [f"correlation of {pair[0]} and {pair[1]} = {value!r}" for pair, value in correlation.items()]
+    return tuple(textwrap.wrap("; ".join(said), 110, break_long_words=False, break_on_hyphens=False))
+
+
+def _cut_normal(probability: FloatArray, low: float | None, high: float | None) -> FloatArray:
+    """Quantiles of the standard normal distribution between two ends."""
+    from scipy import stats
+
+    return stats.truncnorm(-np.inf if low is None else low, np.inf if high is None else high).ppf(probability)
+
+
+def _check_numbers(distribution: Any) -> None:
+    """Make the parameters of a distribution finite numbers."""
+    for field in dataclasses.fields(distribution):
+        value = getattr(distribution, field.name)
+        if value is None:
+            continue
+        number = _binding.as_number(field.name, value)
+        if not math.isfinite(number):
+            raise InputError(f"{field.name} = {number}: must be finite")
+        object.__setattr__(distribution, field.name, number)
+
+
+def _check_ends(low: float | None, high: float | None) -> None:
+    """The ends of a distribution must leave something between them."""
+    if low is not None and high is not None and not low < high:
+        raise InputError(f"high = {high:g}: must be greater than low = {low:g}")
+
+
+def _whole(name: str, value: Any, smallest: int) -> int:
+    """A whole number that is not too small."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < smallest:
+        raise InputError(f"{name} = {value!r}: must be a whole number of at least {smallest}")
+    return int(value)

@@ -1,0 +1,224 @@
+"""Populations: groups, mechanisms of one wall, tables, and size."""
+
+import math
+import pickle
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import dondolo as dd
+
+ROWS = [
+    dd.OneSidedWall(6.4, 0.38, name="a"),
+    dd.TwoBlockWall(3.2, 0.38, hinge=0.6, overburden=4000.0, eccentricity=0.05, restitution_factor=0.87, name="a"),
+    dd.FreeStandingWall(1.8, 0.4, restitution="constant", restitution_value=0.7, density=2000.0, name='b, "the" #2'),
+    dd.OneSidedWall(1.0, 0.25, name="c"),
+]
+PEOPLE = dd.Population(ROWS, [2.0, 2.0, 5.0, 0.0], ["low", "low", "high, free", ""], [0.4, 0.6, 1.0, 0.0])
+
+
+def same(one, other):
+    """Are all walls and all that is said of them the same to the bit?"""
+    return (
+        one.walls == other.walls
+        and [type(wall) for wall in one] == [type(wall) for wall in other]
+        and one.groups == other.groups
+        and np.array_equal(one.weights, other.weights)
+        and np.array_equal(one.p_occ, other.p_occ)
+    )
+
+
+def test_defaults():
+    people = dd.Population([dd.OneSidedWall(3.0, 0.25), dd.OneSidedWall(3.5, 0.25)])
+    assert people.groups == ("", "")
+    assert people.weights.tolist() == people.p_occ.tolist() == [1.0, 1.0]
+    assert [wall.name for wall in people] == ["wall 1", "wall 2"]
+    assert people.origin == ()
+    assert dd.Population(dd.OneSidedWall(3.0, 0.25))[0].name == "wall"
+
+
+def test_rows_and_parts():
+    assert len(PEOPLE) == 4
+    assert PEOPLE[1] is ROWS[1]
+    assert PEOPLE[-1] is ROWS[3]
+    part = PEOPLE[1:3]
+    assert isinstance(part, dd.Population)
+    assert part.walls == tuple(ROWS[1:3])
+    assert part.groups == ("low", "high, free")
+    assert part.weights.tolist() == [2.0, 5.0]
+    assert part.p_occ.tolist() == [0.6, 1.0]
+    assert [wall.name for wall in PEOPLE[::-1]] == ["c", 'b, "the" #2', "a", "a"]
+    assert same(PEOPLE.group("low"), PEOPLE[:2])
+    with pytest.raises(dd.InputError, match="group = 'none': must be one of 'low', 'high, free', ''"):
+        PEOPLE.group("none")
+    with pytest.raises(dd.InputError, match="walls: must be given"):
+        PEOPLE[4:]
+    assert not PEOPLE.p_occ.flags.writeable
+    assert same(pickle.loads(pickle.dumps(PEOPLE)), PEOPLE)
+
+
+def test_joined():
+    other = dd.Population([dd.OneSidedWall(2.0, 0.3, name="d")], [3.0], ["low"], [0.5], ["walls of the east"])
+    both = PEOPLE + other
+    assert len(both) == 5
+    assert same(both[:4], PEOPLE)
+    assert both.groups[4] == "low"
+    assert (both.weights[4], both.p_occ[4]) == (3.0, 0.5)
+    assert both.origin == ("walls of the east",)
+    assert len(both.group("low")) == 3
+    with pytest.raises(dd.InputError, match="name = 'd': both populations have a wall of this name"):
+        both + other
+    unnamed = dd.Population(dd.OneSidedWall(3.0, 0.25)) + dd.Population(dd.TwoBlockWall(3.0, 0.25))
+    assert [wall.name for wall in unnamed] == ["wall 1", "wall 2"]
+    with pytest.raises(TypeError):
+        both + ROWS
+
+
+def test_shown():
+    for text in (repr(PEOPLE), PEOPLE._repr_html_()):
+        for word in ("walls", "mechanisms", "sum of the weights", "low", "high, free"):
+            assert word in text
+    assert "walls 3, mechanisms 4, sum of the weights 7" in repr(PEOPLE)
+    assert "groups" not in repr(dd.Population(ROWS[:1]))
+    assert "1 to 6.4 m" in PEOPLE._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"p_occ": [0.4, 1.2, 1.0, 1.0]}, "wall 'a': p_occ = 1.2: must lie between 0 and 1"),
+        ({"p_occ": [0.4, 0.6, -0.1, 1.0]}, "wall 'b, \"the\" #2': p_occ = -0.1: must lie between 0 and 1"),
+        ({"p_occ": [0.4, 0.6, math.nan, 1.0]}, "wall 'b, \"the\" #2': p_occ = nan: must lie between 0 and 1"),
+        ({"p_occ": [0.4]}, "4 walls, 1 values of p_occ: must be as many"),
+        ({"weights": [2.0, 2.0, 1.0, -1.0]}, "wall 'c': weight = -1.0: must not be negative"),
+        ({"weights": [2.0, 2.0, 1.0, math.inf]}, "wall 'c': weight = inf: must not be negative"),
+        ({"weights": [0.0] * 4}, "weight: must be positive for at least one wall"),
+        ({"weights": [1.0, 2.0, 1.0, 1.0]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
+        ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
+        ({"groups": ["x", "x", "a\nb", ""]}, "wall 'b, \"the\" #2': group: must stand on one line"),
+        ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
+        ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
+        ({"origin": ["two\nlines"]}, "origin: must stand on one line"),
+    ],
+)
+def test_errors(arguments, sentence):
+    with pytest.raises(dd.InputError) as caught:
+        dd.Population(ROWS, **arguments)
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    ("order", "sentence"),
+    [
+        ([0, 2, 1], "name = 'a': another wall has this name; mechanisms of one wall must stand one after the other"),
+        ([0, 0], "name = 'a': another wall of this name has the same mechanism"),
+        ([0, 1, 0], "name = 'a': another wall of this name has the same mechanism"),
+    ],
+)
+def test_names(order, sentence):
+    with pytest.raises(dd.InputError) as caught:
+        dd.Population([ROWS[i] for i in order])
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_mechanisms_of_one_wall_run(few):
+    people = dd.Population(ROWS[:2], p_occ=[0.4, 0.6])
+    together = dd.typology(people, few, [0.5, 1.0], progress=False)
+    for i, wall in enumerate(ROWS[:2]):
+        alone = dd.multiple_stripe(wall, few, [0.5, 1.0], polarity="as_recorded", progress=False)
+        assert together.collapses[:, i].tolist() == alone.collapsed.sum(axis=1).tolist()
+
+
+def test_table(tmp_path):
+    named = dd.Population(PEOPLE.walls, PEOPLE.weights, PEOPLE.groups, PEOPLE.p_occ, ["surveyed in spring"])
+    named.to_csv(tmp_path / "walls.csv")
+    lines = (tmp_path / "walls.csv").read_text().splitlines()
+    assert lines[0] == "# surveyed in spring"
+    assert lines[1] == (
+        "name,mechanism,height,thickness,density,hinge,restitution,restitution_value,restitution_factor,"
+        "overburden,eccentricity,weight,group,p_occ"
+    )
+    assert lines[2] == "a,one_sided,6.4,0.38,1800,,default,,1,,,2,low,0.4"
+    assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,constant,0.7,1,,,5,"high, free",1'
+    back = dd.read_population(tmp_path / "walls.csv")
+    assert same(back, PEOPLE)
+    assert back.origin == ("read from walls.csv",)
+    with pytest.raises(dd.DondoloError, match="cannot be written"):
+        PEOPLE.to_csv(tmp_path / "nowhere" / "walls.csv")
+
+
+NAMES = st.text(st.characters(exclude_categories=("C", "Z")) | st.sampled_from(' ,"#;'), min_size=1, max_size=12)
+
+
+@given(
+    numbers=st.lists(st.floats(0.05, 1.0), min_size=4, max_size=4),
+    eccentricity=st.sampled_from([0.0, -0.0]) | st.floats(-1e-3, 1e-3),
+    weight=st.floats(1e-300, 1e12),
+    p_occ=st.floats(0.0, 1.0),
+    name=NAMES,
+    group=NAMES,
+)
+def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity, weight, p_occ, name, group):
+    height, thickness, hinge, load = numbers
+    wall = dd.TwoBlockWall(
+        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name.strip()
+    )
+    people = dd.Population([wall], [weight], [group.strip()], [p_occ])
+    path = tmp_path_factory.mktemp("tables") / "walls.csv"
+    people.to_csv(path)
+    back = dd.read_population(path)
+    assert same(back, people)
+    assert math.copysign(1.0, back[0].eccentricity) == math.copysign(1.0, eccentricity)
+
+
+def test_the_executable_reads_it(run, root, tmp_path):
+    PEOPLE.to_csv(tmp_path / "walls.csv")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology' output = 'x' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes levels = 0.5 /\n"
+    )
+    done = run("--check", "case.nml")
+    assert done.returncode == 0, done.stderr
+    case = dd.read_case(tmp_path / "case.nml")
+    assert same(case.population, PEOPLE)
+
+
+def test_many_walls_take_linear_time(tmp_path):
+    """What grew with the square of the number of walls took minutes here."""
+    count = 60_000
+    rows = (f"wall {i},one_sided,{2.0 + i / count!r},0.25,g{i % 7}\n" for i in range(count))
+    (tmp_path / "walls.csv").write_text("name,mechanism,height,thickness,group\n" + "".join(rows))
+    start = time.perf_counter()
+    people = dd.read_population(tmp_path / "walls.csv")
+    again = people + dd.Population([dd.OneSidedWall(3.0, 0.25, name="last")])
+    again.to_csv(tmp_path / "again.csv")
+    assert time.perf_counter() - start < 30.0
+    assert len(again) == count + 1
+    assert (people[-1].name, people.groups[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
+    text = (tmp_path / "walls.csv").read_text()
+    (tmp_path / "walls.csv").write_text(text + "wall 17,one_sided,3,0.25,\n")
+    with pytest.raises(dd.InputError, match=f"line {count + 2}: name = 'wall 17': another wall has this name"):
+        dd.read_population(tmp_path / "walls.csv")
+
+
+def test_figure(tmp_path):
+    for by in ("mechanism", "group"):
+        above, below = dd.plot_population(PEOPLE, by)
+        labels = above.get_legend_handles_labels()[1]
+        expected = {
+            "mechanism": ["one_sided (2)", "two_block (1)", "free_standing (1)"],
+            "group": ["low (2)", "high, free (1)", "no group (1)"],
+        }
+        assert labels == expected[by]
+        values = [patch.get_data().values for patch in below.patches]
+        sums = {"mechanism": [2.0, 2.0, 5.0], "group": [4.0, 5.0, 0.0]}
+        assert [value.sum() for value in values] == sums[by]
+        above.figure.savefig(tmp_path / "figure.png")
+    again = dd.plot_population(PEOPLE, axes=dd.plot_population(PEOPLE[:1]))
+    assert len(again) == 2
+    with pytest.raises(dd.InputError, match="by = 'colour'"):
+        dd.plot_population(PEOPLE, "colour")
