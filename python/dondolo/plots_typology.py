@@ -102,9 +102,10 @@ def plot_combination(typology: Typology, ax: Axes | None = None, group: str = ""
         ax = style.new_axes()
     grid = _grid(typology.levels)
     _band(ax, typology, grid, None, group, style.GREY)
+    where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
     for curve, line in zip(curves, _LINES[1:], strict=False):
         mean = typology.mean(grid, curve.mechanism, group)
-        text = f"{_words(curve.mechanism)}, {_parameters(curve.fit)}"
+        text = f"{_words(curve.mechanism)}{where}, {_parameters(curve.fit)}"
         ax.plot(grid, mean, color=style.BLUE, linestyle=line, label=text, zorder=3)
     mean = typology.mean(grid, None, group)
     text = f"{_words(whole.mechanism)}, {_parameters(whole.fit)}"
@@ -152,10 +153,7 @@ def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | Non
         ax.plot(grid, typology.mean(grid, mechanism, name), color=color, linestyle=_LINES[i % len(_LINES)], label=text)
     text = f"population: {whole.walls} walls, {_parameters(whole.fit)}"
     ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label=text)
-    ax = _finish(ax, typology, grid, "all mechanisms" if mechanism is None else _words(mechanism))
-    if len(names) > 6:
-        style.legend(ax, loc="upper left", bbox_to_anchor=(1.0, 1.0))
-    return ax
+    return _finish(ax, typology, grid, "all mechanisms" if mechanism is None else _words(mechanism))
 
 
 def plot_damage_states(
@@ -228,7 +226,7 @@ def _band(ax: Axes, typology: Typology, grid: Any, mechanism: str | None, group:
     ax.fill_between(grid, low, high, color=color, alpha=0.22, linewidth=0.0, label="16 to 84 % of the walls", zorder=2)
     for edge in (low, high):
         ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
-    ax.plot(grid, median, color=color, linewidth=1.3, linestyle=":", label="median of the walls", zorder=3)
+    ax.plot(grid, median, color=color, linewidth=1.6, linestyle=":", label="median of the walls", zorder=3)
 
 
 def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
@@ -238,7 +236,7 @@ def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
     ax.set_xlabel(style.im_label(what.im))
     ax.set_ylabel("probability of collapse")
     ax.set_title(title, loc="left", parse_math=False)
-    style.legend(ax, loc="upper left")
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     return ax
 
 

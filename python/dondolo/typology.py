@@ -223,7 +223,7 @@ class Typology:
         """
         values = _levels_of(x)
         probabilities, _ = self._members(mechanism, group).at(values.ravel())
-        return probabilities.reshape(-1, *values.shape)
+        return probabilities.reshape((-1, *values.shape))
 
     def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
         """Weighted mean of the walls' curves at any levels; arguments as those of `probabilities`.
@@ -273,7 +273,7 @@ class Typology:
                 place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
                 found[:, done + k] = probabilities[order[place, k], k]
             done += probabilities.shape[1]
-        return found.reshape(*shares.shape, *values.shape)
+        return found.reshape(shares.shape + values.shape)
 
     def _members(self, mechanism: str | None, group: str) -> _Members:
         """The walls behind a curve."""
