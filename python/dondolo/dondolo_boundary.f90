@@ -19,7 +19,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
+   public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
    public :: set_walls, set_records, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -116,6 +116,23 @@ contains
       line = trim(text(at:at + length - 1))
       at = min(at + length + 1, len(text) + 1)
    end subroutine next_line
+
+   !> All lines of a text
+   subroutine split_lines(text, lines)
+      !> Lines, each ended by new_line
+      character(len=*), intent(in) :: text
+      !> The lines
+      type(lines_type), intent(out) :: lines
+
+      character(len=:), allocatable :: line
+      integer :: at
+
+      at = 1
+      do while (at <= len(text))
+         call next_line(text, at, line)
+         call lines%add(line)
+      end do
+   end subroutine split_lines
 
    !> Lines as one text
    pure function pack_lines(lines) result(text)

@@ -50,6 +50,10 @@ module dondolo_warnings
       integer :: number(size(telling)) = 0
       !> Wall of the first with each
       type(line_type) :: first(size(telling))
+      !> Wall of the curve looked at last
+      character(len=:), allocatable :: last
+      !> Has a wall several mechanisms?
+      logical :: several = .false.
    contains
       !> Look at the curve of a wall
       procedure :: look => look_at_curve
@@ -155,7 +159,7 @@ contains
       end select
    end subroutine warn_of_fit
 
-   !> Look at the curve of a wall
+   !> Look at the curve of a wall, or of its mechanisms one after the other
    subroutine look_at_curve(self, curve, name)
       !> What there is to say
       class(fit_warning_type), intent(inout) :: self
@@ -167,6 +171,8 @@ contains
       integer :: i
 
       self%curves = self%curves + 1
+      if (allocated(self%last)) self%several = self%several .or. self%last == name
+      self%last = name
       i = findloc(telling, curve%status, dim=1)
       if (i == 0) return
       self%number(i) = self%number(i) + 1
@@ -182,14 +188,16 @@ contains
       !> Warnings to add to
       type(lines_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: consequence, which
+      character(len=:), allocatable :: consequence, which, walls
       integer :: i
 
+      walls = ' walls '
+      if (self%several) walls = ' mechanisms of walls '
       do i = 1, size(telling)
          if (self%number(i) == 0) cycle
          consequence = 'have no fit and take part with their fractions of collapse'
          if (telling(i) == 'extrapolated') consequence = 'have a median outside the levels'
-         call warnings%add(to_text(self%number(i))//' of '//to_text(self%curves)//' walls '//consequence//' ('// &
+         call warnings%add(to_text(self%number(i))//' of '//to_text(self%curves)//walls//consequence//' ('// &
             & trim(telling(i))//'; the first is '''//self%first(i)%text//''')')
       end do
       do i = 1, size(typologies)
