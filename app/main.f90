@@ -94,7 +94,7 @@ contains
       !> Paths of the files of counts
       type(lines_type), intent(in) :: parts
       !> Results
-      type(results_type), intent(inout) :: results
+      type(results_type), intent(out) :: results
       !> Not a case of a population, or a file that does not belong to it
       type(error_type), allocatable, intent(out) :: error
 

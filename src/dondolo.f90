@@ -23,13 +23,15 @@ module dondolo
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_metadata, only : entry_type, metadata_type
-   use dondolo_population, only : population_type, read_population
+   use dondolo_population, only : member_type, population_reader_type, read_population
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_response, only : response_type, trace_type
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
-   use dondolo_run_case, only : results_type, run_case
+   use dondolo_results, only : results_type
+   use dondolo_run_case, only : run_case
+   use dondolo_run_population, only : merge_population
    use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
    use dondolo_queue, only : progress_interface
    use dondolo_simulate, only : simulate
@@ -60,7 +62,7 @@ module dondolo
    public :: fragility_type, fit_fragility, typology_type, combination_type, combine_population
    public :: wall_curves_type, new_wall_curves
    ! Cases
-   public :: case_type, read_case, results_type, run_case, check_reports, write_reports
-   public :: population_type, read_population
+   public :: case_type, read_case, results_type, run_case, merge_population, check_reports, write_reports
+   public :: member_type, population_reader_type, read_population
 
 end module dondolo

@@ -2,16 +2,19 @@
 program test_case
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_case, only : case_type, read_case
+   use dondolo_counts, only : counts_type
    use dondolo_error, only : error_type, status_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
-   use dondolo_population, only : population_type, read_population
+   use dondolo_population, only : member_type, read_population
    use dondolo_reports, only : check_reports, write_reports
-   use dondolo_run_case, only : plan_case, results_type, run_case
+   use dondolo_results, only : results_type
+   use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, same_file
    use dondolo_text, only : to_text
+   use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
    implicit none
 
@@ -29,8 +32,6 @@ program test_case
       & "&population file = 'walls.csv' /"//lf//records//"&stripes first = 0.3, last = 1.2, count = 4 /"
 
    !> What was last heard of the progress, and whether it never went back
-   integer :: last_done
-   logical :: is_monotonic
 
    call execute_command_line('rm -rf '//scratch//' && mkdir -p '//scratch)
    call write_inputs()
@@ -42,8 +43,6 @@ program test_case
    call test_echo()
    call test_run()
    call test_work()
-   call test_threads()
-   call test_first_error()
    call test_output()
    call finish()
 
@@ -152,15 +151,15 @@ contains
       call check_close(case%solver%gravity, 9.81_wp, 0.0_wp, 'gravity')
       call check_close(case%solver%solver%edp_limit, 1.0_wp, 0.0_wp, 'edp_limit')
       call check(.not. case%solver%solver%estimate_error, 'estimate_error')
-      call check_close(case%population%walls(1)%input%density, 1800.0_wp, 0.0_wp, 'density')
-      call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 9.81_wp/12.0_wp, 1.0e-14_wp, &
+      call check_close(case%wall%input%density, 1800.0_wp, 0.0_wp, 'density')
+      call check_close(case%wall%mechanism%trigger_acceleration(), 9.81_wp/12.0_wp, 1.0e-14_wp, &
          & 'trigger')
       call write_file('a.nml', "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"// &
          & "&records catalogue = 'records.csv' / &stripes levels = 0.1 / &solver gravity = 5 /")
       call read_case(scratch//'/a.nml', case, error)
-      call check_close(case%population%walls(1)%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
+      call check_close(case%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
          & 'gravity enters the wall')
-      call check_close(case%scale_to(1, 1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
+      call check_close(case%scale_to(1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
    end subroutine test_defaults
 
    !> Levels from a grid
@@ -183,22 +182,24 @@ contains
 
    !> A population
    subroutine test_population()
-      type(population_type) :: population
+      type(member_type), allocatable :: members(:)
       type(error_type), allocatable :: error
 
       call suite('population')
-      call read_population(scratch//'/walls.csv', population, error)
+      call read_population(scratch//'/walls.csv', members, error)
       call check_ok(error, 'a population')
       if (allocated(error)) return
-      call check(size(population%walls) == 3, 'walls')
-      call check(all(population%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
-      call check_text(population%walls(2)%input%name, 'wall 2', 'a name that is not given')
-      call check_text(population%walls(3)%input%name, 'a, b', 'a name with a comma')
-      call check_close(population%walls(2)%input%hinge, 0.6_wp, 0.0_wp, 'hinge')
-      call check(.not. allocated(population%walls(1)%input%hinge), 'an empty cell was not given')
-      call check(population%walls(2)%mechanism%two_sided, 'mechanism')
-      call read_population(scratch//'/walls.csv', population, error, gravity=5.0_wp)
-      call check_close(population%walls(1)%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
+      call check(size(members) == 3, 'walls')
+      call check(all(members%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
+      call check(all(members%p_occ == 1.0_wp) .and. .not. any(members%continues), 'mechanisms that can occur')
+      call check_text(members(2)%wall%input%name, 'wall 2', 'a name that is not given')
+      call check_text(members(3)%wall%input%name, 'a, b', 'a name with a comma')
+      call check_text(members(3)%group, '', 'no group')
+      call check_close(members(2)%wall%input%hinge, 0.6_wp, 0.0_wp, 'hinge')
+      call check(.not. allocated(members(1)%wall%input%hinge), 'an empty cell was not given')
+      call check(members(2)%wall%mechanism%two_sided, 'mechanism')
+      call read_population(scratch//'/walls.csv', members, error, gravity=5.0_wp)
+      call check_close(members(1)%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
    end subroutine test_population
 
    !> The echo of a case is a case with the same echo
@@ -243,7 +244,9 @@ contains
    subroutine test_run()
       type(case_type) :: case
       type(results_type) :: stripes, history, typology
+      type(counts_type) :: first, second
       type(error_type), allocatable :: error
+      logical :: found
       integer :: i
 
       call suite('run')
@@ -252,8 +255,8 @@ contains
       if (.not. allocated(error)) call run_case(case, stripes, error, threads=1)
       call check_ok(error, 'stripes')
       if (allocated(error)) return
-      call check(all(stripes%collapses(:, 1) == stripes%stripes%collapses()), 'collapses')
-      call check(all(stripes%histories == [2]), 'polarity does not double the histories of a symmetric wall')
+      call check(all(stripes%reached(:, 1) == stripes%stripes%collapses()), 'collapses')
+      call check(all(stripes%stripes%record == [1, 2]), 'polarity does not double the histories of a symmetric wall')
       call check(any(stripes%stripes%response%edp > 0.0_wp), 'something moves')
 
       call write_file('a.nml', history_case)
@@ -276,13 +279,17 @@ contains
       if (.not. allocated(error)) call run_case(case, typology, error)
       call check_ok(error, 'typology')
       if (allocated(error)) return
-      call check(size(typology%fragility) == 3, 'a curve for each wall')
-      associate (whole => typology%typologies(size(typology%typologies)))
+      call check(size(typology%shown) == 3, 'a curve for each wall')
+      call typology%counts%open(error)
+      call typology%counts%next(first, found, error)
+      call typology%counts%next(second, found, error)
+      associate (whole => typology%typologies(size(typology%typologies, 1), 1))
          do i = 1, 4
-            call check_close(whole%mean_fraction(i), (2.0_wp*real(typology%collapses(i, 1), wp) &
-               & + real(typology%collapses(i, 2), wp))/6.0_wp, 1.0e-14_wp, 'weighted mean', atol=1.0e-15_wp)
+            call check_close(whole%mean_fraction(i), (2.0_wp*real(first%reached(i, 1), wp) &
+               & + real(second%reached(i, 1), wp))/6.0_wp, 1.0e-14_wp, 'weighted mean', atol=1.0e-15_wp)
          end do
       end associate
+      call typology%counts%remove()
    end subroutine test_run
 
    !> What was computed, and what can be told of it before
@@ -291,12 +298,13 @@ contains
       type(results_type) :: results
       type(error_type), allocatable :: error
       type(work_type) :: planned
+      type(scale_warning_type) :: scales
 
       call suite('work')
       call write_file('a.nml', stripes_case)
       call read_case(scratch//'/a.nml', case, error)
       if (.not. allocated(error)) call run_case(case, results, error, threads=1)
-      if (.not. allocated(error)) call plan_case(case, planned, error)
+      if (.not. allocated(error)) call plan_case(case, planned, scales, error)
       call check_ok(error, 'stripes')
       if (allocated(error)) return
       associate (work => results%work)
@@ -312,11 +320,11 @@ contains
 
       ! Levels just below and just above the trigger acceleration: every record reaches the level as its peak, which
       ! is a minimum or a maximum, and this wall is one-sided
-      associate (mechanism => case%population%walls(1)%mechanism)
+      associate (mechanism => case%wall%mechanism)
          case%stripes%levels = [0.999_wp, 1.001_wp]*mechanism%trigger_acceleration()/case%solver%gravity
       end associate
       call run_case(case, results, error)
-      if (.not. allocated(error)) call plan_case(case, planned, error)
+      if (.not. allocated(error)) call plan_case(case, planned, scales, error)
       call check_ok(error, 'around the trigger')
       if (allocated(error)) return
       call check(results%work%still == planned%still, 'what moves is known to the last')
@@ -329,72 +337,6 @@ contains
       call run_case(case, results, error)
       call check(results%work%histories == 4, 'an estimate of errors runs everything twice')
    end subroutine test_work
-
-   !> A population gives the same on any number of threads: walls shared out, some of them, none
-   subroutine test_threads()
-      type(case_type) :: case
-      type(results_type) :: alone, several
-      type(error_type), allocatable :: error
-      integer :: threads, i
-
-      call suite('threads')
-      ! Levels so high that scale factors are worth a warning
-      call write_file('a.nml', typology_case(:index(typology_case, '&stripes') - 1)//"&stripes levels = 0.3, 1, 9 /")
-      call read_case(scratch//'/a.nml', case, error)
-      if (.not. allocated(error)) call run_case(case, alone, error, 1)
-      call check_ok(error, 'one thread')
-      if (allocated(error)) return
-      call check(alone%work%histories == 3*sum(alone%histories), 'work of all walls')
-      do threads = 2, 5
-         last_done = 0
-         is_monotonic = .true.
-         call run_case(case, several, error, threads, hear)
-         call check_ok(error, to_text(threads)//' threads')
-         call check(last_done == 3*sum(alone%histories), 'all is reported done')
-         call check(is_monotonic, 'the work never goes back')
-         call check(all(several%collapses == alone%collapses), 'collapses')
-         call check(all(several%fragility%theta == alone%fragility%theta), 'curves')
-         call check(all(several%work%counts() == alone%work%counts()), 'counts of work')
-         call check(several%warnings%count == alone%warnings%count .and. alone%warnings%count > 0, 'warnings')
-         do i = 1, alone%warnings%count
-            call check_text(several%warnings%line(i)%text, alone%warnings%line(i)%text, 'warning '//to_text(i))
-         end do
-      end do
-
-   end subroutine test_threads
-
-   !> Hear how far the work is
-   subroutine hear(done, total)
-      integer, intent(in) :: done, total
-
-      is_monotonic = is_monotonic .and. done >= last_done .and. done <= total
-      last_done = done
-   end subroutine hear
-
-   !> Of several walls that cannot be run, the first is named, whichever thread meets the others
-   subroutine test_first_error()
-      type(case_type) :: case
-      type(results_type) :: results
-      type(error_type), allocatable :: error
-      integer :: threads, i
-
-      call suite('first error')
-      call write_file('a.nml', typology_case)
-      call read_case(scratch//'/a.nml', case, error)
-      call check_ok(error, 'case')
-      if (allocated(error)) return
-      associate (bad => case%population%walls(2)%mechanism, good => case%population%walls(1)%mechanism)
-         case%solver%solver%edp_limit = 0.5_wp*(bad%geometric_end()/bad%capacity + good%geometric_end()/good%capacity)
-      end associate
-      ! The first wall can be run, no other can.
-      case%population%walls = case%population%walls([1, (2, i=1, 7)])
-      case%population%weight = spread(1.0_wp, 1, 8)
-      case%population%walls(2)%input%name = 'the first'
-      do threads = 1, 4
-         call run_case(case, results, error, threads)
-         call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')
-      end do
-   end subroutine test_first_error
 
    !> Result files appear whole or not at all
    subroutine test_output()

@@ -41,6 +41,8 @@ class Fragility:
         What it was fitted to.
     im : str
         Intensity measure.
+    edp : float or None
+        Rotation / capacity of the damage state; None where only counts were given.
     stripes : Stripes or None
         The analysis behind it, which `bootstrap` needs.
     """
@@ -56,6 +58,7 @@ class Fragility:
     histories: FloatArray
     im: str = ""
     wall: Wall | None = None
+    edp: float | None = None
     stripes: Stripes | None = field(default=None, repr=False)
 
     @property

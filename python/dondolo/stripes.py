@@ -131,6 +131,7 @@ class Stripes:
             self.histories.astype(np.float64),
             im=self.im,
             wall=self.wall,
+            edp=state.edp_limit,
             stripes=state,
         )
         low, high = curve.bracket
@@ -151,7 +152,12 @@ class Stripes:
         return {
             "histories": lambda: tables.histories_table(self),
             "stripes": lambda: tables.stripes_table(
-                [self.wall], self.im, self.levels, self.collapses[:, None], [self.edp.shape[1]]
+                [self.wall],
+                self.im,
+                self.levels,
+                [self.edp_limit],
+                self.collapses[None, :, None],
+                [self.edp.shape[1]],
             ),
             "walls": lambda: tables.walls_table([self.wall]),
         }

@@ -180,21 +180,23 @@ def stripes_table(
     walls: Sequence[Wall],
     im: str,
     levels: _binding.FloatArray,
-    collapses: np.ndarray[Any, Any],
+    edp_thresholds: Sequence[float],
+    exceedances: np.ndarray[Any, Any],
     histories: Sequence[int],
 ) -> Table:
-    """Columns of ``_stripes.csv``; collapses are (levels, walls)."""
-    number = len(levels)
-    counts = collapses.T.ravel()
-    sizes = np.repeat(np.asarray(histories), number)
+    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls)."""
+    states, number = len(edp_thresholds), len(levels)
+    counts = exceedances.transpose(2, 0, 1).ravel()
+    sizes = np.repeat(np.asarray(histories), states * number)
     return {
-        "wall": [wall.name for wall in walls for _ in range(number)],
-        "mechanism": [wall.mechanism for wall in walls for _ in range(number)],
+        "wall": [wall.name for wall in walls for _ in range(states * number)],
+        "mechanism": [wall.mechanism for wall in walls for _ in range(states * number)],
         "im": [im] * len(counts),
-        "im_level": np.tile(levels, len(walls)),
+        "im_level": np.tile(levels, states * len(walls)),
         "histories": sizes,
         "collapses": counts,
         "fraction": counts / sizes,
+        "edp_threshold": np.tile(np.repeat(np.asarray(edp_thresholds), number), len(walls)),
     }
 
 
@@ -212,30 +214,17 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "status": [curve.status for curve in curves],
         "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
         "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
+        "edp_threshold": [curve.edp for curve in curves],
     }
 
 
-def states_table(typology: Typology, table_of: Callable[[Typology], Table]) -> Table:
-    """A table of a population, one block of rows a damage state."""
-    blocks = []
-    for edp in typology.edp_thresholds:
-        table = table_of(typology.at(edp))
-        rows = len(next(iter(table.values())))
-        blocks.append({**table, "edp_threshold": [edp] * rows})
+def typology_table(typology: Typology) -> Table:
+    """Columns of ``_typology.csv``, one block of rows a damage state."""
+    blocks = [_typology_of(typology.at(edp)) for edp in typology.edp_thresholds]
     return {name: [value for block in blocks for value in block[name]] for name in blocks[0]}
 
 
-def stripes_of(typology: Typology) -> Table:
-    """Columns of ``_stripes.csv`` of a population in one damage state."""
-    return stripes_table(typology.walls, typology.im, typology.levels, typology.collapses, list(typology.histories))
-
-
-def fragility_of(typology: Typology) -> Table:
-    """Columns of ``_fragility.csv`` of a population in one damage state."""
-    return fragility_table(typology.walls, typology.curves)
-
-
-def typology_of(typology: Typology) -> Table:
+def _typology_of(typology: Typology) -> Table:
     """Columns of ``_typology.csv`` of one damage state."""
     number, groups = len(typology.levels), typology.groups
 
@@ -258,6 +247,7 @@ def typology_of(typology: Typology) -> Table:
         "fractile_84": np.concatenate([group.fractiles[2] for group in groups]),
         "beta_walls": repeated(group.beta_walls for group in groups),
         "beta_records": repeated(group.beta_records for group in groups),
+        "edp_threshold": [typology.edp_thresholds[-1]] * (number * len(groups)),
     }
 
 

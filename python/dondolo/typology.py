@@ -295,11 +295,18 @@ class Typology:
 
     def _tables(self) -> dict[str, Any]:
         return {
-            "typology": lambda: tables.states_table(self, tables.typology_of),
-            "fragility": lambda: tables.states_table(self, tables.fragility_of),
-            "stripes": lambda: tables.states_table(self, tables.stripes_of),
+            "typology": lambda: tables.typology_table(self),
+            "fragility": self._curves_table,
+            "stripes": lambda: tables.stripes_table(
+                self.walls, self.im, self.levels, self.edp_thresholds, self.exceedances, list(self.histories)
+            ),
             "walls": lambda: self.population._table(),
         }
+
+    def _curves_table(self) -> tables.Table:
+        states = [self.at(edp).curves for edp in self.edp_thresholds]
+        walls = [wall for wall in self.walls for _ in states]
+        return tables.fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
     def to_frame(self, table: str = "typology") -> Any:
         """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
@@ -519,6 +526,7 @@ def _combine(
 ) -> tuple[Typology, list[str]]:
     """The curves of the last state."""
     walls = people.walls
+    origin = {"im": im, "edp": float(edp_thresholds[-1])}
     first = _first_rows([wall.name for wall in walls])
     rows = np.diff(np.append(first, len(walls))).astype(np.int32)
     words = (
@@ -530,7 +538,7 @@ def _combine(
     counts = exceedances[-1].T
     data = _binding.fit_walls(texts, levels, counts, histories, people.weights, people.p_occ, rows)
     own = tuple(
-        curve_of(curve, levels, z, np.full(len(levels), float(n)), im=im, wall=wall)
+        curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
         for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)
     )
     combined = {}
@@ -539,11 +547,11 @@ def _combine(
             combined[walls[i].name] = own[i]
             continue
         n = np.full(len(levels), float(histories[i : i + number].min()))
-        combined[walls[i].name] = curve_of(curve, levels, n * fraction, n, im=im)
+        combined[walls[i].name] = curve_of(curve, levels, n * fraction, n, **origin)
     together = []
     for group in data.groups:
         n = np.full(len(levels), group.histories)
-        fit = curve_of(group.curve, levels, np.minimum(n * group.mean_fraction, n), n, im=im)
+        fit = curve_of(group.curve, levels, np.minimum(n * group.mean_fraction, n), n, **origin)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
         means = (group.mean_fraction, group.mean_curve, group.fractiles)
         together.append(

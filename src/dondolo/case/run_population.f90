@@ -63,7 +63,7 @@ contains
       !> Paths of the files, in any order
       type(lines_type), intent(in) :: paths
       !> Results
-      type(results_type), intent(inout) :: results
+      type(results_type), intent(out) :: results
       !> A file is none of this case, or not complete, or rows are missing or stand in two files
       type(error_type), allocatable, intent(out) :: error
 

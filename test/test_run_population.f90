@@ -1,0 +1,493 @@
+!> Tests of populations that run in blocks: everything wrong at once, the same for any threads and blocks, runs that were
+!> killed at any byte, parts that are merged.
+program test_run_population
+   use, intrinsic :: iso_fortran_env, only : int64
+   use checks, only : check, check_error, check_ok, check_text, finish, suite
+   use dondolo_case, only : case_type, read_case
+   use dondolo_counts, only : counts_type
+   use dondolo_counts_file, only : append_counts, counts_file_type, create_counts, inspect_counts
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_population, only : member_type, read_population
+   use dondolo_reports, only : write_reports
+   use dondolo_results, only : results_type
+   use dondolo_run_case, only : run_case
+   use dondolo_run_population, only : counts_path, merge_population
+   use dondolo_run_rows, only : run_rows
+   use dondolo_system, only : remove_file
+   use dondolo_text, only : to_text
+   use dondolo_work, only : work_type
+   implicit none
+
+   character(len=*), parameter :: scratch = 'build/test_run_population', lf = new_line('a')
+
+   !> Five walls of three groups, two with two mechanisms
+   character(len=*), parameter :: population = 'name,mechanism,height,thickness,hinge,weight,group,p_occ'//lf// &
+      & 'a,one_sided,3,0.25,,2,old,0.7'//lf//'a,two_block,3,0.25,0.6,2,old,0.4'//lf// &
+      & 'b,one_sided,2,0.3,,1,new,'//lf//'c,free_standing,1,0.2,,1,,'//lf//'d,two_block,4,0.3,0.5,3,new,'//lf// &
+      & 'e,one_sided,2.5,0.25,,1,old,1'//lf//'e,two_block,2.5,0.25,,1,old,0.5'//lf
+
+   character(len=*), parameter :: case_text = "&job task = 'typology' output = '"//scratch//"/out/z' histories = T /"// &
+      & lf//"&population file = 'walls.csv' /"//lf//"&records catalogue = 'records.csv' polarity = 'both' /"//lf// &
+      & "&stripes levels = 0.1, 0.2, 0.35, 0.5, 0.8, 9, edp_thresholds = 0.2, 1 /"
+
+   character(len=9), parameter :: tables(5) = [character(len=9) :: 'walls', 'histories', 'stripes', 'fragility', &
+      & 'typology']
+
+   integer :: last_done
+   logical :: is_monotonic
+
+   call make_files()
+   call test_problems()
+   call test_threads()
+   call test_first_error()
+   call test_file()
+   call test_killed()
+   call test_parts()
+   call finish()
+
+contains
+
+   !> The files of the case
+   subroutine make_files()
+
+      call execute_command_line('rm -rf '//scratch//' && mkdir -p '//scratch//'/out')
+      call write_file('records.csv', 'file,dt_s,units'//lf//'one.txt,0.02,m/s2'//lf//'two.txt,0.02,m/s2'//lf)
+      call write_file('one.txt', waves(1.0_wp))
+      call write_file('two.txt', waves(1.7_wp))
+      call write_file('walls.csv', population)
+      call write_file('a.nml', case_text)
+   end subroutine make_files
+
+   !> Ground motion: two waves that grow and fade
+   function waves(frequency) result(text)
+      real(wp), intent(in) :: frequency
+      character(len=:), allocatable :: text
+
+      character(len=16) :: number
+      integer :: i
+
+      text = ''
+      do i = 0, 400
+         associate (t => 0.02_wp*real(i, wp))
+            write (number, '(f12.6)') sin(6.0_wp*frequency*t)*t*exp(-t) + 0.3_wp*sin(17.0_wp*t)*exp(-0.5_wp*t)
+         end associate
+         text = text//trim(adjustl(number))//lf
+      end do
+   end function waves
+
+   !> Everything that is wrong with a population is said at once
+   subroutine test_problems()
+      type(case_type) :: case
+      type(member_type), allocatable :: members(:)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call suite('problems')
+      call write_file('walls.csv', 'name,mechanism,height,thickness,weight,group,p_occ'//lf// &
+         & 'a,one_sided,3,0.25,,,'//lf//'a,one_sided,3,0.25,,,'//lf//'b,one_sided,-3,0.25,,,'//lf// &
+         & 'c,one_sided,x,0.25,,,'//lf//'d,one_sided,3'//lf//'e,one_sided,3,0.25,-1,,'//lf// &
+         & 'f,one_sided,3,0.25,,,1.5'//lf//'g,one_sided,3,0.25,2,x,'//lf//'g,two_block,3,0.25,3,x,'//lf// &
+         & 'h,one_sided,3,0.25,,x,'//lf//'h,two_block,3,0.25,,y,'//lf//'a,two_block,3,0.25,,,'//lf// &
+         & 'i,"o'//lf//'n",3,0.25,,,'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_problems(error)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_problems(error)
+      call write_file('walls.csv', population//'j,two_block,2,0.2,0.5,1,new,1'//lf)
+      call write_file('a.nml', case_text//' &solver edp_limit = 25 /')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'walls.csv: line 2: edp_limit = 25', 'a limit beyond the geometry')
+      if (allocated(error)) call check(lines_of(error%message) == 8, 'of every wall')
+      call write_file('a.nml', case_text)
+      call write_file('walls.csv', 'name,mechanism,height,thickness,weight'//lf//'a,one_sided,3,0.25,0'//lf)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'walls.csv: weight: must be positive for at least one wall', 'no weight at all')
+      call write_file('walls.csv', 'name,mechanism,height,thickness,weight'//lf)
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'walls.csv: no walls under the header', 'no walls')
+      call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//repeat_groups(65))
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'walls.csv: line 66: group = ''g65'': there may be at most 64 groups', 'groups')
+      call write_file('walls.csv', 'mechanism,height,thickness'//lf//repeat('one_sided,3,-0.25'//lf, 100))
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'more', 'more problems than fit')
+      if (allocated(error)) then
+         i = lines_of(error%message)
+         call check_text(error%message(index(error%message, lf, back=.true.) + 1:), 'and '//to_text(101 - i)// &
+            & ' more', 'the rest is counted')
+      end if
+      call write_file('walls.csv', population)
+      call read_case(scratch//'/a.nml', case, error, [8, 9])
+      call check_error(error, '--walls 8:9: the population has 7 rows', 'rows that are not there')
+   end subroutine test_problems
+
+   !> Rows of so many groups
+   function repeat_groups(number) result(text)
+      integer, intent(in) :: number
+      character(len=:), allocatable :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, number
+         text = text//'one_sided,3,0.25,g'//to_text(i)//lf
+      end do
+   end function repeat_groups
+
+   !> The problems of the first population above
+   subroutine check_problems(error)
+      type(error_type), allocatable, intent(in) :: error
+
+      character(len=*), parameter :: problems(9) = [character(len=80) :: &
+         & 'line 3: name = ''a'': the row before gives this wall the same mechanism', &
+         & 'line 4: height = -3: must', 'line 5: height = ''x'': must be a number', 'line 6: 3 cells: must be 7', &
+         & 'line 7: weight = -1: must lie between 0 and', 'line 8: p_occ = 1.5: must lie between 0 and 1', &
+         & 'line 10: weight = 3: must be 2 as in the row before', 'line 12: group = ''y'': must be ''x'' as in the row', &
+         & 'line 13: name = ''a'': another wall has this name (line 2)']
+      integer :: i
+
+      do i = 1, size(problems)
+         call check_error(error, trim(problems(i)), 'problem '//to_text(i))
+      end do
+      call check_error(error, 'line 14: mechanism = ''o n'': must be', 'a line end in a cell')
+      if (allocated(error)) call check(lines_of(error%message) == 10, 'no more problems than there are')
+   end subroutine check_problems
+
+   !> Number of lines of a text
+   pure integer function lines_of(text)
+      character(len=*), intent(in) :: text
+
+      integer :: i
+
+      lines_of = 1
+      do i = 1, len(text)
+         if (text(i:i) == lf) lines_of = lines_of + 1
+      end do
+   end function lines_of
+
+   !> A population gives the same on any number of threads: rows shared out, some of them, none
+   subroutine test_threads()
+      type(case_type) :: case
+      type(results_type) :: alone, several
+      type(error_type), allocatable :: error
+      integer :: threads, i
+
+      call suite('threads')
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, alone, error, 1)
+      call check_ok(error, 'one thread')
+      if (allocated(error)) return
+      call check(alone%work%histories == case%survey%histories, 'work of all rows')
+      call check(case%survey%rows == 7 .and. case%survey%walls == 5, 'rows and walls')
+      call check(size(alone%typologies, 2) == 2, 'a typology for each threshold')
+      call write_tables(case, alone, 'whole')
+      do threads = 2, 9
+         last_done = 0
+         is_monotonic = .true.
+         call run_case(case, several, error, threads, hear)
+         call check_ok(error, to_text(threads)//' threads')
+         call check(last_done == case%survey%histories, 'all is reported done')
+         call check(is_monotonic, 'the work never goes back')
+         call check(all(several%work%counts() == alone%work%counts()), 'counts of work')
+         call check(several%warnings%count == alone%warnings%count .and. alone%warnings%count > 0, 'warnings')
+         do i = 1, alone%warnings%count
+            call check_text(several%warnings%line(i)%text, alone%warnings%line(i)%text, 'warning '//to_text(i))
+         end do
+         call write_tables(case, several, 'threads')
+         call compare_tables('threads', to_text(threads)//' threads')
+      end do
+   end subroutine test_threads
+
+   !> Hear how far the work is
+   subroutine hear(done, total)
+      integer, intent(in) :: done, total
+
+      is_monotonic = is_monotonic .and. done >= last_done .and. done <= total
+      last_done = done
+   end subroutine hear
+
+   !> Of several rows that cannot be run, the first is named, whichever thread meets the others
+   subroutine test_first_error()
+      type(case_type) :: case
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      integer :: threads, i
+
+      call suite('first error')
+      call read_case(scratch//'/a.nml', case, error)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'population')
+      if (allocated(error)) return
+      associate (bad => members(2)%wall%mechanism, good => members(1)%wall%mechanism)
+         case%solver%solver%edp_limit = 0.5_wp*(bad%geometric_end()/bad%capacity + good%geometric_end()/good%capacity)
+      end associate
+      ! The first row can be run, no other can.
+      members = members([1, (2, i=1, 7)])
+      members(2)%wall%input%name = 'the first'
+      do threads = 1, 4
+         call run_rows(case, members, 1, rows, work, error, threads, 0)
+         call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')
+      end do
+   end subroutine test_first_error
+
+   !> The file of counts is what it was made of, and anything else is refused
+   subroutine test_file()
+      type(case_type) :: case
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(counts_type) :: row
+      type(counts_file_type) :: file
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: path = scratch//'/out/rows.counts'
+      logical :: exists, found
+      integer :: i, k
+
+      call suite('file of counts')
+      call read_case(scratch//'/a.nml', case, error)
+      call read_population(scratch//'/walls.csv', members, error)
+      call run_rows(case, members, 1, rows, work, error, 1, 0)
+      call check_ok(error, 'rows')
+      if (allocated(error)) return
+      call make_part(case, path, 1, 7, [3, 4])
+      call inspect_counts(path, file, exists, error)
+      call check_ok(error, 'file')
+      call check(exists .and. file%done == 7 .and. file%first == 1 .and. file%last == 7, 'rows of the file')
+      call check(all(file%work%counts() == work%counts()), 'work of the file')
+      call file%open(error)
+      do i = 1, 7
+         call file%next(row, found, error)
+         call check(found .and. row%row == i .and. (row%continues .eqv. any(i == [2, 7])), 'row '//to_text(i))
+         if (.not. found) exit
+         call check(row%histories == rows(i)%histories .and. all(row%reached == rows(i)%reached), 'counts')
+         call check(row%mechanism == rows(i)%mechanism .and. row%group == rows(i)%group, 'mechanism and group')
+         call check(row%weight == rows(i)%weight .and. row%p_occ == rows(i)%p_occ, 'weight and probability')
+         do k = 1, size(row%curve)
+            call check(row%curve(k)%status == rows(i)%curve(k)%status .and. row%curve(k)%theta == rows(i)%curve(k)%theta &
+               & .and. all(row%curve(k)%covariance(:, 2) == [rows(i)%curve(k)%covariance(1, 2), &
+               & rows(i)%curve(k)%covariance(2, 2)]) &
+               & .and. all(row%curve(k)%bracket == rows(i)%curve(k)%bracket), 'curve '//to_text(k))
+         end do
+         call check(all(row%response%edp == rows(i)%response%edp) .and. &
+            & all(row%response%impacts == rows(i)%response%impacts) .and. &
+            & all(row%response%collapsed .eqv. rows(i)%response%collapsed) .and. &
+            & all(row%response%time_of_peak == rows(i)%response%time_of_peak), 'histories')
+      end do
+      call file%next(row, found, error)
+      call check(.not. found .and. .not. allocated(error), 'no more rows')
+      call file%close()
+      call write_file('out/rows.counts', 'name,mechanism,height,thickness'//lf)
+      call inspect_counts(path, file, exists, error)
+      call check_error(error, 'is no file of counts of dondolo', 'a short file of something else')
+      call write_file('out/rows.counts', repeat('name,mechanism,height,thickness'//lf, 9))
+      call inspect_counts(path, file, exists, error)
+      call check_error(error, 'is no file of counts of dondolo', 'a long one')
+      call remove_file(path)
+      call inspect_counts(path, file, exists, error)
+      call check(.not. exists .and. .not. allocated(error), 'no file')
+   end subroutine test_file
+
+   !> A run that was killed at any byte goes on, and ends with the same bytes
+   subroutine test_killed()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(counts_file_type) :: file
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: whole, path
+      logical :: exists
+      integer :: bytes, step, before
+
+      call suite('killed')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      path = counts_path(case)
+      call make_part(case, path, 1, 7, [2, 4])
+      call inspect_counts(path, file, exists, error)
+      call check(file%done == 6, 'two blocks')
+      whole = contents(path)
+      step = max(1, len(whole)/40)
+      before = 0
+      do bytes = 0, len(whole) + step - 1, step
+         call write_file('out/z.checkpoint', whole(:min(bytes, len(whole))))
+         call run_case(case, results, error, 2)
+         call check_ok(error, 'resumed after '//to_text(bytes)//' bytes')
+         if (allocated(error)) return
+         call check(any(results%resumed == [0, 2, 6]) .and. results%resumed >= before, 'whole blocks are taken')
+         before = results%resumed
+         call write_tables(case, results, 'resumed')
+         call compare_tables('resumed', 'resumed after '//to_text(bytes)//' bytes')
+      end do
+      call check(before == 6, 'all blocks in the end')
+      ! A byte that was changed spoils its block and those behind it, which the run makes again.
+      whole(len(whole)/2:len(whole)/2) = char(modulo(iachar(whole(len(whole)/2:len(whole)/2)) + 1, 256))
+      call write_file('out/z.checkpoint', whole)
+      call run_case(case, results, error, 1)
+      call check_ok(error, 'a byte was changed')
+      call check(results%resumed == 2, 'it spoils one block')
+      call write_tables(case, results, 'resumed')
+      call compare_tables('resumed', 'a byte was changed')
+
+      call write_file('out/z.checkpoint', whole)
+      call write_file('a.nml', case_text//' &solver rtol = 1e-9 /')
+      call read_case(scratch//'/a.nml', case, error)
+      call run_case(case, results, error, 1)
+      call check_error(error, 'z.checkpoint: is of other walls, records, levels or settings', 'other settings')
+      call write_file('a.nml', case_text)
+      call write_file('walls.csv', population//'f,one_sided,3,0.2,,1,old,1'//lf)
+      call read_case(scratch//'/a.nml', case, error)
+      call run_case(case, results, error, 1)
+      call check_error(error, 'remove it to begin anew', 'other walls')
+      call write_file('walls.csv', population)
+      call remove_file(path)
+   end subroutine test_killed
+
+   !> Parts that are merged are the whole
+   subroutine test_parts()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(lines_type) :: paths, some
+      type(error_type), allocatable :: error
+      integer :: i
+      integer, parameter :: bounds(4) = [0, 1, 5, 7]
+
+      call suite('parts')
+      do i = size(bounds) - 1, 1, -1
+         call read_case(scratch//'/a.nml', case, error, [bounds(i) + 1, merge(99, bounds(i + 1), i == 3)])
+         call check_ok(error, 'part')
+         if (allocated(error)) return
+         call run_case(case, results, error, i)
+         call check_ok(error, 'part '//to_text(i))
+         call check(.not. allocated(results%typologies), 'a part has no curves')
+         call paths%add(counts_path(case))
+      end do
+      call check_text(paths%line(2)%text, scratch//'/out/z_walls_2-5.counts', 'name of a part')
+      call read_case(scratch//'/a.nml', case, error)
+      call merge_population(case, paths, results, error)
+      call check_ok(error, 'merged')
+      if (allocated(error)) return
+      call write_tables(case, results, 'merged')
+      call compare_tables('merged', 'merged')
+      call some%add(paths%line(3)%text)
+      call some%add(paths%line(1)%text)
+      call merge_anew(case, some, error)
+      call check_error(error, '--merge: row 2 stands in none of the files, or some row in more than one', 'a part missing')
+      call some%add(paths%line(2)%text)
+      call some%add(paths%line(1)%text)
+      call merge_anew(case, some, error)
+      call check_error(error, 'some row in more than one', 'a part twice')
+      call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
+      call merge_anew(case, paths, error)
+      call check_error(error, 'z_walls_2-5.counts: ends with row 3, its last is 5: run it again', 'a part not complete')
+      call write_file('a.nml', case_text//' &solver gravity = 9.8 /')
+      call read_case(scratch//'/a.nml', case, error)
+      call merge_anew(case, paths, error)
+      call check_error(error, 'is of other walls, records, levels or settings', 'another case')
+      call write_file('a.nml', case_text)
+   end subroutine test_parts
+
+   !> Merge with new results
+   subroutine merge_anew(case, paths, error)
+      type(case_type), intent(in) :: case
+      type(lines_type), intent(in) :: paths
+      type(error_type), allocatable, intent(out) :: error
+
+      type(results_type) :: results
+
+      call merge_population(case, paths, results, error)
+   end subroutine merge_anew
+
+   !> A file of counts with blocks of given sizes
+   subroutine make_part(case, path, first, last, blocks)
+      type(case_type), intent(in) :: case
+      character(len=*), intent(in) :: path
+      integer, intent(in) :: first, last, blocks(:)
+
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(results_type) :: results
+      type(work_type) :: work
+      type(case_type) :: own
+      type(error_type), allocatable :: error
+      integer :: i, from
+
+      ! The key is that of a run.
+      own = case
+      own%job%output = scratch//'/out/key'
+      call run_case(own, results, error, 1)
+      call results%counts%remove()
+      call read_population(scratch//'/walls.csv', members, error)
+      call create_counts(path, results%counts%files(1)%key, first, last, error)
+      from = first
+      do i = 1, size(blocks)
+         call run_rows(case, members(from:from + blocks(i) - 1), from, rows, work, error, 1, 0)
+         call append_counts(path, rows, work, error)
+         from = from + blocks(i)
+      end do
+      call check_ok(error, 'blocks')
+   end subroutine make_part
+
+   !> Write the tables of a run elsewhere than its case says; its counts are removed unless they are parts
+   subroutine write_tables(case, results, name)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(inout) :: results
+      character(len=*), intent(in) :: name
+
+      type(case_type) :: elsewhere
+      type(lines_type) :: paths
+      type(error_type), allocatable :: error
+
+      elsewhere = case
+      elsewhere%job%output = scratch//'/'//name//'/z'
+      call write_reports(elsewhere, results, paths, error)
+      call check_ok(error, 'tables '//name)
+      if (size(results%counts%files) == 1) call results%counts%remove()
+   end subroutine write_tables
+
+   !> Tables must be those of the whole run, but for their output
+   subroutine compare_tables(name, what)
+      character(len=*), intent(in) :: name, what
+
+      character(len=:), allocatable :: path, expected, found
+      integer :: i, at
+
+      do i = 1, size(tables)
+         path = '/z_'//trim(tables(i))//'.csv'
+         expected = contents(scratch//'/whole'//path)
+         found = contents(scratch//'/'//name//path)
+         at = index(found, '/'//name//'/z')
+         call check(at > 0 .and. found == expected(:at)//name//expected(at + 6:), what//': '//trim(tables(i)))
+      end do
+   end subroutine compare_tables
+
+   !> All of a file
+   function contents(path) result(text)
+      character(len=*), intent(in) :: path
+      character(len=:), allocatable :: text
+
+      integer(int64) :: bytes
+      integer :: unit
+
+      inquire (file=path, size=bytes)
+      allocate (character(len=max(0, int(bytes))) :: text)
+      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old')
+      if (len(text) > 0) read (unit) text
+      close (unit)
+   end function contents
+
+   !> Write a file
+   subroutine write_file(name, text)
+      character(len=*), intent(in) :: name, text
+
+      integer :: unit
+
+      open (newunit=unit, file=scratch//'/'//name, access='stream', form='unformatted', status='replace')
+      write (unit) text
+      close (unit)
+   end subroutine write_file
+
+end program test_run_population
