@@ -120,13 +120,13 @@ check "stripes: files" equal "$(ls out/deep | tr '\n' ' ')" \
    "wall_fragility.csv wall_histories.csv wall_stripes.csv wall_walls.csv "
 check "stripes: header of walls" equal "$(header out/deep/wall_walls.csv)" \
    "wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,restitution_factor,\
-overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight"
+overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ"
 check "stripes: header of histories" equal "$(header out/deep/wall_histories.csv)" \
    "wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s"
 check "stripes: header of stripes" equal "$(header out/deep/wall_stripes.csv)" \
-   "wall,mechanism,im,im_level,histories,collapses,fraction"
+   "wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold"
 check "stripes: header of fragility" equal "$(header out/deep/wall_fragility.csv)" \
-   "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high"
+   "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high,edp_threshold"
 check "stripes: rows of walls" equal "$(rows out/deep/wall_walls.csv)" 1
 check "stripes: rows of histories" equal "$(rows out/deep/wall_histories.csv)" 40
 check "stripes: rows of stripes" equal "$(rows out/deep/wall_stripes.csv)" 5
@@ -137,11 +137,11 @@ check "stripes: version in the head" contains out/deep/wall_walls.csv '# dondolo
 check "stripes: compiler in the head" contains out/deep/wall_walls.csv '# compiler: '
 check "stripes: engine in the head" grep -qE '^# engine and build variant: lanes \([a-z0-9]+\)$' out/deep/wall_walls.csv
 check "stripes: title in the head" contains out/deep/wall_walls.csv "title = 'It''s a wall'"
-check "stripes: levels in the head" contains out/deep/wall_walls.csv 'levels = 0.1, 0.2, 0.4, 0.6, 1 /'
+check "stripes: levels in the head" contains out/deep/wall_walls.csv 'levels = 0.1, 0.2, 0.4, 0.6, 1'
 check "stripes: tolerances in the head" contains out/deep/wall_walls.csv 'rtol = 1e-8, atol = 1e-10'
 check "stripes: collapses of the tables agree" equal \
    "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, 'NR > 1 { s += $(NF - 2) } END { print s }')" \
-   "$(grep -v '^#' out/deep/wall_stripes.csv | awk -F, 'NR > 1 { s += $(NF - 1) } END { print s }')"
+   "$(grep -v '^#' out/deep/wall_stripes.csv | awk -F, 'NR > 1 { s += $(NF - 2) } END { print s }')"
 check "stripes: a collapsed history has the limit as EDP" equal \
    "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, '$(NF - 2) == 1 && $(NF - 3) != 1 { n++ } END { print n + 0 }')" 0
 check "stripes: some history collapses, some survives" test \
@@ -190,7 +190,7 @@ rm -rf out
 
 sed -e "s/levels = .*/first = 0.4, last = 1.0, count = 4/; /0.6, 1.0/d" good.nml >grid.nml
 run grid.nml
-check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1 /'
+check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1'
 rm -rf out
 
 # Every intensity measure, with its unit in the files and in the summary
@@ -230,7 +230,7 @@ check "typology: exit code" equal "$rc" 0
 check "typology: files" equal "$(ls out | tr '\n' ' ')" \
    "people_fragility.csv people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
-   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records"
+   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,edp_threshold"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
@@ -239,7 +239,7 @@ check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk
    "one_sided two_block all "
 check "typology: mean fraction" equal \
    "$(grep '^all,' out/people_typology.csv | awk -F, '{ printf "%.9f ", $5 }')" \
-   "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $NF / 3 }
+   "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $(NF - 1) / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out
 for threads in 1 2 3; do
@@ -592,7 +592,9 @@ people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
    "walls.csv: column 'heigth': no such column; there are 'name', 'mechanism', 'height'"
 people "no walls" "$head" 'walls.csv: no walls under the header'
 people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
-   "walls.csv: line 3: name = 'a': another wall has this name"
+   "walls.csv: line 3: name = 'a': the row before gives this wall the same mechanism"
+people "the same name elsewhere" "${head}a,one_sided,3,0.3,1\nb,one_sided,3,0.3,1\na,two_block,4,0.3,1\n" \
+   "walls.csv: line 4: name = 'a': another wall has this name (line 2)"
 people "a negative weight" "${head}a,one_sided,3,0.3,-1\n" 'walls.csv: line 2: weight = -1: must lie between 0 and'
 people "no weight at all" "${head}a,one_sided,3,0.3,0\n" 'walls.csv: weight: must be positive for at least one wall'
 people "a word for a number" "${head}a,one_sided,tall,0.3,1\n" "walls.csv: line 2: height = 'tall': must be a number"

@@ -12,7 +12,7 @@ program test_case
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
-   use dondolo_system, only : is_folder, same_file
+   use dondolo_system, only : is_folder, remove_folder, same_file
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
@@ -290,6 +290,7 @@ contains
          end do
       end associate
       call typology%counts%remove()
+      call remove_folder(scratch//'/out')
    end subroutine test_run
 
    !> What was computed, and what can be told of it before

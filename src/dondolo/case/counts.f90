@@ -65,20 +65,48 @@ contains
       integer(int32), allocatable :: integers(:)
       real(wp), allocatable :: reals(:)
       integer(int64) :: counted(work_counts)
-      integer :: i
+      integer :: i, j, k, at, place
 
-      allocate (integers(0), reals(0))
+      at = 0
+      place = 0
+      do i = 1, size(rows)
+         associate (states => size(rows(i)%curve))
+            at = at + own_integers + states + size(rows(i)%reached)
+            place = place + own_reals + curve_reals*states
+         end associate
+         if (.not. allocated(rows(i)%response)) cycle
+         at = at + 2*size(rows(i)%response)
+         place = place + 2*size(rows(i)%response)
+      end do
+      allocate (integers(at), reals(place))
+      at = 0
+      place = 0
       do i = 1, size(rows)
          associate (row => rows(i))
-            integers = [integers, row%row, merge(1, 0, row%continues), row%mechanism, row%group, row%histories, &
-               & code_of(row%curve), reshape(row%reached, [size(row%reached)])]
-            reals = [reals, row%weight, row%p_occ, numbers_of(row%curve)]
+            integers(at + 1:at + own_integers) = [row%row, merge(1, 0, row%continues), row%mechanism, row%group, &
+               & row%histories]
+            at = at + own_integers
+            reals(place + 1:place + own_reals) = [row%weight, row%p_occ]
+            place = place + own_reals
+            do k = 1, size(row%curve)
+               integers(at + k) = findloc(status_names, row%curve(k)%status, dim=1)
+               reals(place + 1:place + curve_reals) = numbers_of(row%curve(k))
+               place = place + curve_reals
+            end do
+            at = at + size(row%curve)
+            do k = 1, size(row%curve)
+               integers(at + 1:at + size(row%reached, 1)) = row%reached(:, k)
+               at = at + size(row%reached, 1)
+            end do
             if (.not. allocated(row%response)) cycle
-            associate (size_of => size(row%response))
-               integers = [integers, reshape(merge(1, 0, row%response%collapsed), [size_of]), &
-                  & reshape(row%response%impacts, [size_of])]
-               reals = [reals, reshape(row%response%edp, [size_of]), reshape(row%response%time_of_peak, [size_of])]
-            end associate
+            do j = 1, size(row%response, 2)
+               do k = 1, row%histories
+                  integers(at + 1:at + 2) = [merge(1, 0, row%response(k, j)%collapsed), row%response(k, j)%impacts]
+                  reals(place + 1:place + 2) = [row%response(k, j)%edp, row%response(k, j)%time_of_peak]
+                  at = at + 2
+                  place = place + 2
+               end do
+            end do
          end associate
       end do
       counted = [work%histories, work%still, work%in_lanes, work%intervals, work%rocked, work%steps, work%evaluations, &
@@ -109,7 +137,7 @@ contains
       integer(int32), allocatable :: integers(:)
       real(wp), allocatable :: reals(:)
       integer(int64) :: counted(work_counts)
-      integer :: i, k, at, number, place, n
+      integer :: i, j, k, at, number, place
 
       counted = transfer(bytes(:8*work_counts), counted)
       work = work_type(histories=counted(1), still=counted(2), in_lanes=counted(3), intervals=counted(4), &
@@ -142,37 +170,30 @@ contains
             row%reached = reshape(integers(at + 1:at + m*shape%thresholds), [m, shape%thresholds])
             at = at + m*shape%thresholds
             if (.not. shape%keeps_histories) cycle
-            n = row%histories*m
             allocate (row%response(row%histories, m))
-            row%response%collapsed = reshape(integers(at + 1:at + n), [row%histories, m]) == 1
-            row%response%impacts = reshape(integers(at + n + 1:at + 2*n), [row%histories, m])
-            row%response%edp = reshape(reals(place + 1:place + n), [row%histories, m])
-            row%response%time_of_peak = reshape(reals(place + n + 1:place + 2*n), [row%histories, m])
-            at = at + 2*n
-            place = place + 2*n
+            do j = 1, m
+               do k = 1, row%histories
+                  row%response(k, j)%collapsed = integers(at + 1) == 1
+                  row%response(k, j)%impacts = integers(at + 2)
+                  row%response(k, j)%edp = reals(place + 1)
+                  row%response(k, j)%time_of_peak = reals(place + 2)
+                  at = at + 2
+                  place = place + 2
+               end do
+            end do
          end associate
       end do
    end subroutine unpack_counts
 
-   !> Place of the status of a curve among the names
-   elemental integer function code_of(curve)
+   !> Numbers of a curve
+   pure function numbers_of(curve) result(numbers)
       !> Curve
       type(fragility_type), intent(in) :: curve
-
-      code_of = findloc(status_names, curve%status, dim=1)
-   end function code_of
-
-   !> Numbers of curves, one curve after the other
-   pure function numbers_of(curves) result(numbers)
-      !> Curves
-      type(fragility_type), intent(in) :: curves(:)
       !> Numbers
-      real(wp) :: numbers(curve_reals*size(curves))
+      real(wp) :: numbers(curve_reals)
 
-      integer :: k
-
-      numbers = [(curves(k)%theta, curves(k)%beta, curves(k)%covariance(1, 1), curves(k)%covariance(1, 2), &
-         & curves(k)%covariance(2, 2), curves(k)%log_likelihood, curves(k)%bracket, k=1, size(curves))]
+      numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
+         & curve%log_likelihood, curve%bracket]
    end function numbers_of
 
    !> Set a curve

@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Populations that run for a while: bash test/large_population.sh PATH/TO/dondolo
+# Runs that are killed at random moments must end with the same bytes as one that is not, parts that are merged too, and
+# more walls must take no more memory.
+set -uo pipefail
+
+if [ $# -ne 1 ] || [ ! -x "$1" ]; then
+   echo "usage: large_population.sh PATH/TO/dondolo" >&2
+   exit 2
+fi
+exe=$(realpath "$1")
+root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0 failed=0
+
+# check WHAT COMMAND...: the command must succeed
+check() {
+   local what=$1
+   shift
+   if "$@" >/dev/null 2>&1; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1))
+      echo "FAILED  $what"
+   fi
+}
+
+# So many walls in three groups, every third with two mechanisms
+population() {
+   awk -v n="$1" 'BEGIN {
+      print "name,mechanism,height,thickness,hinge,weight,group,p_occ"
+      for (i = 1; i <= n; i++) {
+         h = 2.5 + 1.5 * (i * 0.618034 % 1); t = 0.2 + 0.3 * (i * 0.414214 % 1)
+         print "w" i ",one_sided," h "," t ",," 1 + i % 4 ",g" i % 3 "," 0.5 + 0.1 * (i % 5)
+         if (i % 3 == 0) print "w" i ",two_block," h "," t "," 0.6 "," 1 + i % 4 ",g" i % 3 ",0.5"
+      }
+   }'
+}
+
+# A case of such walls, with levels
+study() {
+   cat <<NML
+&job task = 'typology', output = 'out/study' /
+&population file = 'walls.csv' /
+&records catalogue = '$root/data/records/synthetic44.csv' /
+&stripes $1 /
+NML
+}
+
+population 450 >walls.csv
+study 'first = 0.1, last = 2, count = 20, edp_thresholds = 0.4' >study.nml
+"$exe" --quiet study.nml 2>/dev/null
+mv out whole
+check "a run that is not killed leaves no checkpoint" test ! -e whole/study.checkpoint
+
+# Killed again and again: every run gets farther than the one before, or the last one ends
+tries=0
+while [ $tries -lt 12 ]; do
+   "$exe" --quiet --threads $((1 + tries % 2)) study.nml 2>/dev/null &
+   pid=$!
+   sleep "$(awk -v seed="$RANDOM" 'BEGIN { srand(seed); print 0.5 + 2.5 * rand() }')"
+   kill -KILL $pid 2>/dev/null || true
+   wait $pid 2>/dev/null && break
+   tries=$((tries + 1))
+   check "killed: no result file, whole or in part" test ! -e out/study_typology.csv
+done
+"$exe" study.nml >stdout 2>/dev/null
+check "killed $tries times: the same bytes" diff -r whole out
+check "killed: says what was there" grep -q 'by an earlier run' stdout
+rm -rf out
+
+# Parts, by different numbers of threads and out of order
+rows=$(($(wc -l <walls.csv) - 1))
+"$exe" --quiet --walls 401:9999 --threads 1 study.nml 2>/dev/null
+"$exe" --quiet --walls 1:400 study.nml 2>/dev/null
+check "parts: their files" test -e out/study_walls_1-400.counts -a -e "out/study_walls_401-$rows.counts"
+"$exe" --quiet --merge study.nml out/study_walls_*.counts 2>/dev/null
+rm out/*.counts
+check "parts: the same bytes" diff -r whole out
+rm -rf out
+
+# Memory: ten times the walls, hardly any work
+if command -v /usr/bin/time >/dev/null; then
+   study 'levels = 0.01' >study.nml
+   for n in 3000 30000; do
+      population $n >walls.csv
+      /usr/bin/time -f %M "$exe" --quiet study.nml 2>memory.$n
+      tail -n 1 memory.$n >>memory
+   done
+   check "memory: $(tr '\n' ' ' <memory) KiB for 3000 and 30000 walls" awk '{ m[NR] = $1 } END { exit !(m[2] < m[1] + 2048) }' memory
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
