@@ -240,6 +240,15 @@ def test_walls_without_a_fit():
     assert stepped.group().fitted == 1.0
 
 
+def test_a_wall_has_the_fewest_histories_of_its_mechanisms(people):
+    histories = np.array(people.histories)
+    histories[1] *= 2
+    complete = np.ones(len(histories), dtype=bool)
+    again, _ = combine(people.population, "pga", LEVELS, np.ones(1), people.exceedances, histories, complete, Work())
+    assert list(again.combined["a"].histories) == [HISTORIES] * len(LEVELS)
+    assert again.group("two_block").fit.histories[0] > people.group("two_block").fit.histories[0]
+
+
 def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
     complete = np.ones(len(people.walls), dtype=bool)
     complete[1] = complete[-1] = False
@@ -359,3 +368,6 @@ def test_figures(people, states, monkeypatch):
         labels = ax.get_legend_handles_labels()[1]
         assert [label.split(":")[0] for label in labels] == [f"EDP ≥ {one:g}" for one in edp]
         assert ax.get_ylabel() == "probability to reach the state"
+        for drawn, threshold in zip((one for one in ax.get_lines() if len(one.get_xdata()) > 5), edp, strict=True):
+            curve = what.at(threshold).mean if what is typology else what.fit(threshold)
+            assert np.array_equal(drawn.get_ydata(), curve(drawn.get_xdata()))
