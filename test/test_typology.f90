@@ -182,7 +182,8 @@ contains
          & 'fraction of the first mechanism')
       call check_close(curves(2)%mean_curve(2), mixed%curve(2)%probability(x(2)), 1.0e-15_wp, &
          & 'curve of the second mechanism')
-      call check_close(curves(3)%mean_fraction(2), (2.0_wp*f(2) + 30.0_wp/44.0_wp)/3.0_wp, 1.0e-15_wp, 'fraction of all')
+      call check_close(curves(3)%mean_fraction(2), (2.0_wp*f(2) + 30.0_wp/44.0_wp)/3.0_wp, 1.0e-15_wp, &
+         & 'fraction of all')
       call check_close(curves(3)%mean_curve(2), (2.0_wp*p(2) + plain%curve(1)%probability(x(2)))/3.0_wp, 1.0e-14_wp, &
          & 'curve of all')
       call check_close(curves(2)%histories, 88.0_wp, 1.0e-15_wp, 'histories of the second mechanism')
@@ -207,7 +208,8 @@ contains
       call check_close(curves(2)%mean_fraction(3), 10.0_wp/44.0_wp, 1.0e-15_wp, 'all in all')
       curves = combined([wall_of([1], ['one_sided'], 1.0_wp, [0.0_wp])])
       call check_text(names_of(curves), ':all ', 'a mechanism that never occurs')
-      call check(curves(1)%fit%status == 'no_collapse' .and. .not. curves(1)%fitted > 0.0_wp, 'and never makes collapse')
+      call check(curves(1)%fit%status == 'no_collapse' .and. .not. curves(1)%fitted > 0.0_wp, &
+         & 'and never makes collapse')
 
       ! Three mechanisms
       mixed = wall_of([1, 3, 4], ['one_sided    ', 'two_block    ', 'free_standing'], 1.0_wp, [0.5_wp, 1.0_wp, 0.25_wp])
