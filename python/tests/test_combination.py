@@ -256,6 +256,9 @@ def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
     part, _ = combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
     assert list(part.combined) == ["b", "c", "d", "e"]
     assert part.curves[0].theta == people.curves[2].theta
+    complete[:] = [True, *[False] * (len(complete) - 1)]
+    with pytest.raises(dd.Interrupted, match="no wall is complete"):
+        combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
 
 
 @pytest.fixture(scope="module")
