@@ -165,9 +165,9 @@ NAMES = st.text(st.characters(exclude_categories=("C", "Z")) | st.sampled_from('
 def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity, weight, p_occ, name, group):
     height, thickness, hinge, load = numbers
     wall = dd.TwoBlockWall(
-        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name.strip()
+        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name
     )
-    people = dd.Population([wall], [weight], [group.strip()], [p_occ])
+    people = dd.Population([wall], [weight], [group], [p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"
     people.to_csv(path)
     back = dd.read_population(path)
