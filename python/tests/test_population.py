@@ -175,6 +175,15 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
     assert math.copysign(1.0, back[0].eccentricity) == math.copysign(1.0, eccentricity)
 
 
+def test_blanks_of_names_are_kept(tmp_path):
+    people = dd.Population(ROWS[3:], groups=[" north"])
+    people += dd.Population([dd.OneSidedWall(1.0, 0.25, name="  d")], groups=["south "])
+    people.to_csv(tmp_path / "walls.csv")
+    back = dd.read_population(tmp_path / "walls.csv")
+    assert [wall.name for wall in back] == ["c", "  d"]
+    assert back.groups == (" north", "south ")
+
+
 def test_the_executable_reads_it(run, root, tmp_path):
     PEOPLE.to_csv(tmp_path / "walls.csv")
     (tmp_path / "case.nml").write_text(
