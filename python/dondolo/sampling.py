@@ -446,7 +446,11 @@ def _origin(
     given |= {f"{mechanism}.{what}": value for mechanism, extra in own.items() for what, value in extra.items()}
     said = [title]
     for what, value in given.items():
-        said.append(f"{what} computed by {value.__name__}" if hasattr(value, "__name__") else f"{what} = {value!r}")
+        if callable(value):
+            name = getattr(value, "__name__", "<lambda>")
+            said.append(f"{what} computed" if name == "<lambda>" else f"{what} computed by {name}")
+        else:
+            said.append(f"{what} = {value!r}")
     said += [f"correlation of {pair[0]} and {pair[1]} = {value!r}" for pair, value in correlation.items()]
     return tuple(textwrap.wrap("; ".join(said), 110, break_long_words=False, break_on_hyphens=False))
 

@@ -165,14 +165,23 @@ NAMES = st.text(st.characters(exclude_categories=("C", "Z")) | st.sampled_from('
 def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity, weight, p_occ, name, group):
     height, thickness, hinge, load = numbers
     wall = dd.TwoBlockWall(
-        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name.strip()
+        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name
     )
-    people = dd.Population([wall], [weight], [group.strip()], [p_occ])
+    people = dd.Population([wall], [weight], [group], [p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"
     people.to_csv(path)
     back = dd.read_population(path)
     assert same(back, people)
     assert math.copysign(1.0, back[0].eccentricity) == math.copysign(1.0, eccentricity)
+
+
+def test_blanks_of_names_are_kept(tmp_path):
+    people = dd.Population(ROWS[3:], groups=[" north"])
+    people += dd.Population([dd.OneSidedWall(1.0, 0.25, name="  d")], groups=["south "])
+    people.to_csv(tmp_path / "walls.csv")
+    back = dd.read_population(tmp_path / "walls.csv")
+    assert [wall.name for wall in back] == ["c", "  d"]
+    assert back.groups == (" north", "south ")
 
 
 def test_the_executable_reads_it(run, root, tmp_path):

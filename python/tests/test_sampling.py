@@ -212,6 +212,7 @@ def test_origin(tmp_path):
         height=2.5,
         thickness=half_brick,
         density=dd.Normal(1800.0, 50.0),
+        weight=lambda samples: samples["density"],
         restitution="impulse",
     )
     text = " ".join(people.origin)
@@ -221,7 +222,7 @@ def test_origin(tmp_path):
         "height = 2.5",
         "thickness computed by half_brick",
         "density = Normal(mean=1800.0, sd=50.0, low=None, high=None)",
-        "restitution = 'impulse'",
+        "weight computed; restitution = 'impulse'",
         "two_block.hinge = Uniform(low=0.5, high=0.6)",
         "correlation of storey and density = 0.25",
     ):
