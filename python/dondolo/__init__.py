@@ -10,13 +10,16 @@
 from dondolo._binding import build_variant
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
+from dondolo.cloud import Cloud, Logistic, Regression, cloud
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.motion import Response, simulate
+from dondolo.nrml import DiscreteFragility, write_nrml
 from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
 from dondolo.plots import (
     plot_fragility,
@@ -30,6 +33,8 @@ from dondolo.processing import RotD, band_pass, correct_baseline, resample, reve
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.results import StoredResults, read_results
+from dondolo.risk import HazardCurve, Risk, mean_annual_frequency
+from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
@@ -42,21 +47,29 @@ __all__ = [
     "Bootstrap",
     "Boundary",
     "Case",
+    "Cloud",
     "Comparison",
+    "DiscreteFragility",
     "DondoloError",
     "DondoloWarning",
+    "FirstCollapseFragility",
     "Fragility",
     "FreeStandingWall",
     "Group",
+    "HazardCurve",
+    "Incremental",
     "InputError",
     "IntensityComparison",
     "Interrupted",
+    "Logistic",
     "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "Record",
+    "Regression",
     "Response",
     "Results",
+    "Risk",
     "RotD",
     "Spectrum",
     "State",
@@ -72,20 +85,26 @@ __all__ = [
     "animate_history",
     "band_pass",
     "build_variant",
+    "cloud",
     "compare",
     "compare_intensities",
     "correct_baseline",
     "fit_fragility",
+    "incremental",
     "intensity_table",
     "mavroeidis_papageorgiou",
+    "mean_annual_frequency",
     "multiple_stripe",
     "one_cosine",
     "one_sine",
     "overturning_spectrum",
+    "plot_cloud",
     "plot_fragility",
     "plot_history",
+    "plot_incremental",
     "plot_intensities",
     "plot_overturning_spectrum",
+    "plot_risk",
     "plot_stripes",
     "plot_typology",
     "plot_wall",
@@ -106,4 +125,5 @@ __all__ = [
     "synthetic_records",
     "trim",
     "typology",
+    "write_nrml",
 ]
