@@ -60,7 +60,7 @@ _SMALLEST_SHARE = 1e-3
 # Points of Gauss's rule in a panel, and how often a panel is halved
 _NODES = 8
 _HALVINGS = 60
-# A range without end is cut so far away, in ln x, and into such steps; the outermost must not add more than this part
+# A range without end is cut so far away, in ln x, and into such steps; the lowest must not add more than this part
 _FAR = 50.0
 _STEP = 0.5
 _NEGLIGIBLE = 1e-12
@@ -188,11 +188,10 @@ class HazardCurve:
         head = [cell.strip() for cell in rows[0][1]] if rows else []
         if len(head) != 2 or head[1] != "annual_frequency":
             raise InputError(f"{name}: the first line must be the name of an intensity measure and 'annual_frequency'")
-        try:
-            values = np.array([[float(cell) for cell in row] for _, row in rows[1:]]).reshape(-1, 2)
-        except ValueError:
-            number = next(number for number, row in rows[1:] if not _is_pair(row))
-            raise InputError(f"{name}: line {number}: must be two numbers") from None
+        for number, row in rows[1:]:
+            if not _is_pair(row):
+                raise InputError(f"{name}: line {number}: must be two numbers")
+        values = np.array([row for _, row in rows[1:]], dtype=np.float64).reshape(-1, 2)
         try:
             return cls(values[:, 0], values[:, 1], head[0])
         except InputError as error:
@@ -413,7 +412,7 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     >>> curve = fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
     >>> risk = mean_annual_frequency(curve, HazardCurve.power_law(1e-4, 2.5))
     >>> round(risk.return_period, 3)
-    185.106
+    186.44
     """
     if not isinstance(hazard, HazardCurve):
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
@@ -430,14 +429,17 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         return _integrand(fragility, hazard, u)
 
     if hazard.endless:
-        parts, error = _integrals(integrand, np.linspace(-_FAR, _FAR, round(2.0 * _FAR / _STEP) + 1))
-        total = float(parts.sum())
-        if max(parts[0], parts[-1]) > _NEGLIGIBLE * total:
+        cuts = np.linspace(-_FAR, _FAR, round(2.0 * _FAR / _STEP) + 1)
+        parts, error = _integrals(integrand, cuts)
+        # What is still above: between the probability there and 1
+        p, h = float(_probability(fragility, np.exp(cuts[-1:]))[0]), float(hazard(np.exp(cuts[-1])))
+        total = float(parts.sum()) + p * h
+        if parts[0] > _NEGLIGIBLE * total:
             raise DondoloError(
                 "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
                 " no faster than the power law rises; give levels of the hazard instead"
             )
-        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error)
+        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error + (1.0 - p) * h)
     cuts = np.log(hazard.im_levels)
     parts, error = _integrals(integrand, cuts)
     inside = float(parts.sum())
@@ -447,7 +449,7 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     surely = last * float(_probability(fragility, hazard.im_levels[-1:])[0])
     risk = Risk(fragility, hazard, inside, (0.0, most), (surely, last), error)
     low, high = risk.bounds
-    if high - low > _WIDE * high:
+    if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
         first, last = hazard.im_levels[[0, -1]]
         _binding.warn(
