@@ -64,6 +64,9 @@ class FirstCollapseFragility(Fragility):
     def _likelihood(self) -> Any:
         raise DondoloError("method = 'profile': is for curves fitted to stripes; this one is fitted to first collapses")
 
+    def _facts(self) -> list[tuple[str, str]]:
+        return [fact for fact in super()._facts() if fact[0] != "log likelihood"]
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Incremental:

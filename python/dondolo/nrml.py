@@ -23,15 +23,16 @@ has a curve for each limit state, the same states in the same order throughout::
 Continuous
     A lognormal distribution function. Its parameters are the mean and standard deviation of the intensity itself, not
     of its logarithm: mean = theta exp(beta^2/2), stddev = mean sqrt(exp(beta^2) - 1). OpenQuake takes the curve as
-    constant below minIML and above maxIML, and as 0 up to noDamageLimit. So minIML and maxIML are where the first curve
-    begins (three dispersions below its median: 0.1 %) and the last ends (three above) unless given, and noDamageLimit
-    is minIML.
+    constant below minIML and above maxIML, and as 0 up to noDamageLimit. Unless given, minIML is six dispersions below
+    the lowest median and maxIML three above the highest, and noDamageLimit is minIML. The lower end is far down because
+    weak shaking is frequent: of the risk under a hazard x^-k the share Phi(k beta - 6) is cut off.
 Discrete
     Probabilities at levels, straight lines in between, constant above the last level. Without noDamageLimit OpenQuake
     draws a line from 0 at no intensity to the first level, as the mean of a typology does.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
-    cross somewhere; between minIML and maxIML they must not.
+    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where curves cross, if they
+    do so at less than 0.1 % or more than 99.9 %; elsewhere crossing curves are refused.
 Units
     PGA and SA(T) in g, as here (OpenQuake's g is the standard 9.80665 m/s2, that of dondolo's levels is the wall's
     gravity, 9.81 unless given: 0.03 %). PGV in cm/s: levels are multiplied by 100. Other measures are refused.
@@ -65,7 +66,11 @@ _NAME = re.compile(r"[A-Za-z0-9_-]{1,100}")
 # What the engine's reader accepts, and the GEM taxonomy needs: ASCII without blanks, quotes and the number sign
 _TAXONOMY = re.compile(r"[!$-&(-~]{1,100}")
 # Dispersions from the medians to the ends of the range of a function
-_REACH = 3.0
+_REACH_DOWN, _REACH_UP = 6.0, 3.0
+# Where curves cross at such a probability, or at its complement, the range may end there
+_RARE = 1e-3
+# Of a difference of probits
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -143,8 +148,8 @@ def write_nrml(
     no_damage_limit : float, optional
         Intensity up to which there is no damage. If left out, `min_iml` for continuous functions and none for discrete.
     min_iml, max_iml : float, optional
-        Range of the continuous functions. If left out, three dispersions below the lowest median and above the highest.
-        These three are in the unit of the curves' levels, and for all functions.
+        Range of the continuous functions. If left out, from six dispersions below the lowest median to three above the
+        highest. These three are in the unit of the curves' levels, and for all functions.
 
     Raises
     ------
@@ -183,6 +188,7 @@ def write_nrml(
         else:
             _discrete(model, taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
     ElementTree.indent(root)
+    root.tail = "\n"
     target = Path(path)
     part = target.with_name(target.name + ".part")
     try:
@@ -254,8 +260,7 @@ def _continuous(
     """Add a function of lognormal curves."""
     im = next(iter(curves.values())).im
     imt, unit = _measure(taxonomy, im)
-    low = min(curve.theta * np.exp(-_REACH * curve.beta) for curve in curves.values()) if min_iml is None else min_iml
-    high = max(curve.theta * np.exp(_REACH * curve.beta) for curve in curves.values()) if max_iml is None else max_iml
+    low, high = _range(list(curves.values()), min_iml, max_iml)
     none = low if no_damage_limit is None else no_damage_limit
     if not low < high:
         raise InputError(f"taxonomy '{taxonomy}': min_iml = {low:g}, max_iml = {high:g}: must increase")
@@ -275,25 +280,43 @@ def _continuous(
         ElementTree.SubElement(function, "params", {"ls": state, "mean": _text(mean), "stddev": _text(deviation)})
 
 
+def _range(curves: list[Fragility], min_iml: float | None, max_iml: float | None) -> tuple[float, float]:
+    """What is given, or where the curves begin and end."""
+    low = min(curve.theta * np.exp(-_REACH_DOWN * curve.beta) for curve in curves)
+    high = max(curve.theta * np.exp(_REACH_UP * curve.beta) for curve in curves)
+    for lighter, heavier in pairwise(curves):
+        cross = _crossing(lighter, heavier)
+        # The heavier curve is the higher one below the crossing if it is the flatter, above if it is the steeper.
+        if lighter.beta < heavier.beta and lighter(cross) <= _RARE:
+            low = max(low, cross)
+        if lighter.beta > heavier.beta and lighter(cross) >= 1.0 - _RARE:
+            high = min(high, cross)
+    return float(low if min_iml is None else min_iml), float(high if max_iml is None else max_iml)
+
+
+def _crossing(first: Fragility, second: Fragility) -> float:
+    """Intensity at which two curves cross: probits are straight lines of ln x. 0 for curves that are parallel."""
+    if first.beta == second.beta:
+        return 0.0
+    rise = 1.0 / first.beta - 1.0 / second.beta
+    return float(np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / rise))
+
+
 def _check_order(taxonomy: str, curves: Mapping[str, Fragility], low: float, high: float) -> None:
-    """Do no curves cross within a range? Probits are straight lines of ln x, so that its ends tell."""
+    """Do no curves cross within a range? The difference of their probits is a straight line: its ends tell."""
     ends = np.log([low, high])
-    names = list(curves)
-    for lighter, heavier in pairwise(names):
+    for lighter, heavier in pairwise(curves):
         first, second = curves[lighter], curves[heavier]
         gap = (ends - np.log(first.theta)) / first.beta - (ends - np.log(second.theta)) / second.beta
-        if (gap >= -1e-9).all():
+        if (gap >= -_ROUNDING).all():
             continue
         who = f"taxonomy '{taxonomy}': '{heavier}' is more probable than '{lighter}'"
-        if (gap <= 0.0).all():
+        if (gap <= _ROUNDING).all():
             raise InputError(f"{who}: limit states must be given from the lightest to the heaviest")
-        slopes = 1.0 / first.beta - 1.0 / second.beta
-        cross = np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / slopes)
-        side = "below" if gap[0] < 0.0 else "above"
-        end = "min_iml" if gap[0] < 0.0 else "max_iml"
+        side, end = ("below", "min_iml") if gap[0] < 0.0 else ("above", "max_iml")
         raise InputError(
-            f"{who} {side} {cross:.4g}, where the curves cross: choose {end} to leave that out of {low:.4g} to"
-            f" {high:.4g}, or write them as DiscreteFragility"
+            f"{who} {side} {_crossing(first, second):.4g}, where the curves cross: choose {end} to leave that out of"
+            f" {low:.4g} to {high:.4g}, or write them as DiscreteFragility"
         )
 
 

@@ -112,7 +112,8 @@ def test_continuous(path):
     for state, curve in curves.items():
         np.testing.assert_allclose(functions[state](x), curve(x), rtol=1e-9)
     # Nothing below the range, and a constant above
-    assert functions["damage"](0.3 * np.exp(-1.06)) == 0.0
+    assert functions["damage"](0.3 * np.exp(-6.001 * 0.35)) == 0.0
+    assert functions["damage"](0.3 * np.exp(-5.999 * 0.35)) > 0.0
     assert functions["collapse"](50.0) == pytest.approx(stats.norm.cdf(3.0))
 
 
@@ -195,6 +196,21 @@ def test_crossing_curves(path):
     with pytest.raises(dd.InputError, match="from the lightest to the heaviest"):
         dd.write_nrml(path, {"a": {"heavy": lognormal(0.5, 0.4), "light": lognormal(0.3, 0.4)}})
     dd.write_nrml(path, {"a": {"light": lognormal(0.5, 0.4), "heavy": lognormal(0.5, 0.4)}})
+
+
+def test_a_range_ends_where_curves_cross_unseen(path):
+    """At a probability of 1e-4 or 0.9999, that is; what is given is not moved."""
+    for betas, seldom in (((0.2, 0.25), 1e-4), ((0.25, 0.2), 1.0 - 1e-4)):
+        cross = 0.3 * np.exp(betas[0] * stats.norm.ppf(seldom))
+        second = cross * np.exp(-betas[1] * stats.norm.ppf(seldom))
+        # The last state takes the range beyond the crossing of the others above.
+        curves = {"a": lognormal(0.3, betas[0]), "b": lognormal(second, betas[1]), "c": lognormal(1.0, betas[1])}
+        dd.write_nrml(path, {"walls": curves})
+        check(path)
+        imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+        assert float(imls.get("minIML" if seldom < 0.5 else "maxIML")) == pytest.approx(cross, rel=1e-6)
+        with pytest.raises(dd.InputError, match="cross"):
+            dd.write_nrml(path, {"walls": curves}, min_iml=0.01, max_iml=9.0)
 
 
 def test_crossing_probabilities(path):
