@@ -10,12 +10,13 @@
 from dondolo._binding import build_variant
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
-from dondolo.cloud import Cloud, Logistic, Regression, cloud
+from dondolo.cloud import Cloud, cloud
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.hazard import HazardCurve
 from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.motion import Response, simulate
@@ -32,8 +33,9 @@ from dondolo.plots import (
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
+from dondolo.regression import Logistic, Regression
 from dondolo.results import StoredResults, read_results
-from dondolo.risk import HazardCurve, Risk, mean_annual_frequency
+from dondolo.risk import Risk, mean_annual_frequency
 from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records

@@ -299,7 +299,9 @@ def _crossing(first: Fragility, second: Fragility) -> float:
     if first.beta == second.beta:
         return 0.0
     rise = 1.0 / first.beta - 1.0 / second.beta
-    return float(np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / rise))
+    # Nearly parallel curves cross so far away that it is nowhere.
+    with np.errstate(over="ignore"):
+        return float(np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / rise))
 
 
 def _check_order(taxonomy: str, curves: Mapping[str, Fragility], low: float, high: float) -> None:

@@ -71,7 +71,7 @@ def plot_incremental(incremental: Incremental, ax: Axes | None = None) -> Axes:
     ax.set_xlabel("EDP = largest rotation / capacity")
     ax.set_ylabel(style.im_label(stripes.im))
     ax.set_title(stripes.wall.name, loc="left", parse_math=False)
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, handlelength=3.2)
     return ax
 
 

@@ -216,6 +216,7 @@ def test_without_a_line(cloud):
     assert np.isnan(made.lognormal()).all()
     same = put_in(cloud, np.full(4, 0.2), np.array([0.1, 0.2, 0.3, 0.4]), np.zeros(4, dtype=bool))
     assert same.regression.status == "too_few"
+    assert fit(np.full(4, 0.2), np.array([0.1, 0.2, 1.0, 1.0]), np.arange(4) > 1)["collapse"].status == "decreasing"
 
 
 def test_two_sided_walls_rock_by_the_pga(records):

@@ -81,7 +81,11 @@ def test_moments(stripes):
     assert curve.theta == pytest.approx(np.exp(ln.mean()), rel=1e-13)
     assert curve.beta == pytest.approx(ln.std(ddof=1), rel=1e-13)
     assert curve.se_ln_theta == pytest.approx(curve.beta / np.sqrt(5), rel=1e-13)
+    assert curve.se_beta == pytest.approx(curve.beta / np.sqrt(2.0 * 4.0), rel=1e-13)
     assert curve.bracket == (0.4, 0.6)
+    assert dd.incremental(made(stripes, ["x....", "xxx.."])).fit().bracket == (0.2, 0.4)
+    assert dd.incremental(made(stripes, ["xxx..", "xxx.."])).fit().bracket == (0.0, 0.2)
+    assert dd.incremental(made(stripes, [".....", "x...."])).fit().bracket == (0.4, np.inf)
     assert curve.collapses.tolist() == [1, 2, 4, 5]
     assert curve(curve.theta) == pytest.approx(0.5)
     low, high = curve.interval(0.5)
@@ -181,6 +185,7 @@ def test_figure(stripes):
     for line, first in zip(lines[:n], ida.first_collapse, strict=False):
         assert line.get_xydata()[0].tolist() == [0.0, 0.0]
         assert line.get_ydata()[-1] == (first if np.isfinite(first) else LEVELS[-1])
+        assert line.get_xdata()[-2] < 1.0
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
     assert "50 % fractile" in texts
     bold = next(line for line in lines if line.get_label() == "50 % fractile")

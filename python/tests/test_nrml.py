@@ -139,7 +139,7 @@ def test_units(path):
     # 40 cm/s
     assert found["v"][1]["collapse"](40.0) == pytest.approx(0.5)
     assert found["s"][1]["collapse"](0.4) == pytest.approx(0.5)
-    assert found["d"][1]["collapse"](50.0) == pytest.approx(0.7)
+    np.testing.assert_allclose(found["d"][1]["collapse"]([20.0, 35.0, 50.0]), [0.1, 0.4, 0.7])
     for im in ("arias", "cav", "hi", "pgd", "saavg(0.2:2)", "pga/a0", ""):
         with pytest.raises(dd.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")):
             dd.write_nrml(path, {"a": {"collapse": lognormal(0.4, 0.3, im)}})
@@ -244,6 +244,7 @@ def test_names(path):
         ({"a": {"near collapse": curve}}, "limit state 'near collapse'"),
         ({"a": {"no_damage": curve}}, "limit state 'no_damage'"),
         ({"a": {"x": curve}, "b": {"y": curve}}, "taxonomy 'b': has the limit states y: must be x"),
+        ({"a": {"x": curve, "y": curve}, "b": {"y": curve, "x": curve}}, "has the limit states y, x: must be x, y"),
         ({"a": {"x": curve, "y": DiscreteFragility([0.1, 0.2], [0, 1])}}, "must be all Fragility or all"),
         ({"a": {"x": 0.3}}, "must be all Fragility or all"),
         ({"a": {"x": curve, "y": lognormal(0.9, 0.4, "pgv")}}, "must be of one intensity measure"),
