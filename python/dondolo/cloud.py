@@ -26,6 +26,11 @@ Without collapses P_C is 0, and the regression alone tells how likely a rotation
 as in any cloud analysis. Rotations grow faster than by a power law towards the capacity, where the restoring moment
 vanishes; a cloud without collapses says little about them, and stripes say more.
 
+The line is a rough model of a rocking wall. A wall that barely lifts has a tiny EDP, to which logarithms give weight:
+under 44 components recorded in Italy as they are, a two-block wall of 3 m by 0.25 m (hinge 0.6, factor 0.87) has
+b = 13.6, sigma = 2.9 and R2 = 0.60 for the PGA. Look at the points before the curve is used; where enough records
+collapse, P_C does most of the work.
+
 Without collapses, and where all histories rock, P(EDP > y) is the lognormal curve
 
     theta = exp((ln y - a)/b),    beta = sigma/b.

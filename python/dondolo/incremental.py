@@ -24,10 +24,14 @@ Fragility
     is maximised (Baker 2015, truncated IDA). In (1/beta, ln theta/beta) its logarithm is concave (Olsen 1978, for the
     Tobit model of the same form), so the maximum is the only one.
 
-The levels are a grid: a wall that collapses at a level might have done so anywhere above the level before. IM_i is too
-large by half a step on average, theta is too large by about as much, and steps should be much smaller than beta theta;
-the lowest level should be below the first collapse.
-`Stripes.fit` has no such bias: it uses the collapses at each level, and counts resurrections as the survivals they are.
+The levels are a grid, and the curve depends on it. A wall that collapses at a level might have done so anywhere above
+the level before: IM_i is too large by half a step on average. And where walls are resurrected, the closer the levels,
+the sooner one of them is met that brings the wall down: IM_i falls on and on. A free-standing wall of 2 m by 0.5 m,
+under 44 components recorded in Italy, has theta = 0.88, 0.84 and 0.78 g with steps of 0.1, 0.05 and 0.0125 g up to 3 g;
+27, 32 and 40 of its 44 histories are resurrected. `Stripes.fit` has 0.94 g with all three: it uses the collapses of
+each level, and counts a resurrection as the survival it is. For rocking walls it is the better estimate of P(C | IM);
+this one answers when a record first brings the wall down on the way up. The lowest level should be below the first
+collapse.
 
 References: Vamvatsikos and Cornell (2002), Earthquake Engineering and Structural Dynamics 31, 491-514; Baker (2015),
 Earthquake Spectra 31, 579-599; Olsen (1978), Econometrica 46, 1211-1215.
