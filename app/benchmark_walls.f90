@@ -60,6 +60,7 @@ contains
       call new_scaling(case%stripes%scaling, 'pga', error)
       case%values = measure_records(case%stripes%scaling%measure, case%records, 1)
       call new_record_set(case%record_set, case%records)
+      case%peaks = case%records%pga()
    end subroutine make_work
 
    !> The same walls several times over

@@ -69,7 +69,8 @@ contains
       end do
       call new_scaling(scaling, 'pga', error)
       call check_ok(error, what)
-      call plan_stripes(other, wall, records, levels, scaling, measure_records(scaling%measure, records, 1), 'both', &
+      call plan_stripes(other, wall, records, levels, scaling, measure_records(scaling%measure, records, 1), &
+         & records%pga(), 'both', &
          & solver, error)
       call check_ok(error, what)
       call new_record_set(set, records)

@@ -10,13 +10,17 @@
 from dondolo._binding import build_variant
 from dondolo._binding import constants as _constants
 from dondolo.cases import Case, Results, read_case, run_case
+from dondolo.cloud import Cloud, cloud
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.hazard import HazardCurve
+from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.motion import Response, simulate
+from dondolo.nrml import DiscreteFragility, write_nrml
 from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
 from dondolo.plots import (
     plot_fragility,
@@ -30,8 +34,11 @@ from dondolo.plots_typology import plot_combination, plot_damage_states, plot_gr
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
+from dondolo.regression import Logistic, Regression
 from dondolo.results import StoredResults, read_results
 from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
+from dondolo.risk import Risk, mean_annual_frequency
+from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
@@ -45,23 +52,31 @@ __all__ = [
     "Boundary",
     "Case",
     "Choice",
+    "Cloud",
     "Comparison",
+    "DiscreteFragility",
     "DondoloError",
     "DondoloWarning",
+    "FirstCollapseFragility",
     "Fragility",
     "FreeStandingWall",
     "Group",
+    "HazardCurve",
+    "Incremental",
     "InputError",
     "IntensityComparison",
     "Interrupted",
+    "Logistic",
     "Lognormal",
     "Normal",
     "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "Record",
+    "Regression",
     "Response",
     "Results",
+    "Risk",
     "RotD",
     "Spectrum",
     "State",
@@ -79,24 +94,30 @@ __all__ = [
     "animate_history",
     "band_pass",
     "build_variant",
+    "cloud",
     "compare",
     "compare_intensities",
     "correct_baseline",
     "fit_fragility",
+    "incremental",
     "intensity_table",
     "mavroeidis_papageorgiou",
+    "mean_annual_frequency",
     "multiple_stripe",
     "one_cosine",
     "one_sine",
     "overturning_spectrum",
+    "plot_cloud",
     "plot_combination",
     "plot_damage_states",
     "plot_fragility",
     "plot_groups",
     "plot_history",
+    "plot_incremental",
     "plot_intensities",
     "plot_overturning_spectrum",
     "plot_population",
+    "plot_risk",
     "plot_stripes",
     "plot_typology",
     "plot_wall",
@@ -118,4 +139,5 @@ __all__ = [
     "synthetic_records",
     "trim",
     "typology",
+    "write_nrml",
 ]

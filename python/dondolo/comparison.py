@@ -77,6 +77,8 @@ def compare(
 
 
 def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Comparison:
+    if np.isnan([first.log_likelihood, second.log_likelihood]).any():
+        raise DondoloError("method = 'likelihood': is for curves fitted to counts, not to first collapses")
     pairs = zip(
         (first.levels, first.collapses, first.histories),
         (second.levels, second.collapses, second.histories),

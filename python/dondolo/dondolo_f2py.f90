@@ -483,6 +483,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
+   real(c_double), allocatable :: peaks(:)
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
@@ -501,13 +502,14 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
+      peaks = records%pga()
       do i = 1, w
          ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
          fresh = i == 1 .or. scaling%needs_wall()
          if (.not. fresh) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
             & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
          if (fresh) then
-            call plan_stripes(stripes, walls(i), records, levels, scaling, values, polarity, &
+            call plan_stripes(stripes, walls(i), records, levels, scaling, values, peaks, polarity, &
                & as_solver(engine, settings), error)
          else
             call check_limit(as_solver(engine, settings), walls(i)%mechanism, error)
@@ -557,6 +559,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
+   real(c_double), allocatable :: peaks(:)
    type(record_set_type) :: set
    type(scaling_type) :: scaling
    type(solver_type) :: solver
@@ -576,11 +579,14 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    call set_walls(walls, texts, numbers, given, gravity, error)
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
-   if (.not. allocated(error)) call new_record_set(set, records)
+   if (.not. allocated(error)) then
+      call new_record_set(set, records)
+      peaks = records%pga()
+   end if
    before(1) = 0
    do i = 1, w
       if (allocated(error)) exit
-      call plan_stripes(stripes(i), walls(i), records, levels, scaling, values, polarity, solver, error)
+      call plan_stripes(stripes(i), walls(i), records, levels, scaling, values, peaks, polarity, solver, error)
       if (.not. allocated(error)) before(i + 1) = before(i) + size(stripes(i)%response)
    end do
    if (.not. allocated(error)) then

@@ -56,6 +56,8 @@ module dondolo_case
       type(record_set_type) :: record_set
       !> Values of the measure for the records as they stand, where records are scaled to levels
       real(wp), allocatable :: values(:)
+      !> PGA of the records [m/s2], where there are many histories
+      real(wp), allocatable :: peaks(:)
       !> How the motions are computed
       type(solver_input_type) :: solver
       !> Which time history
@@ -132,7 +134,7 @@ contains
       range = [1, huge(1)]
       if (present(rows)) range = rows
       call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
-         & case%stripes, case%solver, range, error)
+         & case%peaks, case%stripes, case%solver, range, error)
       if (allocated(error)) return
       if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
          & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
@@ -284,7 +286,9 @@ contains
       if (allocated(error)) return
       if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
          & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
-      if (case%job%task /= 'history') call new_record_set(case%record_set, case%records)
+      if (case%job%task == 'history') return
+      call new_record_set(case%record_set, case%records)
+      case%peaks = case%records%pga()
    end subroutine measure_case
 
    !> Check that no record is scaled beyond all measure
@@ -318,7 +322,7 @@ contains
       group = namelist%group('stripes')
       associate (highest => case%stripes%levels(size(case%stripes%levels)))
          do i = 1, size(case%records)
-            if (case%scale_to(i, highest)*case%records(i)%pga() <= largest_acceleration) cycle
+            if (case%scale_to(i, highest)*case%peaks(i) <= largest_acceleration) cycle
             call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
                & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
             return

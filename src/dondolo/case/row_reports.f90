@@ -85,7 +85,7 @@ contains
       integer :: i, j
 
       call plan_stripes(plan, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
-         & case%records_input%polarity, case%solver%solver, error)
+         & case%peaks, case%records_input%polarity, case%solver%solver, error)
       if (allocated(error)) return
       cells = wall_cells(member%wall)
       do j = 1, size(plan%levels)

@@ -145,7 +145,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call plan_stripes(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
-         & case%records_input%polarity, case%solver%solver, error)
+         & case%peaks, case%records_input%polarity, case%solver%solver, error)
    end subroutine choose_histories
 
 end module dondolo_run_case

@@ -44,7 +44,8 @@ module dondolo_survey
 contains
 
    !> Survey a population
-   subroutine survey_population(survey, file, records_input, records, values, stripes_input, solver_input, rows, error)
+   subroutine survey_population(survey, file, records_input, records, values, peaks, stripes_input, solver_input, &
+      & rows, error)
       !> What is found
       type(survey_type), intent(out) :: survey
       !> Path of the table
@@ -55,6 +56,8 @@ contains
       type(record_type), intent(in) :: records(:)
       !> Values of the intensity measure for them as they stand
       real(wp), intent(in) :: values(:)
+      !> Their PGA [m/s2]
+      real(wp), intent(in) :: peaks(:)
       !> Intensity measure and levels
       type(stripes_input_type), intent(in) :: stripes_input
       !> How the motions are computed
@@ -90,7 +93,7 @@ contains
          end if
          if (.not. allocated(error)) then
             call plan_stripes(plan, member%wall, records, stripes_input%levels, stripes_input%scaling, values, &
-               & records_input%polarity, solver_input%solver, error)
+               & peaks, records_input%polarity, solver_input%solver, error)
             if (allocated(error)) then
                call add_place(error, reader%table%place())
                call reader%close()

@@ -78,7 +78,7 @@ contains
 
       call new_scaling(scaling, im, error)
       if (.not. allocated(error)) call plan_stripes(stripes, wall, records, levels, scaling, &
-         & measure_records(scaling%measure, records, threads), polarity, solver, error)
+         & measure_records(scaling%measure, records, threads), records%pga(), polarity, solver, error)
       if (allocated(error)) return
       call new_record_set(set, records)
       call run_histories(stripes, wall, records, set, solver, 1, size(stripes%response), threads, progress)
@@ -107,8 +107,8 @@ contains
 
    !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
    !>
-   !> The values of the measure do not depend on the wall: who runs many walls computes them once.
-   subroutine plan_stripes(stripes, wall, records, levels, scaling, values, polarity, solver, error)
+   !> The values of the measure and the PGAs do not depend on the wall: who runs many walls computes them once.
+   subroutine plan_stripes(stripes, wall, records, levels, scaling, values, peaks, polarity, solver, error)
       !> Result; the responses have room but no values
       type(stripes_type), intent(out) :: stripes
       !> The wall
@@ -121,6 +121,8 @@ contains
       type(scaling_type), intent(in) :: scaling
       !> Values of its measure for the records as they stand
       real(wp), intent(in) :: values(:)
+      !> Their PGA [m/s2]
+      real(wp), intent(in) :: peaks(:)
       !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
       character(len=*), intent(in) :: polarity
       !> Engine, tolerances and limit
@@ -137,7 +139,7 @@ contains
       stripes%im = scaling%name
       stripes%levels = levels
       call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
-      call choose_scales(stripes, wall, records, scaling, values, error)
+      call choose_scales(stripes, wall, records, scaling, values, peaks, error)
       if (allocated(error)) return
       allocate(stripes%response(size(stripes%record), size(levels)))
    end subroutine plan_stripes
@@ -234,7 +236,7 @@ contains
    end subroutine choose_polarities
 
    !> Factors that bring every record to every level; a record without motion stays as it is
-   subroutine choose_scales(stripes, wall, records, scaling, values, error)
+   subroutine choose_scales(stripes, wall, records, scaling, values, peaks, error)
       !> Result: scale is set
       type(stripes_type), intent(inout) :: stripes
       !> The wall
@@ -245,6 +247,8 @@ contains
       type(scaling_type), intent(in) :: scaling
       !> Values of its measure
       real(wp), intent(in) :: values(:)
+      !> Their PGA [m/s2]
+      real(wp), intent(in) :: peaks(:)
       !> A record scaled beyond all measure
       type(error_type), allocatable, intent(out) :: error
 
@@ -253,13 +257,13 @@ contains
       highest = size(stripes%levels)
       allocate(stripes%scale(size(stripes%record), highest))
       do i = 1, size(stripes%record)
-         associate (record => records(stripes%record(i)))
+         associate (record => stripes%record(i))
             do j = 1, highest
-               stripes%scale(i, j) = scaling%factor(stripes%levels(j), values(stripes%record(i)), wall)
+               stripes%scale(i, j) = scaling%factor(stripes%levels(j), values(record), wall)
             end do
-            if (stripes%scale(i, highest)*record%pga() <= largest_acceleration) cycle
+            if (stripes%scale(i, highest)*peaks(record) <= largest_acceleration) cycle
             call raise_input(error, 'levels = '//to_text(stripes%levels(highest))//': scales record '// &
-               & record%name//' beyond '//to_text(largest_acceleration)//' m/s2')
+               & records(record)%name//' beyond '//to_text(largest_acceleration)//' m/s2')
             return
          end associate
       end do

@@ -73,7 +73,7 @@ contains
    end subroutine new_record
 
    !> Peak ground acceleration [m/s2]
-   pure function pga(self)
+   elemental function pga(self)
       !> The record
       class(record_type), intent(in) :: self
       !> max |a| [m/s2]

@@ -1,0 +1,278 @@
+"""Fragility models for OpenQuake, checked by the rules of its manual and of its reader."""
+
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import dondolo as dd
+from dondolo import DiscreteFragility
+
+SPACE = "{http://openquake.org/xmlns/nrml/0.5}"
+
+
+def lognormal(theta, beta, im="pga"):
+    """A fitted curve of these parameters."""
+    step = beta * stats.norm.ppf(0.75)
+    return dd.fit_fragility([theta * np.exp(-step), theta * np.exp(step)], [250, 750], 1000, im=im)
+
+
+def check(path):
+    """The rules of the manual of the OpenQuake engine, chapter "Fragility Models", element by element.
+
+    Returns functions of the intensity for each taxonomy and state, as the engine evaluates them.
+    """
+    root = ElementTree.parse(path).getroot()
+    assert root.tag == SPACE + "nrml"
+    (model,) = root
+    assert model.tag == SPACE + "fragilityModel"
+    assert set(model.attrib) == {"id", "assetCategory", "lossCategory"}
+    assert re.fullmatch(r"[A-Za-z0-9_-]{1,100}", model.get("id"))
+    assert model.get("lossCategory") in ("structural", "nonstructural", "contents", "business_interruption")
+    description, states, *functions = model
+    assert description.tag == SPACE + "description"
+    assert description.text.strip()
+    assert description.text.isascii()
+    assert states.tag == SPACE + "limitStates"
+    names = states.text.split()
+    assert names
+    assert len(set(names)) == len(names)
+    assert all(re.fullmatch(r"[A-Za-z0-9_-]+", name) for name in names)
+    assert functions
+    found = {}
+    for function in functions:
+        assert function.tag == SPACE + "fragilityFunction"
+        assert function.get("id") not in found
+        imls, *curves = function
+        assert imls.tag == SPACE + "imls"
+        assert re.fullmatch(r"PGA|PGV|SA\(\d+\.\d+\)", imls.get("imt"))
+        assert [curve.get("ls") for curve in curves] == names
+        none = float(imls.get("noDamageLimit", "0"))
+        if function.get("format") == "continuous":
+            assert set(function.attrib) == {"id", "format", "shape"}
+            assert function.get("shape") == "logncdf"
+            assert set(imls.attrib) == {"imt", "noDamageLimit", "minIML", "maxIML"}
+            assert imls.text is None
+            assert all(curve.tag == SPACE + "params" for curve in curves)
+            assert all(set(curve.attrib) == {"ls", "mean", "stddev"} for curve in curves)
+            low, high = float(imls.get("minIML")), float(imls.get("maxIML"))
+            assert 0.0 < low < high
+            assert none < high
+
+            def continuous(x, curve, low=low, high=high, none=none):
+                mean, deviation = float(curve.get("mean")), float(curve.get("stddev"))
+                sigma = np.sqrt(np.log(1.0 + (deviation / mean) ** 2))
+                median = mean**2 / np.sqrt(deviation**2 + mean**2)
+                x = np.clip(x, low, high)
+                return np.where(x <= none, 0.0, stats.lognorm.cdf(x, sigma, scale=median))
+
+            evaluate, grid = continuous, np.geomspace(low, high, 2001)
+        else:
+            assert function.attrib == {"id": function.get("id"), "format": "discrete"}
+            assert set(imls.attrib) <= {"imt", "noDamageLimit"}
+            levels = np.array(imls.text.split(), dtype=float)
+            assert np.all(np.diff(levels) > 0.0)
+            assert none < levels[0]
+            for curve in curves:
+                assert curve.tag == SPACE + "poes"
+                assert set(curve.attrib) == {"ls"}
+                poes = np.array(curve.text.split(), dtype=float)
+                assert len(poes) == len(levels)
+                assert np.all((poes >= 0.0) & (poes <= 1.0))
+                assert np.all(np.diff(poes) >= 0.0)
+
+            def discrete(x, curve, levels=levels, none=none):
+                return np.interp(x, np.append(none, levels), np.append(0.0, np.array(curve.text.split(), dtype=float)))
+
+            evaluate, grid = discrete, levels
+        values = np.array([evaluate(grid, curve) for curve in curves])
+        assert np.all(np.diff(values, axis=0) <= 1e-12), "states cross"
+        found[function.get("id")] = (
+            imls.get("imt"),
+            {name: lambda x, f=evaluate, c=curve: f(x, c) for name, curve in zip(names, curves, strict=True)},
+        )
+    return found
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "model.xml"
+
+
+def test_continuous(path):
+    curves = {"damage": lognormal(0.3, 0.35), "collapse": lognormal(0.6, 0.4)}
+    dd.write_nrml(path, {"MUR+CLBRS/LWAL+DNO/H:2": curves, "parapets": curves}, id="centre")
+    found = check(path)
+    assert list(found) == ["MUR+CLBRS/LWAL+DNO/H:2", "parapets"]
+    imt, functions = found["parapets"]
+    assert imt == "PGA"
+    x = np.geomspace(0.12, 1.9, 50)
+    for state, curve in curves.items():
+        np.testing.assert_allclose(functions[state](x), curve(x), rtol=1e-9)
+    # Nothing below the range, and a constant above
+    assert functions["damage"](0.3 * np.exp(-6.001 * 0.35)) == 0.0
+    assert functions["damage"](0.3 * np.exp(-5.999 * 0.35)) > 0.0
+    assert functions["collapse"](50.0) == pytest.approx(stats.norm.cdf(3.0))
+
+
+def test_parameters_are_those_of_the_intensity(path):
+    """Mean and standard deviation of a large sample of the lognormal."""
+    dd.write_nrml(path, {"a": {"collapse": lognormal(0.6, 0.4)}})
+    params = ElementTree.parse(path).getroot().find(f".//{SPACE}params")
+    sample = np.exp(np.log(0.6) + 0.4 * np.random.default_rng(1).normal(size=1_000_000))
+    assert float(params.get("mean")) == pytest.approx(sample.mean(), rel=2e-3)
+    assert float(params.get("stddev")) == pytest.approx(sample.std(), rel=5e-3)
+
+
+def test_units(path):
+    functions = {
+        "v": {"collapse": lognormal(0.4, 0.3, "pgv")},
+        "s": {"collapse": lognormal(0.4, 0.3, "sa(0.5)")},
+        "one": {"collapse": lognormal(0.4, 0.3, "sa(1)")},
+        "d": {"collapse": DiscreteFragility([0.2, 0.5], [0.1, 0.7], im="pgv")},
+    }
+    dd.write_nrml(path, functions)
+    found = check(path)
+    assert [imt for imt, _ in found.values()] == ["PGV", "SA(0.5)", "SA(1.0)", "PGV"]
+    # 40 cm/s
+    assert found["v"][1]["collapse"](40.0) == pytest.approx(0.5)
+    assert found["s"][1]["collapse"](0.4) == pytest.approx(0.5)
+    np.testing.assert_allclose(found["d"][1]["collapse"]([20.0, 35.0, 50.0]), [0.1, 0.4, 0.7])
+    for im in ("arias", "cav", "hi", "pgd", "saavg(0.2:2)", "pga/a0", ""):
+        with pytest.raises(dd.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")):
+            dd.write_nrml(path, {"a": {"collapse": lognormal(0.4, 0.3, im)}})
+
+
+def test_range(path):
+    curves = {"collapse": lognormal(0.6, 0.4, "pgv")}
+    dd.write_nrml(path, {"a": curves}, min_iml=0.1, max_iml=2.0, no_damage_limit=0.15)
+    imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+    assert (imls.get("noDamageLimit"), imls.get("minIML"), imls.get("maxIML")) == ("15.0", "10.0", "200.0")
+    dd.write_nrml(path, {"a": {"collapse": DiscreteFragility([0.2, 0.4], [0.1, 0.6])}}, no_damage_limit=0.1)
+    assert ElementTree.parse(path).getroot().find(f".//{SPACE}imls").get("noDamageLimit") == "0.1"
+    for options, sentence in (
+        ({"min_iml": 2.0, "max_iml": 1.0}, "min_iml = 2, max_iml = 1: must increase"),
+        ({"min_iml": 0.0}, "min_iml = 0: must be positive"),
+        ({"max_iml": np.inf}, "max_iml = inf: must be positive"),
+        ({"no_damage_limit": 5.0}, "no_damage_limit = 5: must be below max_iml"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.write_nrml(path, {"a": curves}, **options)
+    with pytest.raises(dd.InputError, match=r"no_damage_limit = 0.3: must be below the lowest level, 0.2"):
+        dd.write_nrml(path, {"a": {"c": DiscreteFragility([0.2, 0.4], [0.1, 0.6])}}, no_damage_limit=0.3)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_typology_and_stripes(path, stripes, few):
+    walls = [dd.OneSidedWall(1.2, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    people = dd.typology(walls, few, [0.3, 0.5, 0.7, 0.9, 1.2, 1.6], progress=False)
+    mean = DiscreteFragility(people.levels, people.mean_curve, people.im)
+    dd.write_nrml(path, {"centre": {"collapse": mean}, "parapet": {"collapse": stripes.fit()}})
+    found = check(path)
+    np.testing.assert_allclose(found["centre"][1]["collapse"](people.levels), people.mean(people.levels))
+    assert found["parapet"][1]["collapse"](0.8) == pytest.approx(stripes.fit()(0.8))
+
+
+def test_crossing_curves(path):
+    """Probits are straight lines of ln x: these meet at one intensity."""
+    light, heavy = lognormal(0.3, 0.2), lognormal(0.5, 0.6)
+    cross = np.exp((np.log(0.3) / 0.2 - np.log(0.5) / 0.6) / (1.0 / 0.2 - 1.0 / 0.6))
+    assert light(cross) == pytest.approx(heavy(cross))
+    with pytest.raises(dd.InputError, match=rf"'heavy' is more probable than 'light' below {cross:.4g}, .* min_iml"):
+        dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
+    assert not path.exists()
+    dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, min_iml=1.001 * cross)
+    check(path)
+    with pytest.raises(dd.InputError, match="cross"):
+        dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, min_iml=0.999 * cross)
+    light, heavy = lognormal(0.3, 0.6), lognormal(0.5, 0.2)
+    cross = np.exp((np.log(0.3) / 0.6 - np.log(0.5) / 0.2) / (1.0 / 0.6 - 1.0 / 0.2))
+    with pytest.raises(dd.InputError, match=rf"above {cross:.4g}, .* max_iml"):
+        dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
+    dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, max_iml=0.999 * cross)
+    check(path)
+    with pytest.raises(dd.InputError, match="from the lightest to the heaviest"):
+        dd.write_nrml(path, {"a": {"heavy": lognormal(0.5, 0.4), "light": lognormal(0.3, 0.4)}})
+    dd.write_nrml(path, {"a": {"light": lognormal(0.5, 0.4), "heavy": lognormal(0.5, 0.4)}})
+
+
+def test_a_range_ends_where_curves_cross_unseen(path):
+    """At a probability of 1e-4 or 0.9999, that is; what is given is not moved."""
+    for betas, seldom in (((0.2, 0.25), 1e-4), ((0.25, 0.2), 1.0 - 1e-4)):
+        cross = 0.3 * np.exp(betas[0] * stats.norm.ppf(seldom))
+        second = cross * np.exp(-betas[1] * stats.norm.ppf(seldom))
+        # The last state takes the range beyond the crossing of the others above.
+        curves = {"a": lognormal(0.3, betas[0]), "b": lognormal(second, betas[1]), "c": lognormal(1.0, betas[1])}
+        dd.write_nrml(path, {"walls": curves})
+        check(path)
+        imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+        assert float(imls.get("minIML" if seldom < 0.5 else "maxIML")) == pytest.approx(cross, rel=1e-6)
+        with pytest.raises(dd.InputError, match="cross"):
+            dd.write_nrml(path, {"walls": curves}, min_iml=0.01, max_iml=9.0)
+
+
+def test_crossing_probabilities(path):
+    light, heavy = DiscreteFragility([0.2, 0.4], [0.1, 0.6]), DiscreteFragility([0.2, 0.4], [0.05, 0.7])
+    with pytest.raises(dd.InputError, match=r"'heavy' is more probable than 'light' at 0.4"):
+        dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
+    with pytest.raises(dd.InputError, match="must have the same levels"):
+        dd.write_nrml(path, {"a": {"light": light, "heavy": DiscreteFragility([0.2, 0.5], [0.05, 0.1])}})
+
+
+def test_names(path):
+    curve = lognormal(0.6, 0.4)
+    good = {"a": {"collapse": curve}}
+    for options, sentence in (
+        ({"id": "a b"}, "id = 'a b'"),
+        ({"id": ""}, "id = ''"),
+        ({"id": 101 * "a"}, "id = "),
+        ({"description": " "}, "description"),
+        ({"description": "città"}, "description"),
+        ({"asset_category": ""}, "asset_category"),
+        ({"loss_category": "walls"}, "loss_category = 'walls': must be one of 'structural', 'nonstructural'"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.write_nrml(path, good, **options)
+    for functions, sentence in (
+        ({}, "functions: must be a mapping"),
+        ({"a b": {"collapse": curve}}, "taxonomy 'a b'"),
+        ({"a#b": {"collapse": curve}}, "taxonomy 'a#b'"),
+        ({"a": {}}, "must be a mapping of limit states"),
+        ({"a": curve}, "must be a mapping of limit states"),
+        ({"a": {"near collapse": curve}}, "limit state 'near collapse'"),
+        ({"a": {"no_damage": curve}}, "limit state 'no_damage'"),
+        ({"a": {"x": curve}, "b": {"y": curve}}, "taxonomy 'b': has the limit states y: must be x"),
+        ({"a": {"x": curve, "y": curve}, "b": {"y": curve, "x": curve}}, "has the limit states y, x: must be x, y"),
+        ({"a": {"x": curve, "y": DiscreteFragility([0.1, 0.2], [0, 1])}}, "must be all Fragility or all"),
+        ({"a": {"x": 0.3}}, "must be all Fragility or all"),
+        ({"a": {"x": curve, "y": lognormal(0.9, 0.4, "pgv")}}, "must be of one intensity measure"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.write_nrml(path, functions)
+    assert not path.exists()
+    dd.write_nrml(path, {"<&>": {"collapse": curve}}, description="walls < 3 m & parapets")
+    assert list(check(path)) == ["<&>"]
+
+
+def test_without_a_fit(path, tmp_path):
+    nothing = dd.fit_fragility([0.2, 0.4], [0, 0], 44, im="pga")
+    with pytest.raises(dd.DondoloError, match=r"limit state 'collapse': has no curve \(status 'no_collapse'\)"):
+        dd.write_nrml(path, {"a": {"collapse": nothing}})
+    with pytest.raises(dd.DondoloError, match="cannot be written"):
+        dd.write_nrml(tmp_path / "none" / "model.xml", {"a": {"collapse": lognormal(0.6, 0.4)}})
+
+
+def test_probabilities():
+    for levels, p, sentence in (
+        ([0.1], [0.1], "levels: must be two at least"),
+        ([0.2, 0.1], [0.1, 0.2], "levels: must be two at least, positive and increasing"),
+        ([0.0, 0.1], [0.1, 0.2], "levels: must be two at least, positive and increasing"),
+        ([0.1, 0.2], [0.1], "2 levels, 1 probabilities"),
+        ([0.1, 0.2], [0.1, 1.2], "probability = 1.2: must lie between 0 and 1"),
+        ([0.1, 0.2], [0.1, np.nan], "probability = nan"),
+        ([0.1, 0.2], [0.3, 0.2], "probability = 0.3, 0.2: must not decrease"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            DiscreteFragility(levels, p)

@@ -1,0 +1,285 @@
+"""Risk: hazard curves, the mean annual frequency of collapse, its bounds and its deaggregation."""
+
+import doctest
+import warnings
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from scipy import integrate, stats
+
+import dondolo as dd
+from dondolo import hazard as hazard_module
+from dondolo import risk as risk_module
+
+LEVELS = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
+FREQUENCY = [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9]
+
+
+def lognormal(theta, beta, im="pga"):
+    """A fitted curve of these parameters: two stripes at 25 and 75 % have it in closed form."""
+    step = beta * stats.norm.ppf(0.75)
+    curve = dd.fit_fragility([theta * np.exp(-step), theta * np.exp(step)], [250, 750], 1000, im=im)
+    assert (curve.theta, curve.beta) == pytest.approx((theta, beta), rel=1e-9)
+    return curve
+
+
+@pytest.fixture(scope="module")
+def hazard():
+    return dd.HazardCurve(LEVELS, FREQUENCY)
+
+
+@pytest.fixture(scope="module")
+def curve():
+    return lognormal(0.6, 0.4)
+
+
+def trapezoid(probability, hazard, points):
+    """The integral by the trapezoidal rule in H itself, step by step of the curve."""
+    total = 0.0
+    for low, high in zip(hazard.im_levels[:-1], hazard.im_levels[1:], strict=True):
+        x = np.geomspace(low, high, points)
+        total += integrate.trapezoid(probability(x), -hazard(np.clip(x, low, high)))
+    return total
+
+
+def test_curve_is_straight_on_logarithmic_axes(hazard):
+    np.testing.assert_allclose(hazard(LEVELS), FREQUENCY, rtol=1e-14)
+    middle = np.sqrt(np.array(LEVELS[:-1]) * LEVELS[1:])
+    np.testing.assert_allclose(hazard(middle), np.sqrt(np.array(FREQUENCY[:-1]) * FREQUENCY[1:]), rtol=1e-12)
+    assert np.isnan(hazard([0.0, 0.019, 6.5])).all()
+    assert isinstance(hazard(0.3), float)
+    assert hazard(np.full((2, 3), 0.3)).shape == (2, 3)
+    assert not hazard.im_levels.flags.writeable
+
+
+def test_power_law():
+    hazard = dd.HazardCurve.power_law(3e-4, 2.2, im="pgv")
+    x = np.array([1e-6, 0.1, 1.0, 30.0, 1e5])
+    np.testing.assert_allclose(hazard(x), 3e-4 * x**-2.2, rtol=1e-12)
+    assert hazard.endless
+    assert hazard.im == "pgv"
+    for k0, k in ((0.0, 2.0), (1e-4, -1.0), (np.nan, 2.0)):
+        with pytest.raises(dd.InputError, match="must be positive"):
+            dd.HazardCurve.power_law(k0, k)
+
+
+@pytest.mark.parametrize("theta", [1e-3, 0.6, 500.0])
+@pytest.mark.parametrize("beta", [0.01, 0.35, 1.2])
+@pytest.mark.parametrize("k", [0.3, 2.5, 4.0])
+def test_closed_form(theta, beta, k):
+    """Cornell (1996)."""
+    risk = dd.mean_annual_frequency(lognormal(theta, beta), dd.HazardCurve.power_law(1e-4, k))
+    exact = 1e-4 * theta**-k * np.exp(0.5 * k**2 * beta**2)
+    assert risk.frequency == pytest.approx(exact, rel=1e-7)
+    assert risk.error < 1e-7 * exact
+    assert risk.bounds == (risk.frequency, risk.frequency)
+
+
+def test_trapezoids_converge_to_it(hazard, curve):
+    risk = dd.mean_annual_frequency(curve, hazard)
+    off = [abs(trapezoid(curve, hazard, points) - risk.inside) for points in (101, 201, 401)]
+    # Their error falls fourfold with each halving, to what is left of a right value.
+    assert off[0] / off[1] == pytest.approx(4.0, rel=0.02)
+    assert off[1] / off[2] == pytest.approx(4.0, rel=0.02)
+    assert off[2] < 1e-4 * risk.inside
+    assert risk.error < 1e-8 * risk.inside
+
+
+def test_the_same_in_closed_form_step_by_step(hazard, curve):
+    """Between levels: integral of Phi k H d(ln x), by completing the square."""
+    u, h = np.log(LEVELS), np.array(FREQUENCY)
+    k = -np.diff(np.log(h)) / np.diff(u)
+    mean, beta, total = np.log(curve.theta), curve.beta, 0.0
+    for i in range(len(k)):
+        ends = u[i : i + 2]
+        shifted = stats.norm.cdf((ends - mean) / beta + k[i] * beta)
+        part = np.exp(-k[i] * (mean - u[i]) + 0.5 * (k[i] * beta) ** 2) * np.diff(shifted)[0]
+        total += h[i] * part - np.diff(h[i : i + 2] * stats.norm.cdf((ends - mean) / beta))[0]
+    assert dd.mean_annual_frequency(curve, hazard).inside == pytest.approx(total, rel=1e-9)
+
+
+def test_bounds_hold_the_truth(curve):
+    """A power law of which only a part is given."""
+    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5)).frequency
+    for levels in ([0.3, 0.6, 1.2], [0.3, 10.0], [0.01, 0.6], [0.6, 0.7]):
+        cut = dd.HazardCurve(levels, 1e-4 * np.array(levels) ** -2.5)
+        with pytest.warns(dd.DondoloWarning, match="is too short: the mean annual frequency of collapse"):
+            risk = dd.mean_annual_frequency(curve, cut)
+        assert risk.bounds[0] < whole < risk.bounds[1] * (1.0 + 1e-9)
+        assert risk.inside < risk.frequency == risk.bounds[0]
+        # Below the first level the bound is the power law itself; above the last, P is between its value there and 1.
+        u = np.linspace(np.log(levels[0]) - 12.0, np.log(levels[0]), 200_001)
+        below = integrate.simpson(curve(np.exp(u)) * 2.5 * 1e-4 * np.exp(-2.5 * u), x=u)
+        assert risk.below == (0.0, pytest.approx(below, rel=1e-7))
+        assert risk.above == pytest.approx((curve(levels[-1]) * cut(levels[-1]), cut(levels[-1])), rel=1e-12)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 100.0], 1e-4 * np.array([0.01, 100.0]) ** -2.5))
+
+
+def test_a_step_is_the_hazard_itself(hazard):
+    """Everything collapses above 0.33 and nothing below: the frequency is that of 0.33."""
+    risk = dd.mean_annual_frequency(lambda x: (x > 0.33).astype(float), hazard)
+    assert risk.frequency == pytest.approx(hazard(0.33), rel=1e-8)
+    assert abs(risk.frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.frequency)
+
+
+def test_degenerate_curves(hazard):
+    with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
+        never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
+    assert never.frequency == 0.0
+    assert never.return_period == np.inf
+    assert never.bounds[1] == FREQUENCY[-1]
+    assert never.probability(50.0) == 0.0
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        always = dd.mean_annual_frequency(lambda x: np.ones_like(x), hazard)
+    assert always.inside == pytest.approx(FREQUENCY[0] - FREQUENCY[-1], rel=1e-9)
+    assert always.bounds == (pytest.approx(FREQUENCY[0], rel=1e-9), np.inf)
+    flat = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.01, 0.01])
+    with pytest.warns(dd.DondoloWarning):
+        risk = dd.mean_annual_frequency(lognormal(0.2, 0.3), flat)
+    assert risk.inside == 0.0
+    assert risk.bounds == pytest.approx((0.01 * lognormal(0.2, 0.3)(0.4), 0.01))
+
+
+def test_a_frequency_that_is_not_finite():
+    with pytest.raises(dd.DondoloError, match="is not finite"):
+        dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0), dd.HazardCurve.power_law(1e-4, 2.5))
+    risk = dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 3, dd.HazardCurve.power_law(1e-4, 2.0))
+    # Integral of 2 x^3 x^-3 from 0 to 1, and 1
+    assert risk.frequency == pytest.approx(3e-4, rel=1e-7)
+
+
+def test_time(hazard, curve):
+    risk = dd.mean_annual_frequency(curve, hazard)
+    assert risk.return_period == pytest.approx(1.0 / risk.frequency)
+    assert risk.probability(50.0) == pytest.approx(1.0 - np.exp(-50.0 * risk.frequency), rel=1e-12)
+    assert risk.probability(0.0) == 0.0
+    # As many collapses as a Poisson process has
+    counts = np.random.default_rng(3).poisson(risk.frequency * 2000.0, 100_000)
+    assert risk.probability(2000.0) == pytest.approx((counts > 0).mean(), abs=0.005)
+    with pytest.raises(dd.InputError, match="must not be negative"):
+        risk.probability(-1.0)
+
+
+def test_deaggregation(hazard, curve):
+    risk = dd.mean_annual_frequency(curve, hazard)
+    edges = np.array([0.001, 0.1, 0.3, 0.5, 0.7, 1.0, 9.0])
+    parts = risk.deaggregate(edges)
+    assert parts.sum() == pytest.approx(risk.inside, rel=1e-9)
+    for low, high, part in zip(edges[:-1], edges[1:], parts, strict=True):
+        u = np.log(np.geomspace(max(low, LEVELS[0]), min(high, LEVELS[-1]), 400_001)[1:-1])
+        assert part == pytest.approx(integrate.trapezoid(risk.density(np.exp(u)), u), rel=1e-3)
+    assert risk.deaggregate([0.001, 0.01]).tolist() == [0.0]
+    assert risk.deaggregate([7.0, 8.0, 9.0]).tolist() == [0.0, 0.0]
+    assert risk.density(0.01) == risk.density(7.0) == 0.0
+    k = np.log(FREQUENCY[4] / FREQUENCY[5]) / np.log(2.0)
+    assert risk.density(0.5) == pytest.approx(curve(0.5) * k * hazard(0.5), rel=1e-12)
+    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
+    assert whole.deaggregate([1e-9, 1e9])[0] == pytest.approx(whole.frequency, rel=1e-9)
+    # Half of it comes from above the median of the lognormal that the integrand is
+    assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.frequency
+    for wrong in ([0.1], [0.2, 0.1], [0.0, 1.0], [0.1, np.inf]):
+        with pytest.raises(dd.InputError, match="edges: must be two"):
+            risk.deaggregate(wrong)
+    with pytest.raises(dd.InputError, match="x: must be positive"):
+        risk.density([0.0])
+
+
+def test_measures_must_agree(hazard, curve, few):
+    walls = [dd.OneSidedWall(1.2, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        people = dd.typology(walls, few, [0.3, 0.6, 0.9, 1.2], progress=False)
+        pgv = dd.HazardCurve(LEVELS, FREQUENCY, im="pgv")
+        for fragility in (people.mean, lognormal(0.6, 0.4), people.fit()):
+            with pytest.raises(dd.InputError, match="im = 'pga' of the fragility and 'pgv' of the hazard: must be"):
+                dd.mean_annual_frequency(fragility, pgv)
+        risk = dd.mean_annual_frequency(people.mean, hazard)
+        assert risk.inside == pytest.approx(trapezoid(people.mean, hazard, 3001), rel=1e-5)
+        assert dd.mean_annual_frequency(lambda x: curve(x), pgv).frequency > 0.0
+
+
+def test_refused(hazard, curve):
+    nothing = dd.fit_fragility([0.2, 0.4], [0, 0], 44, im="pga")
+    with pytest.raises(dd.DondoloError, match="no curve was fitted"):
+        dd.mean_annual_frequency(nothing, hazard)
+    for wrong, sentence in (
+        (lambda x: x, "must lie between 0 and 1"),
+        (lambda x: np.full_like(x, np.nan), "fragility = nan: must lie"),
+        (lambda x: 0.5, "gives an array of shape"),
+        (0.3, "fragility: float is no curve"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.mean_annual_frequency(wrong, hazard)
+    with pytest.raises(dd.InputError, match="hazard: list is no hazard curve"):
+        dd.mean_annual_frequency(curve, [1.0])
+    for levels, frequency, sentence in (
+        ([0.1, 0.2], [0.01], "2 im_levels, 1 annual_frequency: must be as many"),
+        ([0.1], [0.01], "im_levels: must be two at least"),
+        ([0.0, 0.1], [0.02, 0.01], "im_levels = 0: must be positive"),
+        ([0.1, 0.2], [0.01, 0.0], "annual_frequency = 0: must be positive; leave out"),
+        ([0.1, 0.2], [0.01, np.nan], "annual_frequency = nan: must be positive"),
+        ([0.2, 0.2], [0.02, 0.01], "im_levels = 0.2, 0.2: must increase strictly"),
+        ([0.1, 0.2], [0.01, 0.02], "annual_frequency = 0.01, 0.02: must not increase"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.HazardCurve(levels, frequency)
+    with pytest.raises(dd.InputError, match="im = 'pgx'"):
+        dd.HazardCurve([0.1, 0.2], [0.02, 0.01], im="pgx")
+
+
+def test_files(hazard, tmp_path):
+    hazard.to_csv(tmp_path / "hazard.csv")
+    again = dd.HazardCurve.from_csv(tmp_path / "hazard.csv")
+    np.testing.assert_array_equal(again.im_levels, hazard.im_levels)
+    np.testing.assert_array_equal(again.annual_frequency, hazard.annual_frequency)
+    assert again.im == "pga"
+    (tmp_path / "own.csv").write_text("# a site\nsa(0.5), annual_frequency\n0.1,0.01\n\n0.3,0.001\n")
+    own = dd.HazardCurve.from_csv(tmp_path / "own.csv")
+    assert (own.im, own(0.3)) == ("sa(0.5)", pytest.approx(0.001))
+    for text, sentence in (
+        ("", "the first line must be"),
+        ("0.1,0.01\n", "the first line must be"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: must be two numbers"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: must be two numbers"),
+        ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: must be two numbers"),
+        ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
+    ):
+        (tmp_path / "own.csv").write_text(text)
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.HazardCurve.from_csv(tmp_path / "own.csv")
+    with pytest.raises(dd.InputError, match="cannot be read"):
+        dd.HazardCurve.from_csv(tmp_path / "none.csv")
+
+
+def test_shown(hazard, curve):
+    assert repr(hazard) == "<HazardCurve: levels 9 of pga, 0.02 to 6.4 g, exceeded 0.1 to 5e-09 times a year>"
+    assert repr(dd.HazardCurve.power_law(1e-4, 2.5)) == "<HazardCurve: power law 0.0001 pga^-2.5 a year>"
+    assert "return period" in repr(dd.mean_annual_frequency(curve, hazard))
+    assert "<table>" in dd.mean_annual_frequency(curve, hazard)._repr_html_()
+    assert list(hazard.to_frame()["pga"]) == LEVELS
+    for module in (hazard_module, risk_module):
+        assert doctest.testmod(module).failed == 0
+
+
+@pytest.mark.parametrize("endless", [False, True])
+def test_figure(hazard, curve, endless):
+    hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else hazard
+    risk = dd.mean_annual_frequency(curve, hazard)
+    above, middle, below = dd.plot_risk(risk)
+    x = above.get_lines()[0].get_xdata()
+    np.testing.assert_allclose(above.get_lines()[0].get_ydata(), hazard(x))
+    np.testing.assert_allclose(middle.get_lines()[0].get_ydata(), curve(x))
+    share = below.get_lines()[0]
+    np.testing.assert_allclose(share.get_ydata(), risk.density(x) / risk.inside)
+    assert integrate.trapezoid(share.get_ydata(), np.log(x)) == pytest.approx(1.0, abs=0.02)
+    assert below.get_xlabel() == "peak ground acceleration [g]"
+    assert f"{risk.frequency:.3g} a year" in above.get_title(loc="left")
+    plt.close("all")
