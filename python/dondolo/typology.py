@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor, Future, as_completed
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._request import Request, new_request, progress_bar
+from dondolo._blocks import run_walls
+from dondolo._flags import states_of
+from dondolo._request import new_request
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
@@ -22,9 +23,6 @@ from dondolo.work import Work
 
 FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
-
-# Blocks of walls that an executor gets: enough for many workers, few enough that sending the records does not show
-_BLOCKS = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,8 +198,11 @@ def typology(
     rtol: float | None = None,
     atol: float | None = None,
     edp_limit: float | None = None,
+    edp_thresholds: ArrayLike | None = None,
     threads: int = 0,
     executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    block: int | None = None,
     progress: bool = True,
 ) -> Typology:
     """Fragility of a population of walls.
@@ -212,10 +213,20 @@ def typology(
         The walls; without weights they count alike.
     records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
         As for `multiple_stripe`.
+    edp_thresholds : array_like, optional
+        Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
+        collapse is always the last state. All states come from the same histories. Without thresholds only collapses
+        are asked for, which takes less time.
     executor : concurrent.futures.Executor, optional
         Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
         thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of
         processes must not fork after a run of this process: OpenMP's threads do not survive it.
+    checkpoint : path, optional
+        File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
+        results are the same to the bit. It stays when all is done.
+    block : int, optional
+        Walls of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
+        do not depend on it.
 
     Returns
     -------
@@ -224,7 +235,9 @@ def typology(
     Raises
     ------
     InputError
-        What cannot be run, with the sentence of the executable.
+        What cannot be run, with the sentence of the executable; a checkpoint of another study.
+    DondoloError
+        The executor failed, or the checkpoint cannot be written.
     Interrupted
         Ctrl-C; its `partial` is the typology of the walls that are complete.
 
@@ -237,60 +250,22 @@ def typology(
     if executor is not None and threads == 0:
         threads = 1
     several = as_records(records)
+    limit = float(_binding.settings(rtol, atol, edp_limit)[2])
+    states = states_of(edp_thresholds, limit)
+    alone = len(states) == 1
     request = new_request(
-        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=True
+        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=alone
     )
     plan = request.plan()
-    if executor is None:
-        collapses, complete, work = _run_here(request, plan.histories, progress)
-    else:
-        collapses, complete, work = _run_there(request, plan.histories, progress, executor)
-    if not complete.any():
+    run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
+    if not run.complete.any():
         raise Interrupted("interrupted: no wall is complete")
-    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, complete, work)
-    if not complete.all():
-        raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
+    collapses, work = np.ascontiguousarray(run.exceedances[-1].T), Work.total(run.works)
+    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, run.complete, work)
+    if not run.complete.all():
+        raise Interrupted(f"interrupted: {run.complete.sum()} of {len(run.complete)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
     return result
-
-
-def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
-    """Collapses (walls, levels), which walls are complete, and what was computed."""
-    outcome, _ = request.run(histories, progress, f"{len(request.walls)} walls")
-    number = len(request.levels)
-    ends = np.cumsum(histories.astype(np.int64) * number)
-    collapses = np.zeros((len(histories), number), dtype=np.int32)
-    complete = ends <= outcome.done
-    for i in np.flatnonzero(complete):
-        block = outcome.collapsed[ends[i] - histories[i] * number : ends[i]]
-        collapses[i] = block.reshape(number, -1).sum(axis=1)
-    return collapses, complete, outcome.work
-
-
-def _run_there(
-    request: Request, histories: IntArray, progress: bool, executor: Executor
-) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
-    """The same by an executor: a block of walls is a task."""
-    walls = len(request.walls)
-    collapses = np.zeros((walls, len(request.levels)), dtype=np.int32)
-    complete = np.zeros(walls, dtype=bool)
-    works: dict[Future[Any], Work] = {}
-    tasks: dict[Future[Any], Any] = {}
-    bar = progress_bar(walls, progress, f"{walls} walls", "wall")
-    try:
-        for block in np.array_split(np.arange(walls), min(walls, _BLOCKS)):
-            part = dataclasses.replace(request, walls=tuple(request.walls[i] for i in block))
-            tasks[executor.submit(_run_here, part, histories[block], False)] = block
-        for task in as_completed(tasks):
-            collapses[tasks[task]], complete[tasks[task]], works[task] = task.result()
-            bar.update(len(tasks[task]))
-    except KeyboardInterrupt:
-        for task, block in tasks.items():
-            if not task.cancel() and task.done() and task.exception() is None:
-                collapses[block], complete[block], works[task] = task.result()
-    finally:
-        bar.close()
-    return collapses, complete, Work.total(works.values())
 
 
 def combine(
