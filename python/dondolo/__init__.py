@@ -33,6 +33,7 @@ from dondolo.results import StoredResults, read_results
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
+from dondolo.typology_bootstrap import TypologyBootstrap
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
 from dondolo.work import Work
 
@@ -65,6 +66,7 @@ __all__ = [
     "Terms",
     "TwoBlockWall",
     "Typology",
+    "TypologyBootstrap",
     "Wall",
     "Window",
     "Work",

@@ -70,7 +70,7 @@ def run_walls(
     _check(executor, block)
     levels, walls = len(request.levels), len(histories)
     run = Run(
-        Flags.empty(histories, levels, len(states)),
+        Flags.empty(histories, levels, len(states), len(request.records.lengths)),
         np.zeros((len(states), levels, walls), dtype=np.int32),
         np.zeros(walls, dtype=bool),
         [],

@@ -76,11 +76,12 @@ class Answer(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A block as it is sent, and when it was."""
+    """A block as it is sent, with the number of its task and the time."""
 
     first: int
     count: int
     block: bytes
+    number: int = -1
     sent: float = 0.0
 
 
@@ -129,8 +130,9 @@ class Crew:
         self._numbers = itertools.count()
         self._flying: dict[Future[Any], Task] = {}
         self._window = max(4, 2 * (os.cpu_count() or 1))
-        # Of each worker that lacked the records: blocks that came back since they were sent
-        self._missed: dict[str, int] = {}
+        # Number of the last task by which each worker must have had the records: one that it did, or one that brought
+        # them when it lacked them
+        self._supplied: dict[str, int] = {}
         self.sends = 0
 
     def run(
@@ -145,7 +147,7 @@ class Crew:
                 while len(self._flying) < self._window and (place := blocks.take(2 * self._window)):
                     first, count = place
                     here = slice(first, first + count)
-                    self._send(Task(first, count, pickle.dumps((walls[here], histories[here]))), not self.sends)
+                    self._send(Task(first, count, pickle.dumps((walls[here], histories[here]))), carries=False)
                 if not self._flying:
                     return
                 for future in wait(self._flying, return_when=FIRST_COMPLETED).done:
@@ -172,27 +174,31 @@ class Crew:
         except (Exception, CancelledError) as error:
             raise CrewError(error) from error
         if answer.part is not None:
-            self._missed.pop(answer.worker, None)
-            waited = time.monotonic() - self._flying[future].sent - answer.part.seconds
+            task = self._flying[future]
+            self._supplied[answer.worker] = max(task.number, self._supplied.get(answer.worker, -1))
+            waited = time.monotonic() - task.sent - answer.part.seconds
             if waited < 0.5 * answer.part.seconds:
                 # A worker was idle, or would have been soon.
                 self._window += 1
         return answer.part
 
-    def _send(self, task: Task, carries: bool) -> None:
-        head = Head(next(self._numbers), self._key, _build())
+    def _send(self, task: Task, carries: bool) -> int:
+        task = task._replace(number=next(self._numbers), sent=time.monotonic())
+        head = Head(task.number, self._key, _build())
         try:
             future = self._executor.submit(perform, head, task.block, self._parcel if carries else None)
         except Exception as error:
             raise CrewError(error) from error
         self.sends += carries
-        self._flying[future] = task._replace(sent=time.monotonic())
+        self._flying[future] = task
+        return task.number
 
     def _send_again(self, task: Task, worker: str) -> None:
-        """A worker lacked the records: they go out once for it, and not with all that it may miss until they arrive."""
-        missed = self._missed.get(worker, 0)
-        self._missed[worker] = missed + 1
-        self._send(task, missed % self._window == 0)
+        """A worker lacked the records: the task brings them, but if it came before one that did."""
+        carries = task.number > self._supplied.get(worker, -1)
+        number = self._send(task, carries)
+        if carries:
+            self._supplied[worker] = number
 
     def __enter__(self) -> Crew:
         return self

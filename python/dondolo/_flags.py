@@ -31,6 +31,9 @@ class Flags:
         Number of levels.
     states : int
         Number of states, collapse among them.
+    records : int
+        Number of records: the histories of a stripe are those of all records, and again in the other polarity if there
+        are two.
     bits : ndarray of uint8
         Eight flags a byte.
     """
@@ -38,13 +41,14 @@ class Flags:
     histories: NDArray[np.int32]
     levels: int
     states: int
+    records: int
     bits: Bits
 
     @classmethod
-    def empty(cls, histories: NDArray[np.int32], levels: int, states: int) -> Flags:
+    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, records: int) -> Flags:
         """No history reaches anything."""
         sizes = _bytes_of(histories, levels * states)
-        return cls(histories, levels, states, np.zeros(int(sizes.sum()), dtype=np.uint8))
+        return cls(histories, levels, states, records, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
     @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:
@@ -84,7 +88,7 @@ class Flags:
     def chosen(self, walls: NDArray[np.int64]) -> Flags:
         """Those of some walls only."""
         bits = [self.bits[self.place(int(i), 1)] for i in walls]
-        return Flags(self.histories[walls], self.levels, self.states, np.concatenate(bits))
+        return Flags(self.histories[walls], self.levels, self.states, self.records, np.concatenate(bits))
 
 
 def pack(

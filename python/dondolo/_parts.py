@@ -18,9 +18,9 @@ from dondolo.work import Work
 
 IntArray = NDArray[np.int32]
 
-# What a block should take [s], and never less where a study has much to share out among workers
+# What a block should take [s], and the least where workers share out the last ones of a long run
 _SECONDS = 1.5
-_LEAST_SECONDS = 0.3
+_LEAST_SECONDS = 0.1
 # A guess for the first block: histories of a thread
 _FIRST_HISTORIES = 25_000
 
@@ -92,7 +92,7 @@ class Blocks:
         edges = np.flatnonzero(np.diff(np.concatenate([[True], done, [True]]).astype(np.int8)))
         self._gaps = [(int(first), int(end)) for first, end in edges.reshape(-1, 2)]
         self._gaps.reverse()
-        self._left = int(sizes[~done].sum())
+        self._total = self._left = int(sizes[~done].sum())
         self._size = float(_FIRST_HISTORIES * threads)
         self._walls = walls
 
@@ -103,7 +103,9 @@ class Blocks:
         first, end = self._gaps.pop()
         before = int(self._ends[first - 1]) if first else 0
         if self._walls is None:
-            size = min(self._size, max(self._left / shares, self._size * _LEAST_SECONDS / _SECONDS))
+            # Blocks become smaller towards the end, so that all workers end together.
+            least = min(self._size * _LEAST_SECONDS / _SECONDS, self._total / shares)
+            size = min(self._size, max(self._left / shares, least))
             cut = int(np.searchsorted(self._ends, before + size, side="right"))
             cut = min(max(cut, first + 1), end)
         else:

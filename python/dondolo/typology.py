@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._blocks import run_walls
-from dondolo._flags import states_of
+from dondolo._flags import Flags, states_of
 from dondolo._request import new_request
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
+from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
 from dondolo.walls import Population, Wall
 from dondolo.work import Work
 
@@ -73,6 +74,8 @@ class Typology:
         but one mechanism).
     work : Work
         What was computed for all walls, and what was not.
+    flags : Flags
+        The states that every history reaches, packed, which `bootstrap` needs.
     """
 
     population: Population
@@ -83,6 +86,7 @@ class Typology:
     curves: tuple[Fragility, ...]
     groups: tuple[Group, ...]
     work: Work
+    flags: Flags | None = None
 
     @property
     def walls(self) -> tuple[Wall, ...]:
@@ -151,6 +155,39 @@ class Typology:
                 part = np.interp(flat, np.append(0.0, self.levels), np.append(0.0, fraction))
             mean += weight / group.weight * part
         return shaped(mean, values)
+
+    def bootstrap(
+        self,
+        n: int = 1000,
+        seed: int | np.random.Generator | None = 0,
+        over: str | Iterable[str] = ("records", "walls"),
+        mechanism: str | None = None,
+        group: str = "",
+    ) -> TypologyBootstrap:
+        """Fit the curve again to records and walls drawn with replacement.
+
+        All walls are shaken by the same records: a record that is drawn counts for all of them, at all levels and in
+        both polarities, and a wall that is drawn brings all its mechanisms. The standard errors of the fit know nothing
+        of that and are too small.
+
+        Parameters
+        ----------
+        n : int
+            Number of samples.
+        seed : int, Generator or None
+            Of the random numbers; None: different every time.
+        over : {'records', 'walls'} or both
+            What is drawn.
+        mechanism : str, optional
+            The curve of one mechanism; all combined if left out.
+        group : str
+            The curve of one group; '' for the whole population.
+
+        Returns
+        -------
+        TypologyBootstrap
+        """
+        return resample_population(self.population, self.flags, self.levels, -1, n, seed, over, mechanism, group)
 
     def _tables(self) -> dict[str, Any]:
         return {
@@ -262,6 +299,7 @@ def typology(
         raise Interrupted("interrupted: no wall is complete")
     collapses, work = np.ascontiguousarray(run.exceedances[-1].T), Work.total(run.works)
     result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, run.complete, work)
+    result = replace(result, flags=run.flags.chosen(np.flatnonzero(run.complete)))
     if not run.complete.all():
         raise Interrupted(f"interrupted: {run.complete.sum()} of {len(run.complete)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
