@@ -3,11 +3,14 @@ module dondolo_benchmark_walls
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : line_type
    use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_population, only : population_type
    use dondolo_record_set, only : new_record_set
    use dondolo_scaling, only : new_scaling
    use dondolo_stripes, only : measure_records
    use dondolo_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_text, only : to_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private
@@ -49,7 +52,7 @@ contains
             if (allocated(error)) return
          end do
       end do
-      case%population%weight = spread(1.0_wp, 1, number)
+      call set_rows(case%population)
       case%job%task = 'typology'
       case%records_input%polarity = 'as_recorded'
       case%stripes%levels = levels
@@ -72,8 +75,25 @@ contains
       longer = case
       walls = size(case%population%walls)
       longer%population%walls = [(case%population%walls(modulo(i, walls) + 1), i=0, times*walls - 1)]
-      longer%population%weight = spread(1.0_wp, 1, times*walls)
+      call set_rows(longer%population)
    end function repeat_walls
+
+   !> Every row is a wall of its own that counts as any other
+   subroutine set_rows(population)
+      !> The population, its walls set
+      type(population_type), intent(inout) :: population
+
+      type(line_type) :: no_group
+      integer :: i
+
+      no_group%text = ''
+      do i = 1, size(population%walls)
+         population%walls(i)%input%name = 'wall '//to_text(i)
+      end do
+      population%weight = spread(1.0_wp, 1, size(population%walls))
+      population%p_occ = population%weight
+      population%group = spread(no_group, 1, size(population%walls))
+   end subroutine set_rows
 
    !> Multiplications and additions of a step of the engine lanes, counted in its source (lane_step.inc); comparisons,
    !> events, and the search for the start of rocking are not counted

@@ -9,6 +9,7 @@ module dondolo_summary
    use dondolo_plan, only : print_walls, shown_rows
    use dondolo_run_case, only : results_type
    use dondolo_text, only : to_text
+   use dondolo_typology, only : whole_population
    use dondolo_warnings, only : rounded
    implicit none
    private
@@ -236,12 +237,12 @@ contains
       !> Its results
       type(results_type), intent(in) :: results
 
-      character(len=:), allocatable :: head
+      character(len=:), allocatable :: head, who
       character(len=120) :: line
       integer :: i, j
 
       head = head_of_levels(case)
-      associate (typology => results%typologies(size(results%typologies)))
+      associate (typology => results%typologies(whole_population(results%typologies)))
          write (output_unit, '(a, a15, a12)') head, 'mean fraction', 'mean curve'
          do j = 1, size(typology%levels)
             write (line, '(a, f15.3, f12.3, 2x, a)') right(rounded(typology%levels(j)), len(head)), &
@@ -251,13 +252,15 @@ contains
          write (output_unit, '(a)') ''
       end associate
       do i = 1, size(results%typologies)
-         associate (mechanism => results%typologies(i)%mechanism, fit => results%typologies(i)%fit)
+         associate (group => results%typologies(i)%group, fit => results%typologies(i)%fit)
+            who = 'population, '//results%typologies(i)%mechanism
+            if (len(group) > 0) who = 'group '''//group//''', '//results%typologies(i)%mechanism
             if (fit%has_fit()) then
-               write (output_unit, '(a)') 'population, '//mechanism//': theta = '//rounded(fit%theta)// &
+               write (output_unit, '(a)') who//': theta = '//rounded(fit%theta)// &
                   & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(fit%beta)//', status '// &
                   & trim(fit%status)
             else
-               write (output_unit, '(a)') 'population, '//mechanism//': no fragility curve, status '//trim(fit%status)
+               write (output_unit, '(a)') who//': no fragility curve, status '//trim(fit%status)
             end if
          end associate
       end do

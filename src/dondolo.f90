@@ -36,9 +36,10 @@ module dondolo
    use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
    use dondolo_stripes, only : multiple_stripe, polarity_names, stripes_type
    use dondolo_synthetic, only : synthetic_record
-   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_typology, only : combination_type, combine_population, typology_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
+   use dondolo_wall_curves, only : new_wall_curves, wall_curves_type
    implicit none
    private
 
@@ -56,7 +57,8 @@ module dondolo
    ! Fragility
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface
    public :: scaling_type, new_scaling, scaling_names
-   public :: fragility_type, fit_fragility, typology_type, combine_population
+   public :: fragility_type, fit_fragility, typology_type, combination_type, combine_population
+   public :: wall_curves_type, new_wall_curves
    ! Cases
    public :: case_type, read_case, results_type, run_case, check_reports, write_reports
    public :: population_type, read_population

@@ -7,7 +7,6 @@ program test_fragility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_stripes, only : stripes_type
-   use dondolo_typology, only : combine_population, combine_walls, typology_type
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : warn_of_fit
    implicit none
@@ -17,7 +16,6 @@ program test_fragility
    call test_statuses()
    call test_invariances()
    call test_wrong_counts()
-   call test_typology()
    call finish()
 
 contains
@@ -163,37 +161,5 @@ contains
       call fit_fragility(curve, one, [ieee_value(0.0_wp, ieee_quiet_nan)], one, error)
       call check_error(error, 'collapses = NaN', 'not a number')
    end subroutine test_wrong_counts
-
-   !> A population
-   subroutine test_typology()
-      real(wp), parameter :: x(3) = [0.1_wp, 0.2_wp, 0.4_wp]
-      integer, parameter :: z(3, 2) = reshape([4, 20, 40, 0, 0, 10], [3, 2])
-      type(fragility_type) :: curves(2)
-      type(typology_type) :: typology
-      type(typology_type), allocatable :: typologies(:)
-      type(error_type), allocatable :: error
-
-      call suite('typology')
-      curves(1) = fitted(x, real(z(:, 1), wp), spread(44.0_wp, 1, 3), 'wall 1')
-      curves(2) = fitted(x, real(z(:, 2), wp), spread(44.0_wp, 1, 3), 'wall 2')
-      call combine_walls(typology, x, z, [44, 44], curves, [3.0_wp, 1.0_wp], error)
-      call check_ok(error, 'combine')
-      call check_close(typology%weight, 4.0_wp, 0.0_wp, 'weight')
-      call check_close(typology%mean_fraction(3), (0.75_wp*40.0_wp + 0.25_wp*10.0_wp)/44.0_wp, 1.0e-14_wp, 'fraction')
-      ! The second wall has no curve and takes part with its fractions.
-      call check_close(typology%mean_curve(3), 0.75_wp*curves(1)%probability(0.4_wp) + 0.25_wp*10.0_wp/44.0_wp, &
-         & 1.0e-14_wp, 'curve')
-      call combine_walls(typology, x, z(:, [1, 1]), [44, 44], curves([1, 1]), [1.0_wp, 1.0_wp], error)
-      call check_close(typology%fit%theta, curves(1)%theta, 1.0e-12_wp, 'theta of two equal walls')
-      call check_close(typology%fit%se_beta(), curves(1)%se_beta()*sqrt(0.5_wp), 1.0e-10_wp, 'standard error of two')
-
-      call combine_population(typologies, ['b', 'a', 'b', 'c'], x, z(:, [1, 2, 1, 2]), [44, 44, 44, 44], &
-         & curves([1, 2, 1, 2]), [2.0_wp, 1.0_wp, 1.0_wp, 0.0_wp], error)
-      call check_ok(error, 'combine a population')
-      call check(size(typologies) == 3, 'two mechanisms have weight')
-      call check_text(typologies(1)%mechanism//typologies(2)%mechanism//typologies(3)%mechanism, 'baall', 'mechanisms')
-      call check_close(typologies(1)%fit%theta, curves(1)%theta, 1.0e-12_wp, 'theta of the first mechanism')
-      call check_close(typologies(3)%mean_fraction(3), 130.0_wp/176.0_wp, 1.0e-14_wp, 'mean fraction of all')
-   end subroutine test_typology
 
 end program test_fragility

@@ -24,8 +24,8 @@ from dondolo.plots import (
     plot_intensities,
     plot_overturning_spectrum,
     plot_stripes,
-    plot_typology,
 )
+from dondolo.plots_typology import plot_combination, plot_damage_states, plot_groups, plot_typology
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
@@ -84,7 +84,10 @@ __all__ = [
     "one_cosine",
     "one_sine",
     "overturning_spectrum",
+    "plot_combination",
+    "plot_damage_states",
     "plot_fragility",
+    "plot_groups",
     "plot_history",
     "plot_intensities",
     "plot_overturning_spectrum",

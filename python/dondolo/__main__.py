@@ -115,9 +115,15 @@ def _plot(options: argparse.Namespace) -> None:
         people = results.typology
         _save(options, "typology", lambda: dd.plot_typology(people))
         if len(people.groups) > 1:
-            for group in people.groups[:-1]:
-                name = group.mechanism
+            _save(options, "combination", lambda: dd.plot_combination(people))
+        for curve in people.groups:
+            if curve.mechanism != "all" and not curve.group and len(people.groups) > 1:
+                name = curve.mechanism
                 _save(options, f"typology_{name}", lambda name=name: dd.plot_typology(people, mechanism=name))
+        if any(curve.group for curve in people.groups):
+            _save(options, "groups", lambda: dd.plot_groups(people))
+        if len(people.edp_thresholds) > 1:
+            _save(options, "damage_states", lambda: dd.plot_damage_states(people))
 
 
 def _save(options: argparse.Namespace, name: str, draw: Callable[[], Any]) -> None:

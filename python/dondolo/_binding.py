@@ -125,13 +125,30 @@ class Parcel(NamedTuple):
 
 
 class GroupData(NamedTuple):
-    """The curve of a population, or of its walls of one mechanism."""
+    """A curve of a population, or of one of its groups."""
 
+    group: str
     mechanism: str
+    walls: int
     weight: float
+    beta_walls: float
+    beta_records: float
+    fitted: float
+    histories: float
     mean_fraction: FloatArray
     mean_curve: FloatArray
+    fractiles: FloatArray
     curve: CurveData
+
+
+class PopulationData(NamedTuple):
+    """Curves of mechanisms, of walls and of their population; fractions are those of the walls (walls, levels)."""
+
+    rows: list[CurveData]
+    walls: list[CurveData]
+    fractions: FloatArray
+    groups: list[GroupData]
+    warnings: list[str]
 
 
 @functools.cache
@@ -433,20 +450,43 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
 
 
 def fit_walls(
-    walls: FlatWall, levels: FloatArray, collapses: NDArray[np.int32], histories: NDArray[np.int32], weights: FloatArray
-) -> tuple[list[CurveData], list[GroupData], list[str]]:
-    """Curves of walls, of their population (the last of all) and warnings: collapses are (walls, levels)."""
-    parcel = receive(*_core.fit_walls(*walls, levels, np.ascontiguousarray(collapses).T, histories, weights))
-    m, w = len(levels), len(weights)
+    texts: bytes,
+    levels: FloatArray,
+    collapses: NDArray[np.int32],
+    histories: NDArray[np.int32],
+    weights: FloatArray,
+    p_occ: FloatArray,
+    rows: NDArray[np.int32],
+) -> PopulationData:
+    """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
+
+    Texts are name, mechanism and group of each mechanism of a wall, collapses (mechanisms, levels); rows tell how many
+    mechanisms each wall has.
+    """
+    parcel = receive(
+        *_core.fit_walls(texts, levels, np.ascontiguousarray(collapses).T, histories, weights, p_occ, rows)
+    )
+    m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
     names = ("", *constants().statuses)
-    status = [names[code] for code in parcel.integers]
-    curves = [CurveData(*pair) for pair in zip(status, parcel.reals[: 8 * w].reshape(w, 8), strict=False)]
-    rows = parcel.reals[8 * w :].reshape(len(status) - w, 1 + 2 * m + 8)
-    groups = [
-        GroupData(mechanism, float(row[0]), row[1 : 1 + m], row[1 + m : 1 + 2 * m], CurveData(what, row[1 + 2 * m :]))
-        for mechanism, what, row in zip(parcel.lines, status[w:], rows, strict=False)
-    ]
-    return curves, groups, parcel.lines[len(groups) :]
+    status = [names[code] for code in parcel.integers[1 : 1 + r + w + number]]
+    walls = parcel.integers[1 + r + w + number :]
+    numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
+    curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
+    together = []
+    for i, row in enumerate(groups.reshape(number, 5 + 5 * m + 8)):
+        mean_fraction, mean_curve, fractiles, curve = np.split(row[5:], np.cumsum([m, m, 3 * m]))
+        together.append(
+            GroupData(
+                *parcel.lines[2 * i : 2 * i + 2],
+                int(walls[i]),
+                *(float(number) for number in row[:5]),
+                mean_fraction,
+                mean_curve,
+                np.ascontiguousarray(fractiles.reshape(m, 3).T),
+                CurveData(status[r + w + i], curve),
+            )
+        )
+    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, parcel.lines[2 * number :])
 
 
 def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,8 @@ class Flags:
         are two.
     bits : ndarray of uint8
         Eight flags a byte.
+    state : int
+        Place of the state that is asked for; the last, collapse, if not said.
     """
 
     histories: NDArray[np.int32]
@@ -43,6 +45,7 @@ class Flags:
     states: int
     records: int
     bits: Bits
+    state: int = -1
 
     @classmethod
     def empty(cls, histories: NDArray[np.int32], levels: int, states: int, records: int) -> Flags:
@@ -72,6 +75,10 @@ class Flags:
         flags = np.unpackbits(packed, axis=1, count=self.states * self.levels * histories)
         return flags.reshape(len(chosen), self.states, self.levels, histories).view(np.bool_)
 
+    def at(self, state: int) -> Flags:
+        """The same, of another state."""
+        return replace(self, state=state)
+
     def alike(self, walls: NDArray[np.int64]) -> Iterable[NDArray[np.int64]]:
         """Places in a list of walls, of those with equally many histories together."""
         histories = self.histories[walls]
@@ -88,7 +95,7 @@ class Flags:
     def chosen(self, walls: NDArray[np.int64]) -> Flags:
         """Those of some walls only."""
         bits = [self.bits[self.place(int(i), 1)] for i in walls]
-        return Flags(self.histories[walls], self.levels, self.states, self.records, np.concatenate(bits))
+        return replace(self, histories=self.histories[walls], bits=np.concatenate(bits))
 
 
 def pack(

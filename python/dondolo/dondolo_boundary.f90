@@ -18,7 +18,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, line_of, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
+   public :: report, line_of, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
    public :: set_walls, set_records, pack_records, pack_walls, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -119,6 +119,24 @@ contains
       end do
       line = trim(text(first:first + length - 1))
    end function line_of
+
+   !> All lines of a text
+   subroutine split_lines(text, lines)
+      !> Lines, each ended by new_line
+      character(len=*), intent(in) :: text
+      !> The lines
+      type(lines_type), intent(out) :: lines
+
+      integer :: first, length
+
+      first = 1
+      do while (first <= len(text))
+         length = index(text(first:), new_line('a')) - 1
+         if (length < 0) length = len(text) - first + 1
+         call lines%add(text(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end subroutine split_lines
 
    !> Lines as one text
    pure function pack_lines(lines) result(text)

@@ -751,56 +751,74 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    !$omp end parallel do
 end subroutine fit_curves
 
-! Curves of walls and of their population. Integers: statuses of the walls, then of the population's curves (one for each
-! mechanism, and the last for all); reals: numbers of each wall's curve, then for each of the population's the sum of the
-! weights, mean fractions, mean curve and numbers; text: mechanisms of the population's curves, then warnings
-subroutine fit_walls(texts, numbers, given, gravity, w, levels, collapses, m, histories, weights, handle, sizes, stat, &
-      & message)
+! Curves of rows (mechanisms of walls), of their walls and of the population. texts: name, mechanism and group of each row;
+! rows: how many each wall has. Integers: number of the population's curves, statuses of the rows, of the walls and of the
+! population's curves, and the number of walls in each of these; reals: numbers of the curves of the rows and of the walls,
+! fractions of collapse of the walls, then for each of the population's curves weight, dispersions between walls and
+! between records, share with a curve, histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group
+! and mechanism of the population's curves, then warnings
+subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_curve, pack_lines, parcel_type, report, send, set_walls, status_code
+   use dondolo_boundary, only : pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_wall, only : mechanism_names, wall_type
-   use dondolo_warnings, only : warn_of_fits
+   use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
+   use dondolo_warnings, only : fit_warning_type
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: w, m, given(8, w), collapses(m, w), histories(w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), levels(m), weights(w)
+   integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
+   real(c_double), intent(in) :: levels(m), weights(r), p_occ(r)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type), allocatable :: walls(:)
+   type(wall_curves_type), allocatable :: walls(:)
    type(fragility_type), allocatable :: curves(:)
    type(typology_type), allocatable :: groups(:)
-   type(lines_type) :: lines
+   type(fit_warning_type) :: fits
+   type(lines_type) :: words, lines
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   character(len=len(mechanism_names)), allocatable :: mechanisms(:)
-   integer :: i
+   character(len=mechanism_length), allocatable :: mechanisms(:)
+   real(c_double), allocatable :: parts(:, :), whole(:, :)
+   integer :: first, last, i
 
    handle = 0
    sizes = 0
-   allocate (walls(w), curves(w), mechanisms(w))
-   call set_walls(walls, texts, numbers, given, gravity, error)
-   do i = 1, w
-      if (allocated(error)) exit
-      mechanisms(i) = walls(i)%input%mechanism
+   allocate (walls(w), curves(r), mechanisms(r), whole(m, w))
+   call split_lines(texts, words)
+   do i = 1, r
+      mechanisms(i) = words%line(3*i - 1)%text
       call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
          & spread(real(histories(i), c_double), 1, m), error)
+      if (allocated(error)) exit
+      call fits%look(curves(i), words%line(3*i - 2)%text)
    end do
-   if (.not. allocated(error)) &
-      & call combine_population(groups, mechanisms, levels, collapses, histories, curves, weights, error)
+   last = 0
+   do i = 1, w
+      if (allocated(error)) exit
+      first = last + 1
+      last = last + rows(i)
+      call new_wall_curves(walls(i), words%line(3*first)%text, weights(first), mechanisms(first:last), &
+         & p_occ(first:last), curves(first:last), collapses(:, first:last), histories(first:last), levels, error)
+      parts = walls(i)%fractions()
+      whole(:, i) = parts(:, size(parts, 2))
+   end do
+   if (.not. allocated(error)) call combine_population(groups, walls, levels, error)
    if (.not. allocated(error)) then
-      parcel%integers = [(status_code(curves(i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups))]
-      parcel%reals = [(pack_curve(curves(i)), i=1, w), (groups(i)%weight, groups(i)%mean_fraction, &
-         & groups(i)%mean_curve, pack_curve(groups(i)%fit), i=1, size(groups))]
+      parcel%integers = [size(groups), (status_code(curves(i)), i=1, r), (status_code(walls(i)%combined), i=1, w), &
+         & (status_code(groups(i)%fit), i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
+      parcel%reals = [(pack_curve(curves(i)), i=1, r), (pack_curve(walls(i)%combined), i=1, w), &
+         & whole, (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
+         & groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
+         & pack_curve(groups(i)%fit), i=1, size(groups))]
       do i = 1, size(groups)
+         call lines%add(groups(i)%group)
          call lines%add(groups(i)%mechanism)
       end do
-      call warn_of_fits(walls, curves, groups, lines)
+      call fits%warn(groups, lines)
       parcel%text = pack_lines(lines)
       call send(parcel, handle, sizes)
    end if

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from dondolo.motion import Response
     from dondolo.overturning import OverturningSpectrum
     from dondolo.stripes import Stripes
-    from dondolo.typology import Typology
 
 # Points of a curve; enough for a smooth line
 _POINTS = 301
@@ -307,72 +306,6 @@ def plot_intensities(comparison: IntensityComparison, axes: Sequence[Axes] | Non
     right.set_xlim(left=0.0)
     right.set_xlabel("dispersion of the scale factor, 95 % interval")
     return axes
-
-
-def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | None = None) -> Axes:
-    """Draw the curves of a population, thin, and their weighted mean.
-
-    Figure 5 of Nale et al.: the red line is the typological curve.
-
-    Parameters
-    ----------
-    typology : Typology
-        Result of `typology`.
-    ax : Axes, optional
-        Where to draw; a new figure if left out.
-    mechanism : str, optional
-        Only the walls of this mechanism.
-
-    Returns
-    -------
-    Axes
-        Probability of collapse against intensity.
-
-    Raises
-    ------
-    InputError
-        No wall has this mechanism.
-    """
-    group = typology.group(mechanism)
-    if ax is None:
-        ax = style.new_axes()
-    right = 1.05 * float(np.max(typology.levels))
-    grid = np.linspace(right / _POINTS, right, _POINTS)
-    chosen = [
-        curve
-        for wall, curve in zip(typology.walls, typology.curves, strict=True)
-        if group.mechanism in ("all", wall.mechanism)
-    ]
-    fitted = [curve for curve in chosen if curve.has_fit]
-    for curve in fitted:
-        ax.plot(grid, curve(grid), color=style.GREY, linewidth=0.6)
-    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(fitted)} of {len(chosen)} walls")
-    ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label="weighted mean")
-    if group.fit.has_fit:
-        unit = f" {_binding.unit_of(typology.im)}".rstrip()
-        text = f"lognormal, θ = {group.fit.theta:.3g}{unit}, β = {group.fit.beta:.3g}"
-        ax.plot(grid, group.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=text)
-    ax.plot(
-        typology.levels,
-        group.mean_fraction,
-        linestyle="none",
-        marker="o",
-        markersize=4,
-        markerfacecolor="white",
-        markeredgecolor=style.RED,
-        label="weighted fractions",
-    )
-    ax.set_xlim(0.0, right)
-    ax.set_ylim(-0.02, 1.02)
-    ax.set_xlabel(style.im_label(typology.im))
-    ax.set_ylabel("probability of collapse")
-    ax.set_title(
-        "all mechanisms" if group.mechanism == "all" else group.mechanism.replace("_", "-"),
-        loc="left",
-        parse_math=False,
-    )
-    style.legend(ax, loc="upper left")
-    return ax
 
 
 def plot_overturning_spectrum(spectrum: OverturningSpectrum, ax: Axes | None = None) -> Axes:

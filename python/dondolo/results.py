@@ -88,7 +88,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
         if task == "stripes":
             stripes = _stripes(prefix + "_histories.csv", population.walls[0])
             return StoredResults(population, stripes=stripes, fragility=stripes.fit())
-        return StoredResults(population, typology=_typology(prefix + "_stripes.csv", population))
+        limit = _setting(comments, "edp_limit", 1.0)
+        return StoredResults(population, typology=_typology(prefix + "_stripes.csv", population, limit))
     except (KeyError, ValueError, IndexError) as error:
         if isinstance(error, InputError):
             raise
@@ -209,12 +210,13 @@ def _stripes(path: str, wall: Wall) -> Stripes:
     )
 
 
-def _typology(path: str, population: Population) -> Typology:
+def _typology(path: str, population: Population, edp_limit: float) -> Typology:
     """Counts of all walls of a population."""
     rows, comments = _read(path)
     levels = np.unique(_numbers(rows, "im_level"))
-    shape = (len(population), len(levels))
-    collapses = _numbers(rows, "collapses").reshape(shape).astype(np.int32)
-    histories = _numbers(rows, "histories").reshape(shape)[:, 0].astype(np.int32)
+    thresholds = np.unique(_numbers(rows, "edp_threshold")) if "edp_threshold" in rows else np.array([edp_limit])
+    shape = (len(thresholds), len(population), len(levels))
+    counts = _numbers(rows, "collapses").reshape(shape).astype(np.int32).transpose(0, 2, 1)
+    histories = _numbers(rows, "histories").reshape(shape)[0, :, 0].astype(np.int32)
     everyone = np.ones(len(population), dtype=bool)
-    return combine(population, rows["im"][0], levels, histories, collapses, everyone, _work(comments))[0]
+    return combine(population, rows["im"][0], levels, thresholds, counts, histories, everyone, _work(comments))[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -92,8 +93,26 @@ class Stripes:
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
 
-    def fit(self) -> Fragility:
+    def exceedances(self, edp: float) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Histories of each stripe that reach a threshold, shape (levels,).
+
+        Parameters
+        ----------
+        edp : float
+            Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
+        """
+        threshold = _binding.as_number("edp", edp)
+        if not 0.0 < threshold <= self.edp_limit:
+            raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
+        return (self.edp >= threshold).sum(axis=1)
+
+    def fit(self, edp: float | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood.
+
+        Parameters
+        ----------
+        edp : float, optional
+            Rotation / capacity that makes a damage state; collapse if left out.
 
         Returns
         -------
@@ -105,20 +124,28 @@ class Stripes:
         DondoloWarning
             With the sentence of the executable, where there is no curve or it extrapolates.
         """
+        state = self if edp is None else self._state(edp)
         curve = fit(
             self.levels,
-            self.collapses.astype(np.float64),
+            state.collapses.astype(np.float64),
             self.histories.astype(np.float64),
             im=self.im,
             wall=self.wall,
-            stripes=self,
+            stripes=state,
         )
         low, high = curve.bracket
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = _binding.CurveData(curve.status, numbers)
-        _binding.warn(_binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data))
+        sentences = _binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data)
+        where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
+        _binding.warn(where + sentence for sentence in sentences)
         return curve
+
+    def _state(self, edp: float) -> Stripes:
+        """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
+        self.exceedances(edp)
+        return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
 
     def _tables(self) -> dict[str, Any]:
         return {

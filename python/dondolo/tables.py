@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -188,8 +188,28 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
     }
 
 
-def typology_table(typology: Typology) -> Table:
-    """Columns of ``_typology.csv``."""
+def states_table(typology: Typology, table_of: Callable[[Typology], Table]) -> Table:
+    """A table of a population, one block of rows a damage state."""
+    blocks = []
+    for edp in typology.edp_thresholds:
+        table = table_of(typology.at(edp))
+        rows = len(next(iter(table.values())))
+        blocks.append({**table, "edp_threshold": [edp] * rows})
+    return {name: [value for block in blocks for value in block[name]] for name in blocks[0]}
+
+
+def stripes_of(typology: Typology) -> Table:
+    """Columns of ``_stripes.csv`` of a population in one damage state."""
+    return stripes_table(typology.walls, typology.im, typology.levels, typology.collapses, list(typology.histories))
+
+
+def fragility_of(typology: Typology) -> Table:
+    """Columns of ``_fragility.csv`` of a population in one damage state."""
+    return fragility_table(typology.walls, typology.curves)
+
+
+def typology_of(typology: Typology) -> Table:
+    """Columns of ``_typology.csv`` of one damage state."""
     number, groups = len(typology.levels), typology.groups
 
     def repeated(values: Iterable[Any]) -> list[Any]:
@@ -205,6 +225,12 @@ def typology_table(typology: Typology) -> Table:
         "theta": repeated(group.fit.theta for group in groups),
         "beta": repeated(group.fit.beta for group in groups),
         "status": repeated(group.fit.status for group in groups),
+        "group": repeated(group.group for group in groups),
+        "fractile_16": np.concatenate([group.fractiles[0] for group in groups]),
+        "fractile_50": np.concatenate([group.fractiles[1] for group in groups]),
+        "fractile_84": np.concatenate([group.fractiles[2] for group in groups]),
+        "beta_walls": repeated(group.beta_walls for group in groups),
+        "beta_records": repeated(group.beta_records for group in groups),
     }
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import dataclasses
+import math
 import os
 from collections.abc import Iterable
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -25,53 +27,87 @@ from dondolo.work import Work
 FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
+# Numbers that curves of many walls are computed at together: a few tens of MB
+_NUMBERS = 2_000_000
+
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Walls of one mechanism, or all walls of a population, together.
+    """A curve of a population, or of one of its groups: of one mechanism, or of all together.
 
     Attributes
     ----------
+    group : str
+        '' for the whole population.
     mechanism : str
-        'all' for walls of several mechanisms.
+        'all' for whatever makes the walls collapse: mechanisms in series, each with its probability of occurrence.
+    walls : int
+        How many walls, those of no weight left out.
     weight : float
-        Sum of the weights.
+        Sum of the weights; of one mechanism a wall counts as often as it can occur.
     mean_fraction : ndarray, shape (levels,)
         Weighted mean of the walls' fractions of collapse.
     mean_curve : ndarray, shape (levels,)
         Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part
         with its fractions.
+    fractiles : ndarray, shape (3, levels)
+        What 16, 50 and 84 % of the weight do not exceed.
+    beta_walls, beta_records : float
+        Dispersion between walls, the weighted standard deviation of ln theta, and between records, the weighted root
+        mean square of beta, over the walls with a curve; NaN if there are none.
+    fitted : float
+        Share of the weight that has a curve.
     fit : Fragility
-        The lognormal curve fitted to the weighted counts; its standard errors take the walls' histories for
+        The lognormal curve fitted to the mean fractions; its standard errors take the walls' histories for
         independent.
     """
 
+    group: str
     mechanism: str
+    walls: int
     weight: float
     mean_fraction: FloatArray
     mean_curve: FloatArray
+    fractiles: FloatArray
+    beta_walls: float
+    beta_records: float
+    fitted: float
     fit: Fragility
+
+    @property
+    def beta_total(self) -> float:
+        """Dispersion between walls and between records together."""
+        return math.hypot(self.beta_walls, self.beta_records)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Typology:
     """Fragility of a population of walls.
 
+    A damage state is reached where rotation / capacity comes to a threshold; collapse is the last. Whatever names no
+    state is that of collapse; `at` gives the others.
+
     Attributes
     ----------
     population : Population
-        The walls.
+        The walls, one row a mechanism.
     im : str
         Intensity measure.
     levels : ndarray, shape (levels,)
-    collapses : ndarray of int, shape (levels, walls)
-    histories : ndarray of int, shape (walls,)
-        Histories of a stripe of each wall.
+    edp_thresholds : ndarray, shape (thresholds,)
+        Rotation / capacity, increasing; the last is that of collapse, edp_limit.
+    exceedances : ndarray of int, shape (thresholds, levels, rows)
+        How many histories of each row reach them.
+    histories : ndarray of int, shape (rows,)
+        Histories of a stripe of each row.
     curves : tuple of Fragility
-        Curve of each wall.
+        Curve of each row.
+    combined : dict of str to Fragility
+        Curve of each wall by its name, mechanisms in series: that of its row, or where there are several or one that
+        may not occur, the lognormal fitted to the combined fractions.
     groups : tuple of Group
-        A group for each mechanism, in the order they appear in, and the last for all walls (the same where there is
-        but one mechanism).
+        The curves: those of the whole population, then those of each group, in the order they appear in; for each
+        mechanism, and the last for all, if there are several or one that may not occur.
     work : Work
         What was computed for all walls, and what was not.
     flags : Flags
@@ -81,80 +117,186 @@ class Typology:
     population: Population
     im: str
     levels: FloatArray
-    collapses: IntArray
+    edp_thresholds: FloatArray
+    exceedances: IntArray
     histories: IntArray
     curves: tuple[Fragility, ...]
+    combined: dict[str, Fragility]
     groups: tuple[Group, ...]
     work: Work
     flags: Flags | None = None
+    _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
     def walls(self) -> tuple[Wall, ...]:
-        """The walls."""
+        """The walls, one a row: the mechanisms of a wall stand one after the other."""
         return self.population.walls
 
     @property
     def weights(self) -> FloatArray:
-        """Their weights, shape (walls,)."""
+        """Their weights, shape (rows,)."""
         return self.population.weights
 
     @property
+    def collapses(self) -> IntArray:
+        """Collapses of each row, shape (levels, rows)."""
+        return self.exceedances[-1]
+
+    @property
     def weight(self) -> float:
-        """Sum of the weights."""
-        return self.groups[-1].weight
+        """Sum of the weights of the walls."""
+        return self.group().weight
 
     @property
     def mean_fraction(self) -> FloatArray:
         """Weighted mean of the walls' fractions of collapse, shape (levels,)."""
-        return self.groups[-1].mean_fraction
+        return self.group().mean_fraction
 
     @property
     def mean_curve(self) -> FloatArray:
         """Weighted mean of the walls' curves, shape (levels,)."""
-        return self.groups[-1].mean_curve
+        return self.group().mean_curve
 
-    def group(self, mechanism: str | None = None) -> Group:
-        """The walls of a mechanism together; of all if None."""
-        known = {group.mechanism: group for group in self.groups}
+    def group(self, mechanism: str | None = None, group: str = "") -> Group:
+        """A curve: of one mechanism, or of all if None; of a group, or of the whole population if ''."""
+        known = {one.group: None for one in self.groups}
+        if group not in known:
+            raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, known))}")
+        of_group = {one.mechanism: one for one in self.groups if one.group == group}
         if mechanism is None:
-            return self.groups[-1]
-        if mechanism not in known:
-            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, known))}")
-        return known[mechanism]
+            return list(of_group.values())[-1]
+        if mechanism not in of_group:
+            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, of_group))}")
+        return of_group[mechanism]
 
-    def fit(self, mechanism: str | None = None) -> Fragility:
-        """The lognormal curve fitted to the weighted counts of the walls of a mechanism, of all if None."""
-        return self.group(mechanism).fit
+    def fit(self, mechanism: str | None = None, group: str = "") -> Fragility:
+        """The lognormal curve fitted to the mean fractions; arguments as those of `group`."""
+        return self.group(mechanism, group).fit
 
-    def mean(self, x: ArrayLike, mechanism: str | None = None) -> Any:
-        """Weighted mean of the walls' curves.
+    def at(self, edp: float) -> Typology:
+        """The typology of one damage state.
+
+        Parameters
+        ----------
+        edp : float
+            One of `edp_thresholds`.
+
+        Returns
+        -------
+        Typology
+            With this threshold alone.
+
+        Warns
+        -----
+        DondoloWarning
+            Walls that have no fit in this state, a fit that extrapolates.
+        """
+        value = _binding.as_number("edp", edp)
+        place = np.flatnonzero(self.edp_thresholds == value)
+        if len(place) == 0:
+            raise InputError(f"edp = {value:g}: must be one of {', '.join(f'{one:g}' for one in self.edp_thresholds)}")
+        if len(self.edp_thresholds) == 1:
+            return self
+        if value not in self._states and place[0] == len(self.edp_thresholds) - 1:
+            last = {"edp_thresholds": self.edp_thresholds[-1:], "exceedances": self.exceedances[-1:]}
+            self._states[value] = dataclasses.replace(self, **last, _states={})
+        if value not in self._states:
+            counts, threshold = self.exceedances[place], self.edp_thresholds[place]
+            state, sentences = _combine(
+                self.population, self.im, self.levels, threshold, counts, self.histories, self.work
+            )
+            flags = None if self.flags is None else self.flags.at(int(place[0]))
+            self._states[value] = dataclasses.replace(state, flags=flags)
+            _binding.warn(f"damage state {value:g}: {sentence}" for sentence in sentences)
+        return self._states[value]
+
+    def probabilities(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> FloatArray:
+        """Probability that each wall collapses, mechanisms in series; of one mechanism, if it can occur.
 
         Parameters
         ----------
         x : array_like
             Levels of intensity, not negative. Between the levels, the fractions of a wall without a fit are
             interpolated linearly in x, from 0 at x = 0; above the highest level they stay.
-        mechanism : str, optional
-            Of its walls only.
+        mechanism, group : str
+            As for `group`.
+
+        Returns
+        -------
+        ndarray, shape (walls,) and that of x
+            Walls of no weight left out.
+        """
+        values = _levels_of(x)
+        probabilities, _ = self._members(mechanism, group).at(values.ravel())
+        return probabilities.reshape((-1, *values.shape))
+
+    def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
+        """Weighted mean of the walls' curves at any levels; arguments as those of `probabilities`.
 
         Returns
         -------
         float or ndarray, shape of x
         """
         values = _levels_of(x)
-        flat = values.ravel()
-        mean = np.zeros(len(flat))
-        group = self.group(mechanism)
-        for i, (curve, weight) in enumerate(zip(self.curves, self.weights, strict=True)):
-            if group.mechanism not in ("all", self.walls[i].mechanism):
-                continue
-            if curve.has_fit:
-                part = curve(flat)
-            else:
-                fraction = self.collapses[:, i] / self.histories[i]
-                part = np.interp(flat, np.append(0.0, self.levels), np.append(0.0, fraction))
-            mean += weight / group.weight * part
-        return shaped(mean, values)
+        members = self._members(mechanism, group)
+        parts = (members.at(part) for part in members.parts(values.ravel()))
+        mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
+        return shaped(np.minimum(mean, 1.0), values)
+
+    def fractiles(
+        self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84), mechanism: str | None = None, group: str = ""
+    ) -> FloatArray:
+        """Fractiles of the walls' curves at any levels: what a share of the weight does not exceed.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, as for `probabilities`.
+        q : array_like
+            Shares of the weight, above 0 and up to 1.
+        mechanism, group : str
+            As for `group`.
+
+        Returns
+        -------
+        ndarray, shape of q and that of x
+            At each level the smallest probability such that the walls up to it have at least the share.
+        """
+        values, shares = _levels_of(x), np.asarray(q, dtype=np.float64)
+        if not np.all((shares > 0.0) & (shares <= 1.0)):
+            raise InputError("q: must be shares of the weight, above 0 and up to 1")
+        members = self._members(mechanism, group)
+        found = np.zeros((shares.size, values.size))
+        done = 0
+        for part in members.parts(values.ravel()):
+            probabilities, weights = members.at(part)
+            order = np.argsort(probabilities, axis=0, kind="stable")
+            reached = np.cumsum(weights[order], axis=0)
+            # The rounding that Fortran allows, too
+            targets = (shares.ravel() - 1e-12)[:, None] * weights.sum()
+            for k in range(probabilities.shape[1]):
+                place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
+                found[:, done + k] = probabilities[order[place, k], k]
+            done += probabilities.shape[1]
+        return found.reshape(shares.shape + values.shape)
+
+    def _members(self, mechanism: str | None, group: str) -> _Members:
+        """The walls behind a curve."""
+        curve = self.group(mechanism, group)
+        people = self.population
+        chosen = people.weights > 0.0
+        if group:
+            chosen &= np.array([name == group for name in people.groups])
+        if curve.mechanism != "all":
+            chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == curve.mechanism for wall in people.walls])
+        rows = np.flatnonzero(chosen)
+        counts = self.collapses[:, rows] / self.histories[rows]
+        curves = [self.curves[i] for i in rows]
+        if curve.mechanism == "all":
+            first = _first_rows([people.walls[i].name for i in rows])
+            return _Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
+        weights = people.weights[rows] * people.p_occ[rows]
+        return _Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
 
     def bootstrap(
         self,
@@ -187,15 +329,13 @@ class Typology:
         -------
         TypologyBootstrap
         """
-        return resample_population(self.population, self.flags, self.levels, -1, n, seed, over, mechanism, group)
+        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group)
 
     def _tables(self) -> dict[str, Any]:
         return {
-            "typology": lambda: tables.typology_table(self),
-            "fragility": lambda: tables.fragility_table(self.walls, self.curves),
-            "stripes": lambda: tables.stripes_table(
-                self.walls, self.im, self.levels, self.collapses, list(self.histories)
-            ),
+            "typology": lambda: tables.states_table(self, tables.typology_of),
+            "fragility": lambda: tables.states_table(self, tables.fragility_of),
+            "stripes": lambda: tables.states_table(self, tables.stripes_of),
             "walls": lambda: self.population._table(),
         }
 
@@ -209,20 +349,65 @@ class Typology:
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        fitted = sum(curve.has_fit for curve in self.curves)
-        unit = _binding.unit_of(self.im)
-        return [
-            ("walls", f"{len(self.walls)}, {fitted} of them with a curve"),
+        fitted = sum(curve.has_fit for curve in self.combined.values())
+        unit, whole = _binding.unit_of(self.im), self.group()
+        facts = [
+            ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
-            *self.fit()._facts(),
-            ("work", str(self.work)),
         ]
+        if len(self.edp_thresholds) > 1:
+            facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))
+        facts += whole.fit._facts()
+        if whole.fitted > 0.0:
+            text = f"{whole.beta_walls:.3g} between walls, {whole.beta_records:.3g} between records"
+            facts.append(("dispersion", text))
+        return [*facts, ("work", str(self.work))]
 
     def __repr__(self) -> str:
         return "<Typology: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
 
     def _repr_html_(self) -> str:
         return tables.html_of("Typology", self._facts())
+
+
+class _Members:
+    """Walls and their probabilities at any level; the rows of a wall are in series."""
+
+    def __init__(
+        self,
+        levels: FloatArray,
+        curves: list[Fragility],
+        fractions: FloatArray,
+        weights: FloatArray,
+        p_occ: FloatArray,
+        first: np.ndarray[Any, Any],
+    ) -> None:
+        self.levels, self.fractions = levels, fractions
+        self.weights, self.p_occ = weights, p_occ
+        self.theta = np.array([curve.theta for curve in curves])
+        self.beta = np.array([curve.beta for curve in curves])
+        self.without = np.flatnonzero(np.isnan(self.theta))
+        # Of each wall its first row, its second row, ...
+        number = np.diff(np.append(first, len(curves)))
+        self.rows = [(np.flatnonzero(number > k), first[number > k] + k) for k in range(max(number, default=0))]
+
+    def parts(self, x: FloatArray) -> list[FloatArray]:
+        """Levels in parts that all walls together take little memory for."""
+        return np.array_split(x, max(1, math.ceil(len(x) * len(self.p_occ) / _NUMBERS)))
+
+    def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Probabilities (walls, x) and weights (walls,)."""
+        from scipy.special import ndtr
+
+        with np.errstate(divide="ignore"):
+            rows = ndtr((np.log(x) - np.log(self.theta)[:, None]) / self.beta[:, None])
+        for i in self.without:
+            rows[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, i]))
+        rows *= self.p_occ[:, None]
+        whole = np.zeros((len(self.weights), len(x)))
+        for walls, row in self.rows:
+            whole[walls] += (1.0 - whole[walls]) * rows[row]
+        return whole, self.weights
 
 
 def typology(
@@ -295,13 +480,17 @@ def typology(
     )
     plan = request.plan()
     run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
-    if not run.complete.any():
+    # A wall is complete with all its mechanisms.
+    first = _first_rows([wall.name for wall in people.walls])
+    whole = np.logical_and.reduceat(run.complete, first)
+    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
+    if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
-    collapses, work = np.ascontiguousarray(run.exceedances[-1].T), Work.total(run.works)
-    result, sentences = combine(people, request.im, request.levels, plan.histories, collapses, run.complete, work)
-    result = replace(result, flags=run.flags.chosen(np.flatnonzero(run.complete)))
-    if not run.complete.all():
-        raise Interrupted(f"interrupted: {run.complete.sum()} of {len(run.complete)} walls are complete", result)
+    work = Work.total(run.works)
+    result, sentences = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
+    result = dataclasses.replace(result, flags=run.flags.chosen(np.flatnonzero(rows)))
+    if not whole.all():
+        raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
     return result
 
@@ -310,44 +499,79 @@ def combine(
     people: Population,
     im: str,
     levels: FloatArray,
+    edp_thresholds: FloatArray,
+    exceedances: IntArray,
     histories: IntArray,
-    collapses: IntArray,
     complete: np.ndarray[Any, Any],
     work: Work,
 ) -> tuple[Typology, list[str]]:
-    """The curves of the walls that are complete, from their counts (walls, levels); and what to warn of."""
-    chosen = np.flatnonzero(complete)
-    walls = tuple(people.walls[i] for i in chosen)
-    weights = np.ascontiguousarray(people.weights[chosen])
-    histories, collapses = histories[chosen], collapses[chosen]
-    if not weights.any():
-        weights = np.ones(len(chosen))
-    people = Population(walls, weights, tuple(people.groups[i] for i in chosen), people.p_occ[chosen])
-    flat = _binding.join_walls([wall._flat for wall in walls])
-    curves, groups, sentences = _binding.fit_walls(flat, levels, collapses, histories, weights)
-    sizes = np.repeat(histories.astype(np.float64)[:, None], len(levels), axis=1)
-    counts = collapses.astype(np.float64)
+    """The curves of the walls whose rows are all complete, and what to warn of.
+
+    Exceedances are (thresholds, levels, rows); thresholds increase, and the last is that of collapse.
+    """
+    first = _first_rows([wall.name for wall in people.walls])
+    rows = np.diff(np.append(first, len(people.walls)))
+    chosen = np.flatnonzero(np.repeat(np.logical_and.reduceat(complete, first), rows))
+    if len(chosen) < len(people.walls):
+        weights = people.weights[chosen]
+        people = Population(
+            tuple(people.walls[i] for i in chosen),
+            weights if weights.any() else None,  # type: ignore[arg-type]
+            tuple(people.groups[i] for i in chosen),
+            people.p_occ[chosen],
+        )
+    counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
+    sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
+    return _combine(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
+
+
+def _combine(
+    people: Population,
+    im: str,
+    levels: FloatArray,
+    edp_thresholds: FloatArray,
+    exceedances: IntArray,
+    histories: IntArray,
+    work: Work,
+) -> tuple[Typology, list[str]]:
+    """The curves of the last state."""
+    walls = people.walls
+    first = _first_rows([wall.name for wall in walls])
+    rows = np.diff(np.append(first, len(walls))).astype(np.int32)
+    words = (
+        _binding.as_text("name", word)
+        for wall, group in zip(walls, people.groups, strict=True)
+        for word in (wall.name, wall.mechanism, group)
+    )
+    texts = b"".join(word + b"\n" for word in words)
+    counts = exceedances[-1].T
+    data = _binding.fit_walls(texts, levels, counts, histories, people.weights, people.p_occ, rows)
     own = tuple(
-        curve_of(curve, levels, z, n, im=im, wall=wall)
-        for curve, z, n, wall in zip(curves, counts, sizes, walls, strict=True)
+        curve_of(curve, levels, z, np.full(len(levels), float(n)), im=im, wall=wall)
+        for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)
     )
+    combined = {}
+    for i, fraction, curve, number in zip(first, data.fractions, data.walls, rows, strict=True):
+        if number == 1 and people.p_occ[i] == 1.0:
+            combined[walls[i].name] = own[i]
+            continue
+        n = np.full(len(levels), float(histories[i : i + number].min()))
+        combined[walls[i].name] = curve_of(curve, levels, n * fraction, n, im=im)
     together = []
-    for group in groups:
-        members = np.array([group.mechanism in ("all", wall.mechanism) for wall in walls])
-        # The counts that the curve was fitted to, for its profile likelihood
-        share = np.where(members, weights, 0.0) / group.weight * members.sum()
-        z, n = share @ counts, share @ sizes
-        curve = curve_of(group.curve, levels, np.minimum(z, n), n, im=im)
-        together.append(Group(*group[:-1], curve))
-    histories.flags.writeable = False
-    result = Typology(
-        people,
-        im,
-        levels,
-        np.ascontiguousarray(collapses.T),
-        histories,
-        own,
-        tuple(together),
-        work,
-    )
-    return result, sentences
+    for group in data.groups:
+        n = np.full(len(levels), group.histories)
+        fit = curve_of(group.curve, levels, np.minimum(n * group.mean_fraction, n), n, im=im)
+        betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
+        means = (group.mean_fraction, group.mean_curve, group.fractiles)
+        together.append(
+            Group(group.group, group.mechanism, group.walls, group.weight, *means, *betas, group.fitted, fit)
+        )
+    for array in (edp_thresholds, exceedances, histories):
+        array.flags.writeable = False
+    result = Typology(people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work)
+    return result, data.warnings
+
+
+def _first_rows(names: list[str]) -> np.ndarray[Any, Any]:
+    """Where each wall begins among rows, of which those of a wall stand one after the other."""
+    return np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)

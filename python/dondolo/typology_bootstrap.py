@@ -104,7 +104,6 @@ def resample_population(
     population: Population,
     flags: Flags,
     levels: FloatArray,
-    state: int = -1,
     n: int = 1000,
     seed: int | np.random.Generator | None = 0,
     over: str | Iterable[str] = _KINDS,
@@ -114,8 +113,7 @@ def resample_population(
     """Fit the curve of a population again to records and walls drawn with replacement.
 
     A record is drawn for all walls at once and brings its histories at all levels and of both polarities; a wall brings
-    all its mechanisms. For the parameters see `Typology.bootstrap`; `state` is the place of the state among those of
-    the flags.
+    all its mechanisms. For the parameters see `Typology.bootstrap`.
     """
     kinds = (over,) if isinstance(over, str) else tuple(over)
     if not kinds or not set(kinds) <= set(_KINDS):
@@ -130,7 +128,7 @@ def resample_population(
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
-        _mean_fractions(rows, flags, state, records[start : start + size], "records" in kinds, draws)
+        _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
         for start in range(0, n, size)
     ]
     fraction = np.concatenate(parts)
@@ -173,7 +171,6 @@ def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows
 def _mean_fractions(
     rows: _Rows,
     flags: Flags,
-    state: int,
     records: FloatArray,
     resampled: bool,
     draws: np.random.Generator | None,
@@ -189,7 +186,7 @@ def _mean_fractions(
         records = records[:1]
     total, weight = np.zeros((samples, flags.levels)), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], state, records)
+        survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], records)
         if len(starts) < survival.shape[1]:
             survival = np.multiply.reduceat(survival, starts, axis=1)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
@@ -202,11 +199,11 @@ def _mean_fractions(
         return np.clip(total / weight[:, None], 0.0, 1.0)
 
 
-def _fractions(flags: Flags, row: NDArray[np.int64], state: int, records: FloatArray) -> FloatArray:
+def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
     """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
     fractions = np.empty((len(records), len(row), flags.levels))
     for places in flags.alike(row):
-        reached = flags.of(row[places])[:, state]
+        reached = flags.of(row[places])[:, flags.state]
         walls, levels, histories = reached.shape
         # Both polarities of a record stay together.
         of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)

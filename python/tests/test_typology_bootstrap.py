@@ -61,7 +61,7 @@ def test_brute_force(mixed, mechanism, group, over):
     """History by history, wall by wall and sample by sample."""
     population, flags, reached = mixed
     state, samples = 0, 20
-    result = resample_population(population, flags, LEVELS, state, samples, 5, over, mechanism, group)
+    result = resample_population(population, flags.at(state), LEVELS, samples, 5, over, mechanism, group)
     names = list(dict.fromkeys(w.name for w, g in zip(population, population.groups, strict=True) if group in ("", g)))
     rng = np.random.default_rng(5)
     records = np.ones((samples, 9), dtype=int)

@@ -29,6 +29,11 @@ module dondolo_population
       real(wp), allocatable :: p_occ(:)
       !> Name of its group, empty if none was given
       type(line_type), allocatable :: group(:)
+   contains
+      !> The last row of a wall
+      procedure :: last_row
+      !> How many walls there are, however many mechanisms each has
+      procedure :: number_of_walls
    end type population_type
 
 contains
@@ -85,6 +90,33 @@ contains
       end subroutine check_line
 
    end subroutine read_population
+
+   !> The last row of a wall
+   pure integer function last_row(self, first)
+      !> The population
+      class(population_type), intent(in) :: self
+      !> The first row of the wall
+      integer, intent(in) :: first
+
+      do last_row = first, size(self%walls) - 1
+         if (self%walls(last_row + 1)%input%name /= self%walls(first)%input%name) exit
+      end do
+   end function last_row
+
+   !> How many walls there are, however many mechanisms each has
+   pure integer function number_of_walls(self)
+      !> The population
+      class(population_type), intent(in) :: self
+
+      integer :: row
+
+      number_of_walls = 0
+      row = 0
+      do while (row < size(self%walls))
+         row = self%last_row(row + 1)
+         number_of_walls = number_of_walls + 1
+      end do
+   end function number_of_walls
 
    !> Check a row against those before it: another mechanism of the wall before, or a new wall
    subroutine check_name(population, row, error)

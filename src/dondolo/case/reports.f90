@@ -263,19 +263,25 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      character(len=:), allocatable :: fit
+      character(len=:), allocatable :: fit, dispersion
       integer :: i, j
 
-      call files%line('mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status')
+      call files%line('mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
+         & 'fractile_50,fractile_84,beta_walls,beta_records')
       do i = 1, size(results%typologies)
          associate (typology => results%typologies(i))
             fit = ','
             if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
+            dispersion = ','
+            if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','// &
+               & to_table(typology%beta_records)
             do j = 1, size(typology%levels)
                call files%line(typology%mechanism//','//case%stripes%scaling%name//','// &
                   & to_table(typology%levels(j))//','// &
                   & to_table(typology%weight)//','//to_table(typology%mean_fraction(j))//','// &
-                  & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status))
+                  & to_table(typology%mean_curve(j))//','//fit//','//trim(typology%fit%status)//','// &
+                  & quoted(typology%group)//','//to_table(typology%fractile(1, j))//','// &
+                  & to_table(typology%fractile(2, j))//','//to_table(typology%fractile(3, j))//','//dispersion)
             end do
          end associate
       end do

@@ -13,8 +13,8 @@ module dondolo_run_case
    use dondolo_solver, only : solver_type
    use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_wall, only : mechanism_names
-   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_fits, &
+   use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
+   use dondolo_warnings, only : fit_warning_type, scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, &
       & warn_of_records
    use dondolo_work, only : work_type
    implicit none
@@ -135,23 +135,56 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(scale_warning_type) :: scales
-      character(len=len(mechanism_names)), allocatable :: mechanisms(:)
+      type(fit_warning_type) :: fits
+      type(wall_curves_type), allocatable :: walls(:)
       integer :: i
 
       call make_room(case, results)
       call run_walls(case, results, scales, error, team, progress)
-      if (allocated(error)) return
-      allocate(mechanisms(size(case%population%walls)))
-      do i = 1, size(mechanisms)
-         mechanisms(i) = case%population%walls(i)%input%mechanism
-      end do
-      call combine_population(results%typologies, mechanisms, case%stripes%levels, results%collapses, &
-         & results%histories, results%fragility, case%population%weight, error)
+      if (.not. allocated(error)) call join_mechanisms(case, results, walls, error)
+      if (.not. allocated(error)) call combine_population(results%typologies, walls, case%stripes%levels, error)
       if (allocated(error)) return
       call warn_of_records(case%records, results%warnings)
       call scales%warn(results%warnings)
-      call warn_of_fits(case%population%walls, results%fragility, results%typologies, results%warnings)
+      do i = 1, size(results%fragility)
+         call fits%look(results%fragility(i), case%population%walls(i)%input%name)
+      end do
+      call fits%warn(results%typologies, results%warnings)
    end subroutine run_typology
+
+   !> The curves of each wall with all its mechanisms
+   subroutine join_mechanisms(case, results, walls, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results: counts and curves of the rows
+      type(results_type), intent(in) :: results
+      !> The walls
+      type(wall_curves_type), allocatable, intent(out) :: walls(:)
+      !> Counts that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=mechanism_length), allocatable :: mechanism(:)
+      integer :: first, last, i, wall
+
+      allocate (walls(case%population%number_of_walls()))
+      last = 0
+      associate (population => case%population)
+         do wall = 1, size(walls)
+            first = last + 1
+            last = population%last_row(first)
+            allocate (mechanism(first:last))
+            do i = first, last
+               mechanism(i) = population%walls(i)%input%mechanism
+            end do
+            call new_wall_curves(walls(wall), population%group(first)%text, population%weight(first), mechanism, &
+               & population%p_occ(first:last), results%fragility(first:last), results%collapses(:, first:last), &
+               & results%histories(first:last), case%stripes%levels, error)
+            call add_place(error, 'wall '''//population%walls(first)%input%name//'''')
+            if (allocated(error)) return
+            deallocate (mechanism)
+         end do
+      end associate
+   end subroutine join_mechanisms
 
    !> Every wall of the population. As many walls as go round evenly are shared out among the threads; on each of the
    !> others, all threads work together. Results do not depend on it

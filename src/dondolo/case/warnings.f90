@@ -2,7 +2,7 @@
 module dondolo_warnings
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
+   use dondolo_lines, only : line_type, lines_type
    use dondolo_record, only : record_type
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
@@ -12,7 +12,7 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, warn_of_records, warn_of_fit, warn_of_fits, warn_of_error, warn_of_errors, rounded
+   public :: scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors, rounded
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -37,6 +37,29 @@ module dondolo_warnings
       !> Warn, if there is reason to
       procedure :: warn
    end type scale_warning_type
+
+   !> Statuses of a fit that there is something to say of
+   character(len=12), parameter :: telling(6) = [character(len=12) :: 'no_collapse', 'all_collapse', 'separated', &
+      & 'single_level', 'decreasing', 'extrapolated']
+
+   !> What there is to say of the curves of a population
+   type :: fit_warning_type
+      !> Curves looked at
+      integer :: curves = 0
+      !> How many have each status
+      integer :: number(size(telling)) = 0
+      !> Wall of the first with each
+      type(line_type) :: first(size(telling))
+      !> Wall of the curve looked at last
+      character(len=:), allocatable :: last
+      !> Has a wall several mechanisms?
+      logical :: several = .false.
+   contains
+      !> Look at the curve of a wall
+      procedure :: look => look_at_curve
+      !> Warn, if there is reason to
+      procedure :: warn => warn_of_fits
+   end type fit_warning_type
 
 contains
 
@@ -136,37 +159,55 @@ contains
       end select
    end subroutine warn_of_fit
 
-   !> Warn of the curves of a population, and of the one fitted to all
-   subroutine warn_of_fits(walls, fragility, typologies, warnings)
-      !> The walls
-      type(wall_type), intent(in) :: walls(:)
-      !> Their curves
-      type(fragility_type), intent(in) :: fragility(:)
+   !> Look at the curve of a wall, or of its mechanisms one after the other
+   subroutine look_at_curve(self, curve, name)
+      !> What there is to say
+      class(fit_warning_type), intent(inout) :: self
+      !> Curve of the wall, or of one of its mechanisms
+      type(fragility_type), intent(in) :: curve
+      !> Name of the wall
+      character(len=*), intent(in) :: name
+
+      integer :: i
+
+      self%curves = self%curves + 1
+      if (allocated(self%last)) self%several = self%several .or. self%last == name
+      self%last = name
+      i = findloc(telling, curve%status, dim=1)
+      if (i == 0) return
+      self%number(i) = self%number(i) + 1
+      if (self%number(i) == 1) self%first(i)%text = name
+   end subroutine look_at_curve
+
+   !> Warn of the curves of the walls, and of those fitted to the population
+   subroutine warn_of_fits(self, typologies, warnings)
+      !> What there is to say of the walls
+      class(fit_warning_type), intent(in) :: self
       !> The curves of the population
       type(typology_type), intent(in) :: typologies(:)
       !> Warnings to add to
       type(lines_type), intent(inout) :: warnings
 
-      character(len=12), parameter :: status(6) = [character(len=12) :: 'no_collapse', 'all_collapse', 'separated', &
-         & 'single_level', 'decreasing', 'extrapolated']
-      character(len=:), allocatable :: consequence
-      integer :: i, number, first
+      character(len=:), allocatable :: consequence, which, walls
+      integer :: i
 
-      do i = 1, size(status)
-         number = count(fragility%status == status(i))
-         if (number == 0) cycle
-         first = findloc(fragility%status == status(i), .true., dim=1)
+      walls = ' walls '
+      if (self%several) walls = ' mechanisms of walls '
+      do i = 1, size(telling)
+         if (self%number(i) == 0) cycle
          consequence = 'have no fit and take part with their fractions of collapse'
-         if (status(i) == 'extrapolated') consequence = 'have a median outside the levels'
-         call warnings%add(to_text(number)//' of '//to_text(size(walls))//' walls '//consequence//' ('// &
-            & trim(status(i))//'; the first is '''//walls(first)%input%name//''')')
+         if (telling(i) == 'extrapolated') consequence = 'have a median outside the levels'
+         call warnings%add(to_text(self%number(i))//' of '//to_text(self%curves)//walls//consequence//' ('// &
+            & trim(telling(i))//'; the first is '''//self%first(i)%text//''')')
       end do
       do i = 1, size(typologies)
-         associate (mechanism => typologies(i)%mechanism, fit => typologies(i)%fit)
+         associate (group => typologies(i)%group, fit => typologies(i)%fit)
+            which = 'mechanism '//typologies(i)%mechanism
+            if (len(group) > 0) which = 'group '''//group//''', '//which
             if (.not. fit%has_fit()) then
-               call warnings%add('the population has no fit (mechanism '//mechanism//', status '//trim(fit%status)//')')
+               call warnings%add('the population has no fit ('//which//', status '//trim(fit%status)//')')
             else if (fit%status == 'extrapolated') then
-               call warnings%add('the median of the population, '//rounded(fit%theta)//' (mechanism '//mechanism// &
+               call warnings%add('the median of the population, '//rounded(fit%theta)//' ('//which// &
                   & '), lies outside the levels: the fit extrapolates')
             end if
          end associate

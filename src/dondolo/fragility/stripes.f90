@@ -20,7 +20,7 @@ module dondolo_stripes
    private
 
    public :: stripes_type, multiple_stripe, measure_records, plan_stripes, planned_work, run_histories
-   public :: check_levels, check_polarity, polarity_names
+   public :: check_levels, check_polarity, check_thresholds, polarity_names
 
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
@@ -44,6 +44,8 @@ module dondolo_stripes
    contains
       !> Collapses in each stripe
       procedure :: collapses
+      !> Histories that reach a threshold in each stripe
+      procedure :: exceedances
    end type stripes_type
 
 contains
@@ -289,6 +291,31 @@ contains
       end do
    end subroutine check_levels
 
+   !> Check thresholds of the EDP, each a damage state
+   subroutine check_thresholds(thresholds, edp_limit, error)
+      !> Thresholds, rotation / capacity
+      real(wp), intent(in) :: thresholds(:)
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> Not positive and increasing, or beyond the limit
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(thresholds)
+         if (.not. (thresholds(i) > 0.0_wp .and. thresholds(i) <= edp_limit)) then
+            call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i))//': must be positive and at most '// &
+               & 'edp_limit = '//to_text(edp_limit))
+            return
+         end if
+         if (i == 1) cycle
+         if (thresholds(i) > thresholds(i - 1)) cycle
+         call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i - 1))//', '//to_text(thresholds(i))// &
+            & ': must increase strictly')
+         return
+      end do
+   end subroutine check_thresholds
+
    !> Check the name of a polarity
    subroutine check_polarity(polarity, error)
       !> Name
@@ -313,5 +340,21 @@ contains
          counts(j) = count(self%response(:, j)%collapsed)
       end do
    end function collapses
+
+   !> Histories that reach a threshold in each stripe
+   pure function exceedances(self, threshold) result(counts)
+      !> Stripes
+      class(stripes_type), intent(in) :: self
+      !> Threshold, rotation / capacity, at most the limit
+      real(wp), intent(in) :: threshold
+      !> Number of histories at each level
+      integer :: counts(size(self%levels))
+
+      integer :: j
+
+      do j = 1, size(counts)
+         counts(j) = count(self%response(:, j)%edp >= threshold)
+      end do
+   end function exceedances
 
 end module dondolo_stripes

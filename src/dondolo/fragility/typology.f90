@@ -1,122 +1,267 @@
-!> Typological fragility: the curve of a population of walls.
+!> Typological fragility: the curves of a population of walls.
 !>
-!> The weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a finite fit takes
-!> part with its raw fractions. A lognormal is then fitted to the weighted counts (docs/theory.md, section 6).
+!> The weighted mean of the walls' curves (the red line of figure 5 of Nale et al.), its fractiles, how much of the
+!> scatter is between walls and how much between records, and a lognormal fitted to the mean: for each mechanism and for
+!> all, for the whole population and for each of its groups (docs/theory.md, section 6). Walls come by one after the
+!> other, in several passes, and are not kept: memory does not depend on their number.
 module dondolo_typology
-   use dondolo_error, only : error_type
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_fractiles, only : bits_within, fractiles_type, new_fractiles
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_population_sums, only : add_group, group_type, sum_wall, sums_type
+   use dondolo_text, only : to_text
+   use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
-   public :: typology_type, combine_walls, combine_population
+   public :: typology_type, combination_type, combine_population, whole_population, fractile_shares
 
-   !> The curve of a population, or of its walls of one mechanism
+   !> Shares of the weight that the fractiles stand for: the median, and one standard deviation of a normal variable
+   real(wp), parameter :: fractile_shares(3) = [0.16_wp, 0.5_wp, 0.84_wp]
+   !> Most groups there can be
+   integer, parameter :: most_groups = 64
+   !> Memory for the fractiles of a population [bytes]
+   integer(int64), parameter :: memory = 2_int64**25
+
+   !> A curve of a population, or of one of its groups
    type :: typology_type
-      !> Mechanism of the walls, 'all' for walls of several
+      !> Name of the group, empty for the whole population
+      character(len=:), allocatable :: group
+      !> Mechanism, 'all' for whatever makes the walls collapse
       character(len=:), allocatable :: mechanism
       !> Levels of intensity
       real(wp), allocatable :: levels(:)
-      !> Sum of the weights of the walls
+      !> Sum of the weights of the walls; of one mechanism each counts as often as it can occur
       real(wp) :: weight = 0.0_wp
+      !> Number of walls
+      integer :: walls = 0
       !> Weighted mean of the walls' fractions of collapse at each level
       real(wp), allocatable :: mean_fraction(:)
       !> Weighted mean of the walls' curves at each level
       real(wp), allocatable :: mean_curve(:)
-      !> Lognormal fitted to the weighted counts; its standard errors take the walls' histories for independent
+      !> Probability that so much of the weight does not exceed (fractile_shares, levels)
+      real(wp), allocatable :: fractile(:, :)
+      !> Dispersion between walls: weighted standard deviation of ln theta over the walls with a curve
+      real(wp) :: beta_walls = 0.0_wp
+      !> Dispersion between records: weighted root mean square of their beta
+      real(wp) :: beta_records = 0.0_wp
+      !> Share of the weight that has a curve
+      real(wp) :: fitted = 0.0_wp
+      !> Histories at each level that the fit counts: number of walls by the weighted mean of their histories
+      real(wp) :: histories = 0.0_wp
+      !> Lognormal fitted to the mean fractions; its standard errors take the walls' histories for independent
       type(fragility_type) :: fit
    end type typology_type
 
+   !> Curves of a population in the making: start, then passes over the walls, always in the same order, until complete;
+   !> the first sums, the others look for the fractiles
+   type :: combination_type
+      private
+      !> Levels of intensity
+      real(wp), allocatable :: levels(:)
+      !> The whole population and its groups: the first pass
+      type(group_type), allocatable :: groups(:)
+      !> Fractiles of each curve: the other passes
+      type(fractiles_type), allocatable :: fractiles(:)
+      !> The curves, complete after the last pass: those of the whole population, then those of each group in the order
+      !> they appear in; mechanisms in the order they appear in, and 'all' last if several or if one may not occur
+      type(typology_type), allocatable, public :: typologies(:)
+      !> Have all passes been made?
+      logical, public :: complete = .false.
+   contains
+      !> Begin
+      procedure :: start
+      !> Take in a wall
+      procedure :: add
+      !> All walls have come by
+      procedure :: end_pass
+   end type combination_type
+
 contains
 
-   !> Combine a population: a curve for each of its mechanisms, as in figure 5 of Nale et al., and one for all
-   subroutine combine_population(typologies, mechanisms, levels, collapses, histories, curves, weights, error)
-      !> The curves: mechanisms in the order they appear in, those of no weight left out, and 'all' last if several
+   !> Combine the walls of a population that are all in memory
+   subroutine combine_population(typologies, walls, levels, error)
+      !> The curves, in the order of combination_type
       type(typology_type), allocatable, intent(out) :: typologies(:)
-      !> Mechanism of each wall
-      character(len=*), intent(in) :: mechanisms(:)
+      !> The walls
+      type(wall_curves_type), intent(in) :: walls(:)
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
-      !> Collapses (levels, walls)
-      integer, intent(in) :: collapses(:, :)
-      !> Histories of a stripe of each wall
-      integer, intent(in) :: histories(:)
-      !> Curve of each wall
-      type(fragility_type), intent(in) :: curves(:)
-      !> Weight of each wall, not negative and not all zero
-      real(wp), intent(in) :: weights(:)
-      !> Counts that cannot be fitted
+      !> What end_pass finds
       type(error_type), allocatable, intent(out) :: error
 
-      integer, allocatable :: walls(:), first(:)
+      type(combination_type) :: combination
       integer :: i
 
-      first = pack([(i, i=1, size(mechanisms))], [(weights(i) > 0.0_wp &
-         & .and. .not. any(mechanisms(:i - 1) == mechanisms(i) .and. weights(:i - 1) > 0.0_wp), i=1, size(mechanisms))])
-      allocate(typologies(size(first) + merge(1, 0, size(first) > 1)))
-      do i = 1, size(typologies)
-         if (i <= size(first)) then
-            walls = positions(mechanisms == mechanisms(first(i)))
-         else
-            walls = positions(weights >= 0.0_wp)
-         end if
-         call combine_walls(typologies(i), levels, collapses(:, walls), histories(walls), curves(walls), &
-            & weights(walls), error)
+      call combination%start(levels)
+      do while (.not. combination%complete)
+         do i = 1, size(walls)
+            call combination%add(walls(i))
+         end do
+         call combination%end_pass(error)
          if (allocated(error)) return
-         typologies(i)%mechanism = 'all'
-         if (i <= size(first)) typologies(i)%mechanism = trim(mechanisms(first(i)))
       end do
+      call move_alloc(combination%typologies, typologies)
    end subroutine combine_population
 
-   !> Where a mask is true
-   pure function positions(mask) result(places)
-      !> The mask
-      logical, intent(in) :: mask(:)
-      !> The places
-      integer, allocatable :: places(:)
+   !> Which of the curves is that of the whole population, all mechanisms together
+   pure integer function whole_population(typologies)
+      !> The curves
+      type(typology_type), intent(in) :: typologies(:)
 
-      integer :: i
+      do whole_population = 1, size(typologies) - 1
+         if (len(typologies(whole_population + 1)%group) > 0) exit
+      end do
+   end function whole_population
 
-      places = pack([(i, i=1, size(mask))], mask)
-   end function positions
-
-   !> Combine walls
-   subroutine combine_walls(typology, levels, collapses, histories, curves, weights, error)
-      !> The curve of the population
-      type(typology_type), intent(out) :: typology
+   !> Begin
+   subroutine start(self, levels)
+      !> The curves in the making
+      class(combination_type), intent(out) :: self
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
-      !> Collapses (levels, walls)
-      integer, intent(in) :: collapses(:, :)
-      !> Histories of a stripe of each wall
-      integer, intent(in) :: histories(:)
-      !> Curve of each wall
-      type(fragility_type), intent(in) :: curves(:)
-      !> Weight of each wall, not negative and not all zero
-      real(wp), intent(in) :: weights(:)
-      !> Counts that cannot be fitted
+
+      self%levels = levels
+      allocate (self%groups(0))
+      call add_group(self%groups, '', levels)
+   end subroutine start
+
+   !> Take in a wall; those of no weight leave no trace
+   subroutine add(self, wall)
+      !> The curves in the making
+      class(combination_type), intent(inout) :: self
+      !> The wall
+      type(wall_curves_type), intent(in) :: wall
+
+      real(wp) :: p(size(self%levels), size(wall%p_occ) + 1)
+      integer :: i, m
+
+      if (self%complete .or. .not. wall%weight > 0.0_wp) return
+      p = wall%probabilities(self%levels)
+      if (.not. allocated(self%fractiles)) then
+         call sum_wall(self%groups(1), wall, self%levels, p)
+         if (len(wall%group) == 0) return
+         do i = 2, size(self%groups)
+            if (self%groups(i)%name == wall%group) exit
+         end do
+         ! One too many tells end_pass.
+         if (i > most_groups + 2) return
+         if (i > size(self%groups)) call add_group(self%groups, wall%group, self%levels)
+         call sum_wall(self%groups(i), wall, self%levels, p)
+         return
+      end if
+      do i = 1, size(self%typologies)
+         associate (curve => self%typologies(i))
+            if (len(curve%group) > 0 .and. curve%group /= wall%group) cycle
+            if (curve%mechanism == 'all') then
+               call self%fractiles(i)%add(p(:, size(p, 2)), wall%weight)
+               cycle
+            end if
+            do m = 1, size(wall%p_occ)
+               if (wall%mechanism(m) == curve%mechanism .and. wall%p_occ(m) > 0.0_wp) &
+                  & call self%fractiles(i)%add(p(:, m), wall%weight*wall%p_occ(m))
+            end do
+         end associate
+      end do
+   end subroutine add
+
+   !> All walls have come by
+   subroutine end_pass(self, error)
+      !> The curves in the making
+      class(combination_type), intent(inout) :: self
+      !> Too many groups, no wall with a weight, or fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: share(size(weights)), z(size(levels)), n(size(levels)), fraction(size(levels))
-      integer :: i
+      integer :: i, bits
 
-      allocate(typology%mean_fraction(size(levels)), typology%mean_curve(size(levels)), source=0.0_wp)
-      typology%levels = levels
-      typology%weight = sum(weights)
-      share = weights/typology%weight
-      z = 0.0_wp
-      n = 0.0_wp
-      do i = 1, size(weights)
-         fraction = real(collapses(:, i), wp)/real(histories(i), wp)
-         typology%mean_fraction = typology%mean_fraction + share(i)*fraction
-         if (curves(i)%has_fit()) fraction = curves(i)%probability(levels)
-         typology%mean_curve = typology%mean_curve + share(i)*fraction
-         ! Weights of mean 1, so that the counts of the population are those of its walls together.
-         z = z + share(i)*real(size(weights)*collapses(:, i), wp)
-         n = n + share(i)*real(size(weights)*histories(i), wp)
+      if (self%complete) return
+      if (.not. allocated(self%fractiles)) then
+         call make_curves(self, error)
+         if (allocated(error)) return
+         bits = bits_within(memory, size(fractile_shares)*size(self%levels)*size(self%typologies, kind=int64))
+         allocate (self%fractiles(size(self%typologies)))
+         do i = 1, size(self%typologies)
+            call new_fractiles(self%fractiles(i), fractile_shares, size(self%levels), self%typologies(i)%weight, bits)
+         end do
+         return
+      end if
+      do i = 1, size(self%fractiles)
+         call self%fractiles(i)%end_pass()
       end do
+      self%complete = self%fractiles(1)%complete()
+      if (.not. self%complete) return
+      do i = 1, size(self%fractiles)
+         self%typologies(i)%fractile = self%fractiles(i)%values()
+      end do
+   end subroutine end_pass
+
+   !> The curves out of the sums
+   subroutine make_curves(self, error)
+      !> The curves in the making: typologies are set but for their fractiles
+      class(combination_type), intent(inout) :: self
+      !> Too many groups, no wall with a weight, or fractions that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, m, k
+
+      if (self%groups(1)%all%walls == 0) then
+         call raise_input(error, 'weight: must be positive for at least one wall')
+         return
+      end if
+      if (size(self%groups) > most_groups + 1) then
+         call raise_input(error, 'group = '''//self%groups(most_groups + 2)%name//''': is one too many, at most '// &
+            & to_text(most_groups)//' are allowed')
+         return
+      end if
+      allocate (self%typologies(sum([(size(self%groups(i)%mechanism), i=1, size(self%groups))]) &
+         & + count([(self%groups(i)%has_all(), i=1, size(self%groups))])))
+      k = 0
+      do i = 1, size(self%groups)
+         do m = 1, size(self%groups(i)%mechanism)
+            k = k + 1
+            call make_curve(self%typologies(k), self%groups(i)%name, self%groups(i)%mechanism(m), self%levels, error)
+            if (allocated(error)) return
+         end do
+         if (.not. self%groups(i)%has_all()) cycle
+         k = k + 1
+         call make_curve(self%typologies(k), self%groups(i)%name, self%groups(i)%all, self%levels, error)
+         if (allocated(error)) return
+      end do
+   end subroutine make_curves
+
+   !> A curve out of its sums
+   subroutine make_curve(curve, group, sums, levels, error)
+      !> The curve, without fractiles
+      type(typology_type), intent(out) :: curve
+      !> Name of the group
+      character(len=*), intent(in) :: group
+      !> The sums
+      type(sums_type), intent(in) :: sums
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Fractions that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: n(size(levels))
+
+      curve%group = group
+      curve%mechanism = sums%mechanism
+      curve%levels = levels
+      curve%weight = sums%weight
+      curve%walls = sums%walls
       ! Rounding must not leave more collapses than histories.
-      call fit_fragility(typology%fit, levels, min(z, n), n, error)
-   end subroutine combine_walls
+      curve%mean_fraction = min(sums%fraction/sums%weight, 1.0_wp)
+      curve%mean_curve = min(sums%curve/sums%weight, 1.0_wp)
+      curve%fitted = sums%fitted/sums%weight
+      if (sums%fitted > 0.0_wp) then
+         curve%beta_walls = sqrt(max(sums%squares/sums%fitted, 0.0_wp))
+         curve%beta_records = sqrt(sums%beta_squares/sums%fitted)
+      end if
+      curve%histories = real(sums%walls, wp)*(sums%histories/sums%weight)
+      n = curve%histories
+      call fit_fragility(curve%fit, levels, min(n*curve%mean_fraction, n), n, error)
+   end subroutine make_curve
 
 end module dondolo_typology

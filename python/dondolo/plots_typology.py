@@ -1,0 +1,260 @@
+"""Figures of populations: Matplotlib axes in, axes out, as in dondolo.plots."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo import _binding, style
+from dondolo.errors import InputError
+from dondolo.stripes import Stripes
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from dondolo.fragility import Fragility
+    from dondolo.typology import Group, Typology
+
+# Points of a curve; enough for a smooth line
+_POINTS = 301
+# Most walls that are drawn one by one
+_THIN = 300
+# What tells lines apart in grey
+_LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
+
+
+def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | None = None, group: str = "") -> Axes:
+    """Draw the curves of a population, thin, with their weighted mean and fractiles.
+
+    Figure 5 of Nale et al.: the red line is the typological curve.
+
+    Parameters
+    ----------
+    typology : Typology
+        Result of `typology`.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+    mechanism, group : str, optional
+        Only the walls of this mechanism, of this group.
+
+    Returns
+    -------
+    Axes
+        Probability of collapse against intensity.
+
+    Raises
+    ------
+    InputError
+        There are no such walls.
+    """
+    curve = typology.group(mechanism, group)
+    if ax is None:
+        ax = style.new_axes()
+    grid = _grid(typology.levels)
+    walls = typology.probabilities(grid, mechanism, group)
+    drawn = np.unique(np.linspace(0, len(walls) - 1, _THIN).round().astype(int))
+    ax.plot(grid, walls[drawn].T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
+    text = f"{len(drawn)} of {len(walls)} walls" if len(drawn) < len(walls) else f"{len(walls)} walls"
+    ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
+    _band(ax, typology, grid, mechanism, group, style.BLUE)
+    mean = typology.mean(grid, mechanism, group)
+    ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
+    if curve.fit.has_fit:
+        fitted = f"lognormal, {_parameters(curve.fit)}"
+        ax.plot(grid, curve.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
+    ax.plot(
+        typology.levels,
+        curve.mean_fraction,
+        linestyle="none",
+        marker="o",
+        markersize=4,
+        markerfacecolor="white",
+        markeredgecolor=style.RED,
+        label="weighted fractions",
+        zorder=6,
+    )
+    return _finish(ax, typology, grid, _name(curve, typology))
+
+
+def plot_combination(typology: Typology, ax: Axes | None = None, group: str = "") -> Axes:
+    """Draw the mean curve of each mechanism, and that of all together with its fractiles.
+
+    Parameters
+    ----------
+    typology : Typology
+        Result of `typology`.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+    group : str, optional
+        Only the walls of this group.
+
+    Returns
+    -------
+    Axes
+        Probability of collapse against intensity: of a mechanism, if it can occur; of all, in series, each with its
+        probability of occurrence.
+    """
+    curves = [curve for curve in typology.groups if curve.group == group and curve.mechanism != "all"]
+    whole = typology.group(None, group)
+    if ax is None:
+        ax = style.new_axes()
+    grid = _grid(typology.levels)
+    _band(ax, typology, grid, None, group, style.GREY)
+    where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
+    for curve, line in zip(curves, _LINES[1:], strict=False):
+        mean = typology.mean(grid, curve.mechanism, group)
+        text = f"{_words(curve.mechanism)}{where}, {_parameters(curve.fit)}"
+        ax.plot(grid, mean, color=style.BLUE, linestyle=line, label=text, zorder=3)
+    mean = typology.mean(grid, None, group)
+    text = f"{_words(whole.mechanism)}, {_parameters(whole.fit)}"
+    ax.plot(grid, mean, color=style.RED, linewidth=2.4, label=text, zorder=4)
+    return _finish(ax, typology, grid, f"group {group}" if group else "population")
+
+
+def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | None = None) -> Axes:
+    """Draw the mean curve of each group beside that of the population.
+
+    Parameters
+    ----------
+    typology : Typology
+        Result of `typology`, of a population with groups.
+    mechanism : str, optional
+        Only the walls of this mechanism; groups without it are left out.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+
+    Returns
+    -------
+    Axes
+        Probability of collapse against intensity.
+
+    Raises
+    ------
+    InputError
+        The population has no groups, or no such mechanism.
+    """
+    import matplotlib.pyplot as plt
+
+    whole = typology.group(mechanism)
+    names = list(dict.fromkeys(curve.group for curve in typology.groups if curve.group))
+    if not names:
+        raise InputError("group: no wall of this population belongs to a group")
+    known = {(curve.group, curve.mechanism) for curve in typology.groups}
+    names = [name for name in names if mechanism is None or (name, mechanism) in known]
+    if ax is None:
+        ax = style.new_axes()
+    grid = _grid(typology.levels)
+    colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
+    for i, (name, color) in enumerate(zip(names, colors, strict=True)):
+        curve = typology.group(mechanism, name)
+        text = f"{name}: {curve.walls} walls, {_parameters(curve.fit)}"
+        ax.plot(grid, typology.mean(grid, mechanism, name), color=color, linestyle=_LINES[i % len(_LINES)], label=text)
+    text = f"population: {whole.walls} walls, {_parameters(whole.fit)}"
+    ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label=text)
+    return _finish(ax, typology, grid, "all mechanisms" if mechanism is None else _words(mechanism))
+
+
+def plot_damage_states(
+    states: Typology | Stripes,
+    ax: Axes | None = None,
+    edp: Sequence[float] | None = None,
+    mechanism: str | None = None,
+    group: str = "",
+) -> Axes:
+    """Draw one curve a damage state, collapse the boldest.
+
+    Parameters
+    ----------
+    states : Typology or Stripes
+        A population run with `edp_thresholds`, of which the weighted means are drawn; or the stripes of one wall, of
+        which the fitted curves are.
+    ax : Axes, optional
+        Where to draw; a new figure if left out.
+    edp : sequence of float, optional
+        Rotation / capacity that make the states; all thresholds of a population if left out, for stripes 0.1, 0.4 and
+        1 times their `edp_limit`.
+    mechanism, group : str, optional
+        As for `plot_typology`; not for stripes.
+
+    Returns
+    -------
+    Axes
+        Probability to reach each state against intensity.
+    """
+    import matplotlib.pyplot as plt
+
+    if ax is None:
+        ax = style.new_axes()
+    grid = _grid(states.levels)
+    if edp is None:
+        wall = isinstance(states, Stripes)
+        edp = [share * states.edp_limit for share in (0.1, 0.4, 1.0)] if wall else list(states.edp_thresholds)
+    looks = zip(sorted(edp), plt.get_cmap("viridis")(np.linspace(0.85, 0.0, len(edp))), strict=True)
+    for i, (threshold, color) in enumerate(looks):
+        bold = 1.2 + 1.4 * (i + 1) / len(edp)
+        look = {"color": color, "linewidth": bold, "linestyle": _LINES[(len(edp) - 1 - i) % len(_LINES)]}
+        marks = {"color": color, "linestyle": "none", "marker": "osD^v<>"[i % 7], "markersize": 4}
+        if isinstance(states, Stripes):
+            curve = states.fit(threshold)
+            text = f"EDP ≥ {threshold:g}: {_parameters(curve)}"
+            ax.plot(states.levels, curve.collapses / curve.histories, **marks, label=None if curve.has_fit else text)
+            if curve.has_fit:
+                ax.plot(grid, curve(grid), **look, label=text)
+        else:
+            state = states.at(threshold)
+            one = state.group(mechanism, group)
+            text = f"EDP ≥ {threshold:g}: {_parameters(one.fit)}"
+            ax.plot(grid, state.mean(grid, mechanism, group), **look, label=text)
+            ax.plot(states.levels, one.mean_fraction, **marks)
+    whose = states.wall.name if isinstance(states, Stripes) else _name(states.group(mechanism, group), states)
+    _finish(ax, states, grid, whose)
+    ax.set_ylabel("probability to reach the state")
+    return ax
+
+
+def _grid(levels: Any) -> Any:
+    """Levels that a curve is drawn at."""
+    right = 1.05 * float(np.max(levels))
+    return np.linspace(right / _POINTS, right, _POINTS)
+
+
+def _band(ax: Axes, typology: Typology, grid: Any, mechanism: str | None, group: str, color: str) -> None:
+    """Fractiles of the walls: a band with edges, and the median."""
+    low, median, high = typology.fractiles(grid, mechanism=mechanism, group=group)
+    ax.fill_between(grid, low, high, color=color, alpha=0.22, linewidth=0.0, label="16 to 84 % of the walls", zorder=2)
+    for edge in (low, high):
+        ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
+    ax.plot(grid, median, color=color, linewidth=1.6, linestyle=":", label="median of the walls", zorder=3)
+
+
+def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
+    """Axes, title and legend."""
+    ax.set_xlim(0.0, grid[-1])
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(what.im))
+    ax.set_ylabel("probability of collapse")
+    ax.set_title(title, loc="left", parse_math=False)
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    return ax
+
+
+def _words(mechanism: str) -> str:
+    """A mechanism in words."""
+    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
+
+
+def _name(curve: Group, typology: Typology) -> str:
+    """Mechanism and group of a curve."""
+    grouped = any(one.group for one in typology.groups)
+    group = f", group {curve.group}" if curve.group else ", population" if grouped else ""
+    return _words(curve.mechanism) + group
+
+
+def _parameters(fit: Fragility) -> str:
+    """Median and dispersion for a legend."""
+    if not fit.has_fit:
+        return f"no fit ({fit.status.replace('_', ' ')})"
+    unit = f" {_binding.unit_of(fit.im)}".rstrip()
+    return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}"

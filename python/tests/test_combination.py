@@ -1,0 +1,361 @@
+"""Combination of mechanisms and walls, against a simulation of the mixture that knows none of the formulas."""
+
+import pickle
+import sys
+
+import numpy as np
+import pytest
+from dondolo.typology import combine
+from dondolo.work import Work
+
+import dondolo as dd
+
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
+LEVELS = np.geomspace(0.05, 3.0, 25)
+HISTORIES = 1_000_000
+SAMPLES = 400_000
+KINDS = {"one_sided": dd.OneSidedWall, "two_block": dd.TwoBlockWall, "free_standing": dd.FreeStandingWall}
+
+# Name, group, weight, and of each mechanism theta, beta and the probability of occurrence
+WALLS = [
+    ("a", "facades", 3.0, {"one_sided": (0.35, 0.40, 0.3), "two_block": (0.60, 0.35, 0.8)}),
+    ("b", "facades", 1.0, {"one_sided": (0.25, 0.30, 1.0), "two_block": (0.45, 0.45, 0.5)}),
+    ("c", "towers", 2.0, {"two_block": (0.90, 0.50, 0.6)}),
+    ("d", "", 0.5, {"one_sided": (0.50, 0.25, 1.0)}),
+    (
+        "e",
+        "facades",
+        4.0,
+        {"free_standing": (0.30, 0.60, 0.4), "one_sided": (0.55, 0.3, 0.9), "two_block": (0.8, 0.2, 0.7)},
+    ),
+    ("f", "towers", 0.0, {"one_sided": (0.1, 0.2, 1.0)}),
+]
+
+
+def typology_of(walls, levels=LEVELS, histories=HISTORIES):
+    """The typology of walls whose histories collapse as often as their curves say."""
+    from scipy.special import ndtr
+
+    rows = [(name, group, weight, *row) for name, group, weight, mechanisms in walls for row in mechanisms.items()]
+    people = dd.Population(
+        tuple(KINDS[row[3]](3.0, 0.3, name=row[0]) for row in rows),
+        [row[2] for row in rows],
+        tuple(row[1] for row in rows),
+        [row[4][2] for row in rows],
+    )
+    share = [ndtr(np.log(levels / theta) / beta) for *_, (theta, beta, _) in rows]
+    counts = np.round(np.array(share).T * histories)[None].astype(np.int32)
+    sizes = np.full(len(rows), histories, dtype=np.int32)
+    complete = np.ones(len(rows), dtype=bool)
+    return combine(people, "pga", levels, np.ones(1), counts, sizes, complete, Work())[0]
+
+
+@pytest.fixture(scope="module")
+def people():
+    """Six walls of one to three mechanisms in two groups."""
+    return typology_of(WALLS)
+
+
+def simulate(walls, mechanism=None, seed=1):
+    """Capacities of walls drawn by weight: inf where no mechanism is active; and which wall each is of."""
+    rng = np.random.default_rng(seed)
+    weight = np.array([wall[2] for wall in walls])
+    drawn = rng.choice(len(walls), SAMPLES, p=weight / weight.sum())
+    capacity = np.full(SAMPLES, np.inf)
+    for i, (*_, mechanisms) in enumerate(walls):
+        place = np.flatnonzero(drawn == i)
+        for name, (theta, beta, p_occ) in mechanisms.items():
+            if mechanism not in (None, name):
+                continue
+            own = theta * np.exp(beta * rng.standard_normal(len(place)))
+            own[rng.random(len(place)) >= p_occ] = np.inf
+            capacity[place] = np.minimum(capacity[place], own)
+    return capacity, drawn
+
+
+def close(mean, capacity, x):
+    """Does a mean curve lie within four standard errors of the simulated one?"""
+    simulated = np.mean(capacity[:, None] <= x, axis=0)
+    # Never less than what one capacity more or less makes
+    error = np.sqrt(np.maximum(mean * (1.0 - mean), 1.0 / len(capacity)) / len(capacity))
+    return np.all(np.abs(mean - simulated) < 4.0 * error)
+
+
+X = np.array([0.12, 0.2, 0.3, 0.45, 0.6, 0.9, 1.4])
+
+
+@pytest.mark.parametrize("group", ["", "facades", "towers"])
+def test_mean_of_all_mechanisms(people, group):
+    capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
+    assert close(people.mean(X, group=group), capacity, X)
+
+
+@pytest.mark.parametrize("mechanism", list(KINDS))
+def test_mean_of_one_mechanism(people, mechanism):
+    capacity, _ = simulate(WALLS, mechanism)
+    # Given that it can occur: walls count as often as it does.
+    capacity = capacity[np.isfinite(capacity)]
+    assert close(people.mean(X, mechanism), capacity, X)
+    chances = [wall[2] * wall[3][mechanism][2] for wall in WALLS if mechanism in wall[3]]
+    assert people.group(mechanism).weight == pytest.approx(sum(chances))
+
+
+def test_the_simulation_tells_wrong_formulas():
+    """Mechanisms added up, chances left out, weights left out: none is close."""
+    from scipy.special import ndtr
+
+    walls = [wall for wall in WALLS if wall[2]]
+    weight = np.array([wall[2] for wall in walls])[:, None]
+    chance = [np.array([row[2] for row in wall[3].values()])[:, None] for wall in walls]
+    p = [np.array([ndtr(np.log(X / row[0]) / row[1]) for row in wall[3].values()]) for wall in walls]
+    series = np.array([1.0 - np.prod(1.0 - c * one, axis=0) for c, one in zip(chance, p, strict=True)])
+    added = np.array([np.minimum(np.sum(c * one, axis=0), 1.0) for c, one in zip(chance, p, strict=True)])
+    certain = np.array([1.0 - np.prod(1.0 - one, axis=0) for one in p])
+    capacity, _ = simulate(WALLS)
+    assert close(np.sum(weight * series, axis=0) / weight.sum(), capacity, X)
+    for wrong in (added, certain):
+        assert not close(np.sum(weight * wrong, axis=0) / weight.sum(), capacity, X)
+    assert not close(series.mean(axis=0), capacity, X)
+
+
+def test_dispersion_of_one_mechanism(people):
+    """The variance of ln capacity in the mixture is that between walls and that between records."""
+    for mechanism in KINDS:
+        capacity, _ = simulate(WALLS, mechanism)
+        ln = np.log(capacity[np.isfinite(capacity)])
+        error = np.sqrt(np.mean((ln - ln.mean()) ** 4) - ln.var() ** 2) / np.sqrt(len(ln))
+        curve = people.group(mechanism)
+        assert abs(curve.beta_walls**2 + curve.beta_records**2 - ln.var()) < 4.0 * error + 1e-4
+        assert curve.beta_total**2 == pytest.approx(curve.beta_walls**2 + curve.beta_records**2)
+        assert curve.fitted == 1.0
+
+
+def test_dispersion_of_all():
+    """Walls that collapse by one of two mechanisms alike: theirs are the wall's own theta and beta."""
+    walls = [("a", "", 1.0, {"one_sided": (0.3, 0.4, 1.0)}), ("b", "", 3.0, {"two_block": (0.6, 0.2, 1.0)})]
+    curve = typology_of(walls).group()
+    ln = np.log(simulate(walls)[0])
+    assert curve.mechanism == "all"
+    assert curve.beta_walls**2 + curve.beta_records**2 == pytest.approx(ln.var(), rel=0.01)
+    assert curve.beta_walls == pytest.approx(np.log(2.0) * np.sqrt(3.0) / 4.0, rel=1e-4)
+
+
+def test_each_wall(people):
+    capacity, drawn = simulate(WALLS)
+    walls = people.probabilities(X)
+    assert walls.shape == (5, len(X))
+    for i, row in enumerate(walls):
+        assert close(row, capacity[drawn == i], X)
+    assert list(people.combined) == [wall[0] for wall in WALLS]
+    assert people.combined["d"] is people.curves[5]
+    for name, curve in people.combined.items():
+        again = dd.fit_fragility(curve.levels, curve.collapses, curve.histories)
+        assert (again.theta, again.beta) == pytest.approx((curve.theta, curve.beta), rel=1e-12), name
+
+
+def by_sorting(values, weights, share):
+    """A weighted fractile by its definition."""
+    order = np.argsort(values)
+    reached = np.cumsum(weights[order]) >= share * weights.sum() * (1.0 - 1e-12)
+    return values[order][np.argmax(reached)]
+
+
+def test_fractiles_by_sorting():
+    rng = np.random.default_rng(3)
+    walls = [
+        (f"w{i}", "", float(rng.integers(0, 4)), {"one_sided": (rng.uniform(0.2, 0.9), rng.uniform(0.2, 0.5), 1.0)})
+        for i in range(101)
+    ]
+    # Some that are equal
+    walls += [(f"again {name}", *rest) for name, *rest in walls[:20]]
+    result = typology_of(walls, LEVELS[::3])
+    weights = np.array([wall[2] for wall in walls if wall[2]])
+    at_levels = result.probabilities(result.levels)
+    for k, share in enumerate((0.16, 0.5, 0.84)):
+        expected = [by_sorting(column, weights, share) for column in at_levels.T]
+        assert result.group().fractiles[k] == pytest.approx(expected, rel=1e-12)
+    between = rng.uniform(0.1, 2.0, (2, 7))
+    found = result.fractiles(between, q=[0.01, 0.3, 1.0])
+    assert found.shape == (3, 2, 7)
+    columns = result.probabilities(between).reshape(len(weights), -1).T
+    expected = [[by_sorting(column, weights, share) for column in columns] for share in (0.01, 0.3, 1.0)]
+    assert np.array_equal(found.reshape(3, -1), expected)
+    assert result.fractiles(0.4, q=0.5).shape == ()
+
+
+def test_curves_at_levels_are_those_of_fortran(people):
+    for group in people.groups:
+        key = (group.mechanism, group.group)
+        assert people.mean(LEVELS, *key) == pytest.approx(group.mean_curve, rel=1e-12)
+        found = people.fractiles(LEVELS, mechanism=key[0], group=key[1])
+        assert found == pytest.approx(group.fractiles, rel=1e-12)
+
+
+def test_which_curves_there_are(people):
+    assert [(group.group, group.mechanism) for group in people.groups] == [
+        *(("", name) for name in ("one_sided", "two_block", "free_standing", "all")),
+        *(("facades", name) for name in ("one_sided", "two_block", "free_standing", "all")),
+        *(("towers", name) for name in ("two_block", "all")),
+    ]
+    assert people.group() is people.groups[3]
+    assert people.weight == 10.5
+    assert people.group("all", "facades").walls == 3
+    assert people.fit("two_block", "towers") is people.groups[8].fit
+    with pytest.raises(dd.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
+        people.group(group="ruins")
+    with pytest.raises(dd.InputError, match="mechanism = 'one_sided': must be one of 'two_block', 'all'"):
+        people.mean(0.3, "one_sided", "towers")
+    with pytest.raises(dd.InputError, match="q: must be shares"):
+        people.fractiles(0.3, q=0.0)
+
+
+def test_memory_in_parts(people, monkeypatch):
+    x = np.linspace(0.0, 2.0, 50)
+    mean, fractiles = people.mean(x), people.fractiles(x)
+    monkeypatch.setattr(sys.modules["dondolo.typology"], "_NUMBERS", 30)
+    assert people.mean(x) == pytest.approx(mean, rel=1e-14, abs=0.0)
+    assert np.array_equal(people.fractiles(x), fractiles)
+    assert people.mean([]).shape == (0,)
+
+
+def test_walls_without_a_fit():
+    """Their fractions take their place, in series too."""
+    people = typology_of([("a", "", 1.0, {"one_sided": (0.3, 0.4, 0.5), "two_block": (0.6, 0.3, 1.0)})], histories=44)
+    counts = people.exceedances.copy()
+    counts[0, :, 0] = np.where(LEVELS < 0.5, 0, 44)
+    complete = np.ones(2, dtype=bool)
+    arguments = (people.population, "pga", LEVELS, np.ones(1), counts, np.full(2, 44), complete, Work())
+    stepped, sentences = combine(*arguments)
+    assert sentences == [
+        "1 of 2 mechanisms of walls have no fit and take part with their fractions of collapse "
+        "(separated; the first is 'a')",
+        "the population has no fit (mechanism one_sided, status separated)",
+    ]
+    step = np.where(LEVELS < 0.5, 0.0, 1.0)
+    expected = 1.0 - (1.0 - 0.5 * step) * (1.0 - stepped.curves[1](LEVELS))
+    assert stepped.mean_curve == pytest.approx(expected, rel=1e-12, abs=1e-15)
+    assert np.isnan(stepped.group("one_sided").beta_walls)
+    assert stepped.group("one_sided").fitted == 0.0
+    assert stepped.group().fitted == 1.0
+
+
+def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
+    complete = np.ones(len(people.walls), dtype=bool)
+    complete[1] = complete[-1] = False
+    counts, histories = people.exceedances, people.histories
+    part, _ = combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
+    assert list(part.combined) == ["b", "c", "d", "e"]
+    assert part.curves[0].theta == people.curves[2].theta
+
+
+@pytest.fixture(scope="module")
+def states(few):
+    """A population with three damage states, and the stripes of its walls."""
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.TwoBlockWall(2.5, 0.25, name="a"),
+        dd.OneSidedWall(2.0, 0.25, name="b"),
+    ]
+    people = dd.Population(walls, [1.0, 1.0, 2.0], ("x", "x", ""), [0.5, 0.5, 1.0])
+    levels = np.array([0.2, 0.4, 0.6, 0.9, 1.3])
+    stripes = [dd.multiple_stripe(wall, few, levels, progress=False) for wall in walls]
+    thresholds = np.array([0.1, 0.4, 1.0])
+    counts = np.array([[one.exceedances(edp) for one in stripes] for edp in thresholds]).transpose(0, 2, 1)
+    histories = np.array([one.edp.shape[1] for one in stripes])
+    complete = np.ones(3, dtype=bool)
+    return combine(people, "pga", levels, thresholds, counts, histories, complete, Work())[0], stripes
+
+
+def test_damage_states(states, tmp_path):
+    typology, stripes = states
+    last = typology.at(1.0)
+    assert np.array_equal(typology.collapses, last.collapses)
+    assert last.mean(0.5) == typology.mean(0.5)
+    assert list(last.edp_thresholds) == [1.0]
+    assert last.at(1.0) is last
+    first = typology.at(0.1)
+    assert typology.at(0.1) is first
+    assert pickle.loads(pickle.dumps(typology)).at(0.1).mean(0.5) == first.mean(0.5)
+    for k, one in enumerate(stripes):
+        assert np.array_equal(typology.exceedances[0, :, k], (one.edp >= 0.1).sum(axis=1))
+        assert np.array_equal(first.curves[k].collapses, one.fit(0.1).collapses)
+    assert np.all(first.mean_fraction >= typology.at(0.4).mean_fraction)
+    assert np.any(typology.at(0.4).mean_fraction > last.mean_fraction)
+    with pytest.raises(dd.InputError, match=r"edp = 0\.2: must be one of 0\.1, 0\.4, 1"):
+        typology.at(0.2)
+    for table, rows in (("typology", 6 * 5), ("stripes", 15), ("fragility", 3)):
+        frame = typology.to_frame(table)
+        assert list(frame["edp_threshold"]) == [edp for edp in (0.1, 0.4, 1.0) for _ in range(rows)]
+        typology.to_csv(tmp_path / "table.csv", table)
+        lines = (tmp_path / "table.csv").read_text().splitlines()
+        header = next(line for line in lines if not line.startswith("#"))
+        assert header.split(",") == list(frame.columns)
+    assert list(typology.to_frame("typology")["mean_curve"][:5]) == list(first.groups[0].mean_curve)
+    assert "damage states 0.1 0.4 1" in repr(typology)
+
+
+def test_damage_states_of_one_wall(states):
+    stripes = states[1][0]
+    assert np.array_equal(stripes.exceedances(stripes.edp_limit), stripes.collapses)
+    assert stripes.fit(stripes.edp_limit).theta == stripes.fit().theta
+    curve = stripes.fit(0.4)
+    assert curve.theta < stripes.fit().theta
+    # What is drawn again are the histories that reach the state.
+    samples = curve.bootstrap(200)
+    assert np.nanmedian(samples.theta) == pytest.approx(curve.theta, rel=0.1)
+    for edp in (0.0, 1.5, np.nan):
+        with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):
+            stripes.exceedances(edp)
+
+
+@pytest.mark.parametrize("edp", [0.1, 0.4])
+def test_warnings_name_the_state(states, edp):
+    typology = states[0]
+    again = combine(
+        typology.population,
+        "pga",
+        typology.levels,
+        typology.edp_thresholds,
+        typology.exceedances * 0,
+        typology.histories,
+        np.ones(3, dtype=bool),
+        Work(),
+    )[0]
+    with pytest.warns(dd.DondoloWarning, match=f"damage state {edp:g}: 3 of 3 mechanisms of walls have no fit"):
+        again.at(edp)
+
+
+def test_figures(people, states, monkeypatch):
+    from dondolo import plots_typology
+
+    ax = dd.plot_typology(people, mechanism="one_sided", group="facades")
+    assert ax.get_title(loc="left") == "one-sided, group facades"
+    monkeypatch.setattr(plots_typology, "_THIN", 2)
+    labels = dd.plot_typology(people).get_legend_handles_labels()[1]
+    assert labels[0] == "2 of 5 walls"
+    assert {"16 to 84 % of the walls", "median of the walls", "weighted mean"} <= set(labels)
+
+    ax = dd.plot_combination(people)
+    lines = {drawn.get_label().split(",")[0]: drawn for drawn in ax.get_lines()}
+    for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", None)):
+        assert np.array_equal(lines[name].get_ydata(), people.mean(lines[name].get_xdata(), mechanism))
+    styles = [drawn.get_linestyle() for name, drawn in lines.items() if "occur" in name]
+    assert len(set(styles)) == len(styles) == 3
+
+    ax = dd.plot_groups(people, "two_block")
+    lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
+    assert list(lines) == ["facades", "towers", "population"]
+    grid = lines["towers"].get_xdata()
+    assert np.array_equal(lines["towers"].get_ydata(), people.mean(grid, "two_block", "towers"))
+    lines = dd.plot_groups(people, "one_sided").get_lines()
+    assert [drawn.get_label().split(":")[0] for drawn in lines] == ["facades", "population"]
+    with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
+        dd.plot_groups(typology_of(WALLS[3:4]))
+
+    typology, stripes = states
+    for what, edp in ((typology, (0.1, 0.4, 1.0)), (stripes[0], (0.1, 0.4, 1.0))):
+        ax = dd.plot_damage_states(what)
+        labels = ax.get_legend_handles_labels()[1]
+        assert [label.split(":")[0] for label in labels] == [f"EDP ≥ {one:g}" for one in edp]
+        assert ax.get_ylabel() == "probability to reach the state"
