@@ -78,7 +78,7 @@ def run_walls(
     with nullcontext() if checkpoint is None else Checkpoint(checkpoint, _study(request, states)) as file:
         if file is not None:
             for stored in file.blocks():
-                run.add(stored.first, Part(stored.walls, stored.flags, stored.work, 0.0))
+                run.add(stored.first, Part(stored.walls, stored.flags, stored.work, 0.0, False))
             if not run.complete.all():
                 file.claim()
         try:
@@ -106,8 +106,7 @@ def _run_rest(
     """Run the walls that are not complete."""
     histories = run.flags.histories
     sizes = histories.astype(np.int64) * len(request.levels)
-    team = request.threads or int(os.environ.get("OMP_NUM_THREADS", 0) or os.cpu_count() or 1)
-    blocks = Blocks(sizes, run.complete, team, block)
+    blocks = Blocks(sizes, run.complete, request.threads or _all_threads(), block)
     shared = Shared(request, states)
     done = int(sizes[run.complete].sum())
 
@@ -132,8 +131,14 @@ def _run_rest(
                 if file is not None:
                     file.keep(first, count, part.work, part.flags)
             run.add(first, part)
-            if part.walls < count:
+            if part.interrupted:
                 raise KeyboardInterrupt
+
+
+def _all_threads() -> int:
+    """How many threads OpenMP will take, for the size of the first blocks."""
+    asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
+    return int(asked) if asked.isdigit() and int(asked) else os.cpu_count() or 1
 
 
 def _study(request: Request, states: _binding.FloatArray) -> dict[str, str]:

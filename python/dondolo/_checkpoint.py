@@ -30,8 +30,8 @@ CREATE TABLE block (
 );
 CREATE VIEW progress AS
    SELECT complete, of_walls, CASE complete WHEN of_walls THEN 'complete' ELSE 'incomplete' END AS state
-   FROM (SELECT (SELECT total(walls) FROM block) AS complete,
-                (SELECT CAST(value AS REAL) FROM study WHERE what = 'number of walls') AS of_walls);
+   FROM (SELECT (SELECT coalesce(sum(walls), 0) FROM block) AS complete,
+                (SELECT CAST(value AS INTEGER) FROM study WHERE what = 'number of walls') AS of_walls);
 """
 
 
@@ -63,6 +63,8 @@ class Checkpoint:
     """
 
     def __init__(self, path: str | os.PathLike[str], study: Mapping[str, str]) -> None:
+        if not isinstance(path, (str, os.PathLike)):
+            raise InputError(f"checkpoint = {path!r}: must be the path of a file")
         self._name = f"checkpoint = {os.fspath(path)!r}"
         self._walls = int(study["number of walls"])
         self._done = 0

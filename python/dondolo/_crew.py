@@ -15,7 +15,7 @@ import socket
 import threading
 import time
 from collections.abc import Iterator
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from types import TracebackType
 from typing import Any, NamedTuple
 
@@ -103,7 +103,7 @@ def perform(head: Head, block: bytes, parcel: bytes | None) -> Answer:
         return Answer(worker, None)
     walls, histories = pickle.loads(block)
     part = shared.run(walls, histories, lambda count: None)
-    if part.walls < len(walls):
+    if part.interrupted:
         raise KeyboardInterrupt
     return Answer(worker, part)
 
@@ -171,7 +171,7 @@ class Crew:
             answer = future.result()
         except (DondoloError, KeyboardInterrupt):
             raise
-        except (Exception, CancelledError) as error:
+        except Exception as error:
             raise CrewError(error) from error
         if answer.part is not None:
             task = self._flying[future]

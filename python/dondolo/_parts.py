@@ -23,6 +23,8 @@ _SECONDS = 1.5
 _LEAST_SECONDS = 0.1
 # A guess for the first block: histories of a thread
 _FIRST_HISTORIES = 25_000
+# The most histories of a thread in a block, for the memory of walls that hardly move: a few tens of MB
+_MOST_HISTORIES = 200_000
 
 
 class Part(NamedTuple):
@@ -38,12 +40,15 @@ class Part(NamedTuple):
         What was computed.
     seconds : float
         What it took.
+    interrupted : bool
+        Did Ctrl-C stop it?
     """
 
     walls: int
     flags: bytes
     work: Work
     seconds: float
+    interrupted: bool
 
 
 class Shared:
@@ -66,10 +71,10 @@ class Shared:
         """Run walls; after Ctrl-C some of them may not be complete."""
         start = time.perf_counter()
         sizes = histories.astype(np.int64) * len(self.request.levels)
-        outcome, _ = replace(self.request, walls=walls).advance(histories, self._pace, report)
+        outcome, interrupted = replace(self.request, walls=walls).advance(histories, self._pace, report)
         complete = int(np.searchsorted(np.cumsum(sizes), outcome.done, side="right"))
         flags = pack(outcome.edp, outcome.collapsed, self.states, sizes[:complete])
-        return Part(complete, flags.tobytes(), outcome.work, time.perf_counter() - start)
+        return Part(complete, flags.tobytes(), outcome.work, time.perf_counter() - start, interrupted)
 
 
 class Blocks:
@@ -94,6 +99,7 @@ class Blocks:
         self._gaps.reverse()
         self._total = self._left = int(sizes[~done].sum())
         self._size = float(_FIRST_HISTORIES * threads)
+        self._most = float(_MOST_HISTORIES * threads)
         self._walls = walls
 
     def take(self, shares: int = 1) -> tuple[int, int] | None:
@@ -119,4 +125,4 @@ class Blocks:
         """What a block took."""
         histories = int(self._ends[first + count - 1] - (self._ends[first - 1] if first else 0))
         wished = histories * _SECONDS / max(seconds, 1e-6)
-        self._size = min(max(wished, 0.25 * self._size), 4.0 * self._size)
+        self._size = min(max(wished, 0.25 * self._size), 4.0 * self._size, self._most)

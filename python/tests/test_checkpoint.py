@@ -96,7 +96,7 @@ def test_complete(whole, tmp_path, monkeypatch):
     path = tmp_path / "study.sqlite"
     dd.typology(**study.arguments(checkpoint=path, block=7))
     with closing(sqlite3.connect(path)) as file:
-        assert file.execute("SELECT * FROM progress").fetchall() == [(60.0, 60.0, "complete")]
+        assert file.execute("SELECT * FROM progress").fetchall() == [(60, 60, "complete")]
     monkeypatch.setattr(_core, "run_block", None)
     # Weights and groups are of no matter to histories.
     people = study.arguments()["population"]
@@ -193,6 +193,8 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
     place = content.index(flags[200:240]) + 5
     path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
     refused(r"is damaged \(the block of wall 1\)")
+    with pytest.raises(dd.InputError, match="checkpoint = 3: must be the path of a file"):
+        dd.typology(**study.arguments(checkpoint=3))
     path.unlink()
     path.mkdir()
     refused("cannot be written: unable to open", dd.DondoloError)

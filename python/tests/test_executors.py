@@ -203,7 +203,7 @@ def cluster():
     """Two processes of Dask."""
     distributed = pytest.importorskip("distributed", reason="needs Dask: pip install distributed")
     with (
-        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as there,
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as there,
         distributed.Client(there) as client,
     ):
         yield client

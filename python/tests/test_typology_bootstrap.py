@@ -168,6 +168,14 @@ def test_of_a_typology():
     low, high = samples.interval(curve.theta)
     assert low < 0.5 < high
     assert repr(samples) == "<TypologyBootstrap over records and walls: 300 samples, 0.0% without a fit>"
+    # A damage state of its own
+    states = dd.typology(**study.arguments())
+    light = states.at(0.1).bootstrap(n=50, over="walls")
+    flags = states.flags.at(0)
+    assert np.array_equal(
+        light.theta, resample_population(states.population, flags, states.levels, 50, 0, "walls").theta
+    )
+    assert np.median(light.theta) < np.median(states.bootstrap(n=50, over="walls").theta)
     # One wall drawn over its records is the bootstrap of its stripes.
     wall = given["population"][2]
     alone = dd.typology([wall], given["records"], given["levels"], progress=False).bootstrap(n=100, over="records")
