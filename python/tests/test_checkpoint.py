@@ -212,8 +212,10 @@ def test_two_runs(tmp_path, monkeypatch):
         study_of = dict(file.execute("SELECT what, value FROM study"))
     with Checkpoint(path, study_of) as first:
         first.claim()
+        monkeypatch.setattr(_blocks.Shared, "run", None)
         with pytest.raises(dd.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))
+    monkeypatch.undo()
     dd.typology(**study.arguments(checkpoint=path))
 
 

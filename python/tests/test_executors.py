@@ -122,6 +122,24 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
         assert 1 <= crews[1].sends <= 3
 
 
+def test_an_executor_that_remembers(whole, tmp_path, monkeypatch):
+    """Dask gives the old result where the same is asked for again."""
+    known = {}
+
+    class Remembering(ThreadPoolExecutor):
+        def submit(self, *given):
+            assert len(known) < 500
+            if given not in known:
+                known[given] = super().submit(*given)
+            else:
+                known[given, len(known)] = None
+            return known[given]
+
+    monkeypatch.setattr(_crew, "_shared", Memories())
+    with Remembering(1) as executor:
+        assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "out") == whole
+
+
 def test_threads(whole, tmp_path, crews):
     with ThreadPoolExecutor(3) as executor:
         assert of(dd.typology(**study.arguments(executor=executor, block=2)), tmp_path / "out") == whole

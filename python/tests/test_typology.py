@@ -1,9 +1,8 @@
 """Populations of walls."""
 
+import contextlib
 import multiprocessing
-import os
 import pickle
-import signal
 import subprocess
 import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -184,20 +183,22 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
 
 
 def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
-    """Between the last history and the report of it."""
-    count = _request.Pace.learn
-    left = [len(population) - 1]
+    """Between the last history of a block and the report of it."""
+    from dondolo import _blocks
 
-    def last(*given):
-        left[0] -= 1
-        count(*given)
-        if left[0] == 0:
-            os.kill(os.getpid(), signal.SIGINT)
+    class Bar:
+        done = 0
 
+        def update(self, count):
+            self.done += count
+            if self.done >= 3 * len(few) * len(LEVELS):
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr(_blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
     monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1e9)
-    monkeypatch.setattr(_request.Pace, "learn", last)
-    with pytest.raises(dd.Interrupted):
+    with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
+    assert len(caught.value.partial.walls) == 3
 
 
 def test_memory_is_that_of_blocks(root):
