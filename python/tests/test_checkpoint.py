@@ -211,7 +211,7 @@ def test_two_runs(tmp_path, monkeypatch):
     with closing(sqlite3.connect(path)) as file:
         study_of = dict(file.execute("SELECT what, value FROM study"))
     with Checkpoint(path, study_of) as first:
-        first.claim()
+        assert len(list(first.blocks())) == 1
         monkeypatch.setattr(_blocks.Shared, "run", None)
         with pytest.raises(dd.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))

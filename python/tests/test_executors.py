@@ -99,9 +99,9 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
     monkeypatch.setattr(_crew, "_shared", Memories())
 
     class Listening(ThreadPoolExecutor):
-        def submit(self, work, head, block, parcel):
+        def submit(self, work, key, build, block, parcel):
             sizes.append(len(block))
-            return super().submit(work, head, block, parcel)
+            return super().submit(work, key, build, block, parcel)
 
     def forget(*given):
         gone.append(1)
