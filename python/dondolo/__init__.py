@@ -42,6 +42,7 @@ from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
+from dondolo.typology_bootstrap import TypologyBootstrap
 from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
 from dondolo.work import Work
 
@@ -86,6 +87,7 @@ __all__ = [
     "Triangular",
     "TwoBlockWall",
     "Typology",
+    "TypologyBootstrap",
     "Uniform",
     "Wall",
     "Window",

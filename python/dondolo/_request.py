@@ -87,6 +87,12 @@ class Request:
 
     def run(self, histories: Sequence[int], progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
+        total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
+        with progress_bar(total, progress, label, "history") as bar:
+            return self.advance(histories, Pace(float(self.records.lengths.mean())), bar.update)
+
+    def advance(self, histories: Sequence[int], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
+        """The same at a pace, and with a report of how many histories were done in each call."""
         ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
         total = int(ends[-1])
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
@@ -107,34 +113,50 @@ class Request:
             edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
             works.append(Work(*map(int, counts)))
 
-        done, interrupted = in_blocks(total, float(self.records.lengths.mean()), block, progress, label)
+        done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed, impacts, peak, error, Work.total(works), done), interrupted
 
 
+class Pace:
+    """How many histories take the time of a block, learnt from block to block.
+
+    Parameters
+    ----------
+    samples : float
+        Those of a record, on average.
+    """
+
+    def __init__(self, samples: float) -> None:
+        self._size = max(1.0, _FIRST_SAMPLES / samples)
+
+    def count(self, left: int) -> int:
+        """Histories of the next block."""
+        return min(int(self._size), left)
+
+    def learn(self, count: int, seconds: float) -> None:
+        """What a block took."""
+        self._size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
+
+
 def in_blocks(
-    total: int, samples: float, block: Callable[[int, int], None], progress: bool, label: str
+    total: int, pace: Pace, block: Callable[[int, int], None], report: Callable[[int], object]
 ) -> tuple[int, bool]:
     """Run histories block by block: how many are done, and whether Ctrl-C stopped it before the end.
 
-    `block(done, count)` runs the next `count` histories; `samples` are those of a record, on average.
+    `block(done, count)` runs the next `count` histories.
     """
-    size = max(1.0, _FIRST_SAMPLES / samples)
-    done, interrupted = 0, False
-    bar = progress_bar(total, progress, label, "history")
+    done = 0
     try:
         while done < total:
-            count = min(int(size), total - done)
+            count = pace.count(total - done)
             start = time.perf_counter()
             block(done, count)
-            seconds = time.perf_counter() - start
+            pace.learn(count, time.perf_counter() - start)
             done += count
-            bar.update(count)
-            size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
+            report(count)
     except KeyboardInterrupt:
-        interrupted = True
-    finally:
-        bar.close()
-    return done, interrupted
+        return done, True
+    return done, False
 
 
 def new_request(
@@ -172,8 +194,9 @@ def check_threads(threads: int) -> int:
     return int(threads)
 
 
-def progress_bar(total: int, wanted: bool, label: str, unit: str) -> Any:
-    """A progress bar on stderr; silent where that is no terminal."""
+def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
+    """A progress bar on stderr; silent where that is no terminal. `initial` are done already."""
     from tqdm import tqdm
 
-    return tqdm(total=total, desc=label, unit=f" {unit}", disable=None if wanted else True, leave=False)
+    hidden = None if wanted else True
+    return tqdm(total=total, desc=label, unit=f" {unit}", unit_scale=True, initial=initial, disable=hidden, leave=False)

@@ -70,6 +70,7 @@ class Case:
             ensemble["estimate_error"] = self.estimate_error
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
             return Results(self, stripes=stripes, fragility=stripes.fit())
+        ensemble["edp_thresholds"] = self.edp_thresholds
         return Results(self, typology=typology(self.population, self.records, self.levels, **ensemble))
 
 

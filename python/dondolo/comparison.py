@@ -120,7 +120,7 @@ def _by_bootstrap(
     difference = difference[~np.isnan(difference)]
     if not len(difference):
         raise DondoloError("none of the samples of the bootstrap has a fit")
-    low, high = np.exp(np.quantile(difference, fragility._tails(level)))
+    low, high = np.exp(np.quantile(difference, fragility.tails(level)))
     below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)
     above = (np.sum(difference >= 0.0) + 1.0) / (len(difference) + 1.0)
     p_value = float(min(1.0, 2.0 * min(below, above)))

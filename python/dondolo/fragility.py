@@ -260,14 +260,14 @@ class Bootstrap:
         theta, beta = self._fitted()
         with np.errstate(divide="ignore"):
             curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
-        low, high = np.quantile(curves, _tails(level), axis=0)
+        low, high = np.quantile(curves, tails(level), axis=0)
         return shaped(low, values), shaped(high, values)
 
     def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
         """Percentile intervals of theta and beta."""
-        tails = _tails(level)
+        ends = tails(level)
         return {
-            name: tuple(float(end) for end in np.quantile(values, tails))
+            name: tuple(float(end) for end in np.quantile(values, ends))
             for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
         }  # type: ignore[return-value]
 
@@ -401,10 +401,11 @@ def _levels_of(x: ArrayLike) -> FloatArray:
 def _quantile(level: float) -> float:
     from scipy.special import ndtri
 
-    return float(ndtri(_tails(level)[1]))
+    return float(ndtri(tails(level)[1]))
 
 
-def _tails(level: float) -> tuple[float, float]:
+def tails(level: float) -> tuple[float, float]:
+    """Probabilities at the ends of an interval of a confidence."""
     level = _binding.as_number("level", level)
     if not 0.0 < level < 1.0:
         raise InputError(f"level = {level}: must lie between 0 and 1")

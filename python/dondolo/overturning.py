@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core, tables
-from dondolo._request import check_threads, in_blocks
+from dondolo._request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.errors import InputError, Interrupted
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
@@ -352,7 +352,8 @@ class _Runner(NamedTuple):
             state[here], edp[here], impacts[here] = self._states(places[here], amplitudes[here])
 
         samples = float(np.mean([len(pulse) for pulse in self.pulses]))
-        done, stopped = in_blocks(total, samples, block, self.progress, label)
+        with progress_bar(total, self.progress, label, "history") as bar:
+            done, stopped = in_blocks(total, Pace(samples), block, bar.update)
         return _Outcome(state, edp, impacts, done), stopped
 
     def _states(self, places: Any, amplitudes: FloatArray) -> tuple[Any, FloatArray, Any]:

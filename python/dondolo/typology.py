@@ -6,7 +6,7 @@ import dataclasses
 import math
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor, Future, as_completed
+from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,18 +14,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._request import Request, new_request, progress_bar
+from dondolo._blocks import run_walls
+from dondolo._flags import Flags, states_of
+from dondolo._request import new_request
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
+from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
 from dondolo.walls import Population, Wall
 from dondolo.work import Work
 
 FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
-# Blocks of walls that an executor gets: enough for many workers, few enough that sending the records does not show
-_BLOCKS = 64
 # Numbers that curves of many walls are computed at together: a few tens of MB
 _NUMBERS = 2_000_000
 
@@ -109,6 +110,8 @@ class Typology:
         mechanism, and the last for all, if there are several or one that may not occur.
     work : Work
         What was computed for all walls, and what was not.
+    flags : Flags
+        The states that every history reaches, packed, which `bootstrap` needs.
     """
 
     population: Population
@@ -121,6 +124,7 @@ class Typology:
     combined: dict[str, Fragility]
     groups: tuple[Group, ...]
     work: Work
+    flags: Flags | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -201,7 +205,8 @@ class Typology:
             state, sentences = _combine(
                 self.population, self.im, self.levels, threshold, counts, self.histories, self.work
             )
-            self._states[value] = state
+            flags = None if self.flags is None else self.flags.at(int(place[0]))
+            self._states[value] = dataclasses.replace(state, flags=flags)
             _binding.warn(f"damage state {value:g}: {sentence}" for sentence in sentences)
         return self._states[value]
 
@@ -292,6 +297,39 @@ class Typology:
             return _Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
         weights = people.weights[rows] * people.p_occ[rows]
         return _Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+
+    def bootstrap(
+        self,
+        n: int = 1000,
+        seed: int | np.random.Generator | None = 0,
+        over: str | Iterable[str] = ("records", "walls"),
+        mechanism: str | None = None,
+        group: str = "",
+    ) -> TypologyBootstrap:
+        """Fit the curve again to records and walls drawn with replacement.
+
+        All walls are shaken by the same records: a record that is drawn counts for all of them, at all levels and in
+        both polarities, and a wall that is drawn brings all its mechanisms. The standard errors of the fit know nothing
+        of that and are too small.
+
+        Parameters
+        ----------
+        n : int
+            Number of samples.
+        seed : int, Generator or None
+            Of the random numbers; None: different every time.
+        over : {'records', 'walls'} or both
+            What is drawn.
+        mechanism : str, optional
+            The curve of one mechanism; all combined if left out.
+        group : str
+            The curve of one group; '' for the whole population.
+
+        Returns
+        -------
+        TypologyBootstrap
+        """
+        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group)
 
     def _tables(self) -> dict[str, Any]:
         return {
@@ -389,8 +427,11 @@ def typology(
     rtol: float | None = None,
     atol: float | None = None,
     edp_limit: float | None = None,
+    edp_thresholds: ArrayLike | None = None,
     threads: int = 0,
     executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    block: int | None = None,
     progress: bool = True,
 ) -> Typology:
     """Fragility of a population of walls.
@@ -401,10 +442,20 @@ def typology(
         The walls; without weights they count alike.
     records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
         As for `multiple_stripe`.
+    edp_thresholds : array_like, optional
+        Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
+        collapse is always the last state. All states come from the same histories. Without thresholds only collapses
+        are asked for, which takes less time.
     executor : concurrent.futures.Executor, optional
         Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
         thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of
         processes must not fork after a run of this process: OpenMP's threads do not survive it.
+    checkpoint : path, optional
+        File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
+        results are the same to the bit. It stays when all is done.
+    block : int, optional
+        Walls of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
+        do not depend on it.
 
     Returns
     -------
@@ -413,7 +464,9 @@ def typology(
     Raises
     ------
     InputError
-        What cannot be run, with the sentence of the executable.
+        What cannot be run, with the sentence of the executable; a checkpoint of another study.
+    DondoloError
+        The executor failed, or the checkpoint cannot be written.
     Interrupted
         Ctrl-C; its `partial` is the typology of the walls that are complete.
 
@@ -426,63 +479,27 @@ def typology(
     if executor is not None and threads == 0:
         threads = 1
     several = as_records(records)
+    limit = float(_binding.settings(rtol, atol, edp_limit)[2])
+    states = states_of(edp_thresholds, limit)
+    alone = len(states) == 1
     request = new_request(
-        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=True
+        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=alone
     )
     plan = request.plan()
-    if executor is None:
-        collapses, complete, work = _run_here(request, plan.histories, progress)
-    else:
-        collapses, complete, work = _run_there(request, plan.histories, progress, executor)
-    if not complete.any():
+    run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
+    # A wall is complete with all its mechanisms.
+    first = _first_rows([wall.name for wall in people.walls])
+    whole = np.logical_and.reduceat(run.complete, first)
+    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
+    if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
-    thresholds = request.settings[2:3]
-    result, sentences = combine(
-        people, request.im, request.levels, thresholds, collapses.T[None], plan.histories, complete, work
-    )
-    if not complete.all():
-        raise Interrupted(f"interrupted: {complete.sum()} of {len(complete)} walls are complete", result)
+    work = Work.total(run.works)
+    result, sentences = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
+    result = dataclasses.replace(result, flags=run.flags.chosen(np.flatnonzero(rows)))
+    if not whole.all():
+        raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     _binding.warn([*plan.warnings, *sentences])
     return result
-
-
-def _run_here(request: Request, histories: IntArray, progress: bool) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
-    """Collapses (walls, levels), which walls are complete, and what was computed."""
-    outcome, _ = request.run(histories, progress, f"{len(request.walls)} walls")
-    number = len(request.levels)
-    ends = np.cumsum(histories.astype(np.int64) * number)
-    collapses = np.zeros((len(histories), number), dtype=np.int32)
-    complete = ends <= outcome.done
-    for i in np.flatnonzero(complete):
-        block = outcome.collapsed[ends[i] - histories[i] * number : ends[i]]
-        collapses[i] = block.reshape(number, -1).sum(axis=1)
-    return collapses, complete, outcome.work
-
-
-def _run_there(
-    request: Request, histories: IntArray, progress: bool, executor: Executor
-) -> tuple[IntArray, np.ndarray[Any, Any], Work]:
-    """The same by an executor: a block of walls is a task."""
-    walls = len(request.walls)
-    collapses = np.zeros((walls, len(request.levels)), dtype=np.int32)
-    complete = np.zeros(walls, dtype=bool)
-    works: dict[Future[Any], Work] = {}
-    tasks: dict[Future[Any], Any] = {}
-    bar = progress_bar(walls, progress, f"{walls} walls", "wall")
-    try:
-        for block in np.array_split(np.arange(walls), min(walls, _BLOCKS)):
-            part = dataclasses.replace(request, walls=tuple(request.walls[i] for i in block))
-            tasks[executor.submit(_run_here, part, histories[block], False)] = block
-        for task in as_completed(tasks):
-            collapses[tasks[task]], complete[tasks[task]], works[task] = task.result()
-            bar.update(len(tasks[task]))
-    except KeyboardInterrupt:
-        for task, block in tasks.items():
-            if not task.cancel() and task.done() and task.exception() is None:
-                collapses[block], complete[block], works[task] = task.result()
-    finally:
-        bar.close()
-    return collapses, complete, Work.total(works.values())
 
 
 def combine(

@@ -1,7 +1,10 @@
 """Populations of walls."""
 
+import contextlib
 import multiprocessing
 import pickle
+import subprocess
+import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
@@ -150,3 +153,73 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     assert len(partial.walls) == sum(done) // (len(few) * len(LEVELS))
     assert 0 < len(partial.walls) < len(population)
     assert partial.fit().has_fit or partial.fit().status
+
+
+def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
+    from dondolo import _core
+
+    kinds = (dd.OneSidedWall, dd.TwoBlockWall)
+    rows = [kind(2.0 + 0.1 * i, 0.25, name=f"wall {i}") for i in range(4) for kind in kinds]
+    run_block, calls = _core.run_block, []
+
+    def stop(*arguments):
+        calls.append(1)
+        if len(calls) == 6:
+            raise KeyboardInterrupt
+        return run_block(*arguments)
+
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1e9)
+    monkeypatch.setattr(_core, "run_block", stop)
+    with pytest.raises(dd.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
+        dd.typology(rows, few, LEVELS, block=1, progress=False)
+    partial = caught.value.partial
+    assert [wall.name for wall in partial.walls] == ["wall 0", "wall 0", "wall 1", "wall 1"]
+    assert len(partial.flags.histories) == 4
+    calls.clear()
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1)
+    calls += [1] * 4
+    with pytest.raises(dd.Interrupted, match="interrupted: no wall is complete"):
+        dd.typology(rows, few, LEVELS, block=1, progress=False)
+
+
+def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
+    """Between the last history of a block and the report of it."""
+    from dondolo import _blocks
+
+    class Bar:
+        done = 0
+
+        def update(self, count):
+            self.done += count
+            if self.done >= 3 * len(few) * len(LEVELS):
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr(_blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
+    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1e9)
+    with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
+        dd.typology(population, few, LEVELS, block=1, progress=False)
+    assert len(caught.value.partial.walls) == 3
+
+
+def test_memory_is_that_of_blocks(root):
+    """The EDPs of all histories would take 130 MB."""
+    program = """
+import resource, sys, warnings
+import numpy as np
+import dondolo as dd
+warnings.simplefilter("ignore")
+records = dd.read_catalogue(sys.argv[1])
+population = dd.Population([dd.OneSidedWall(3.0, 0.25, name=f"wall {i}") for i in range(5000)])
+def largest():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+def study(walls):
+    # No wall moves, so that it takes little time.
+    return dd.typology(walls, records, np.linspace(0.001, 0.02, 20), threads=2, progress=False).work
+study(population.walls[:200])
+before = largest()
+assert study(population).histories == 4_400_000
+print(largest() - before)
+"""
+    command = [sys.executable, "-c", program, str(root / "data/records/synthetic44.csv")]
+    result = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert float(result.stdout) < 70.0

@@ -1,0 +1,233 @@
+"""Uncertainty of a typological curve: records and walls drawn with replacement."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo import _binding
+from dondolo._flags import Flags
+from dondolo.errors import InputError
+from dondolo.fragility import Bootstrap, tails
+from dondolo.walls import Population
+
+FloatArray = _binding.FloatArray
+
+# Numbers that are held at a time: samples x walls, and samples x rows of a chunk x levels
+_DRAWS = 4_000_000
+_FRACTIONS = 8_000_000
+
+_KINDS = ("records", "walls")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TypologyBootstrap(Bootstrap):
+    """Typological curves of records and walls drawn with replacement.
+
+    Attributes
+    ----------
+    theta, beta : ndarray, shape (samples,)
+        Parameters of the lognormal curve fitted to each mean fraction; NaN where a sample has no fit.
+    status : ndarray of str, shape (samples,)
+        What came of each fit; '' where it failed.
+    levels : ndarray, shape (levels,)
+        Levels of intensity.
+    mean_fraction : ndarray, shape (samples, levels)
+        Weighted mean of the walls' fractions of collapse; NaN where a sample has no wall that counts.
+    over : tuple of str
+        What was drawn: 'records', 'walls' or both.
+    """
+
+    levels: FloatArray
+    mean_fraction: FloatArray
+    over: tuple[str, ...]
+
+    @property
+    def se_ln_theta(self) -> float:
+        """Standard error of ln theta: standard deviation of the samples with a fit."""
+        return float(np.std(np.log(self._fitted()[0]), ddof=1))
+
+    @property
+    def se_beta(self) -> float:
+        """Standard error of beta: standard deviation of the samples with a fit."""
+        return float(np.std(self._fitted()[1], ddof=1))
+
+    def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
+        """Percentile interval of the mean fraction at each of the levels.
+
+        Parameters
+        ----------
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : ndarray, shape (levels,)
+        """
+        low, high = np.nanquantile(self.mean_fraction, tails(level), axis=0)
+        return low, high
+
+    def __repr__(self) -> str:
+        what = " and ".join(self.over)
+        return f"<TypologyBootstrap over {what}: {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
+
+
+class _Rows(NamedTuple):
+    """The rows of a curve.
+
+    Attributes
+    ----------
+    row : ndarray of int, shape (rows,)
+        Places in the population.
+    wall : ndarray of int, shape (rows,)
+        Which wall each belongs to, from 0.
+    walls : int
+        Walls that are drawn from; not all of them have a row in a curve of one mechanism.
+    weight : ndarray, shape (rows,)
+        Of the wall; with the probability of occurrence in a curve of one mechanism.
+    share : ndarray, shape (rows,)
+        Factor on the fraction: the probability of occurrence where mechanisms are combined, else 1.
+    """
+
+    row: NDArray[np.int64]
+    wall: NDArray[np.int64]
+    walls: int
+    weight: FloatArray
+    share: FloatArray
+
+
+def resample_population(
+    population: Population,
+    flags: Flags,
+    levels: FloatArray,
+    n: int = 1000,
+    seed: int | np.random.Generator | None = 0,
+    over: str | Iterable[str] = _KINDS,
+    mechanism: str | None = None,
+    group: str = "",
+) -> TypologyBootstrap:
+    """Fit the curve of a population again to records and walls drawn with replacement.
+
+    A record is drawn for all walls at once and brings its histories at all levels and of both polarities; a wall brings
+    all its mechanisms. For the parameters see `Typology.bootstrap`.
+    """
+    kinds = (over,) if isinstance(over, str) else tuple(over)
+    if not kinds or not set(kinds) <= set(_KINDS):
+        raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
+    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 1:
+        raise InputError(f"n = {n!r}: must be a whole number, at least 1")
+    rows = _rows_of(population, mechanism, group)
+    generator = np.random.default_rng(seed)
+    records = np.ones((n, flags.records))
+    if "records" in kinds:
+        records[:] = generator.multinomial(flags.records, np.full(flags.records, 1.0 / flags.records), size=n)
+    draws = generator if "walls" in kinds else None
+    size = max(1, _DRAWS // rows.walls)
+    parts = [
+        _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
+        for start in range(0, n, size)
+    ]
+    fraction = np.concatenate(parts)
+    counted = np.isfinite(fraction[:, 0])
+    histories = np.full_like(fraction, _histories_behind(rows, flags))
+    curves, statuses = _binding.fit_curves(levels, np.where(counted[:, None], fraction, 0.0) * histories, histories)
+    status = np.where(counted, np.array(statuses), "")
+    fitted = np.isin(status, ("ok", "extrapolated"))
+    return TypologyBootstrap(
+        np.where(fitted, curves[:, 0], np.nan),
+        np.where(fitted, curves[:, 1], np.nan),
+        status,
+        levels,
+        fraction,
+        tuple(kind for kind in _KINDS if kind in kinds),
+    )
+
+
+def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:
+    """The rows of a curve, wall by wall."""
+    groups = dict.fromkeys(["", *population.groups])
+    if group not in groups:
+        raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, groups))}")
+    names = [wall.name for wall in population.walls]
+    wall = np.cumsum([i > 0 and names[i] != names[i - 1] for i in range(len(names))])
+    chosen = np.array([group in ("", own) for own in population.groups])
+    kinds = dict.fromkeys(own.mechanism for own, here in zip(population.walls, chosen, strict=True) if here)
+    _, wall[chosen] = np.unique(wall[chosen], return_inverse=True)
+    walls = int(wall[chosen].max()) + 1
+    weight, p_occ = population.weights, population.p_occ
+    if mechanism is None or mechanism == "all":
+        row = np.flatnonzero(chosen)
+        return _Rows(row, wall[row], walls, weight[row], p_occ[row])
+    if mechanism not in kinds:
+        raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, [*kinds, 'all']))}")
+    row = np.flatnonzero(chosen & np.array([own.mechanism == mechanism for own in population.walls]))
+    return _Rows(row, wall[row], walls, weight[row] * p_occ[row], np.ones(len(row)))
+
+
+def _mean_fractions(
+    rows: _Rows,
+    flags: Flags,
+    records: FloatArray,
+    resampled: bool,
+    draws: np.random.Generator | None,
+) -> FloatArray:
+    """Mean fractions (samples, levels); `records` says how often each record is in each sample."""
+    samples = len(records)
+    times = np.ones((samples, rows.walls))
+    if draws is not None:
+        for own in times:
+            own[:] = np.bincount(draws.integers(rows.walls, size=rows.walls), minlength=rows.walls)
+    # Without drawn records all samples share the fractions.
+    if not resampled:
+        records = records[:1]
+    total, weight = np.zeros((samples, flags.levels)), np.zeros(samples)
+    for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
+        survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], records)
+        if len(starts) < survival.shape[1]:
+            survival = np.multiply.reduceat(survival, starts, axis=1)
+        own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
+        weight += own.sum(axis=1)
+        if resampled:
+            total += (own[:, None, :] @ (1.0 - survival))[:, 0, :]
+        else:
+            total += own @ (1.0 - survival[0])
+    with np.errstate(invalid="ignore"):
+        return np.clip(total / weight[:, None], 0.0, 1.0)
+
+
+def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
+    """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
+    fractions = np.empty((len(records), len(row), flags.levels))
+    for places in flags.alike(row):
+        reached = flags.of(row[places])[:, flags.state]
+        walls, levels, histories = reached.shape
+        # Both polarities of a record stay together.
+        of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
+        drawn = records @ of_record.reshape(walls * levels, -1).T
+        fractions[:, places] = drawn.reshape(len(records), walls, levels) / histories
+    return fractions
+
+
+def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]:
+    """Rows of whole walls, about so many, and where in them each wall begins."""
+    begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
+    first = 0
+    while first < len(begins):
+        last = max(first + 1, int(np.searchsorted(begins, begins[first] + size, side="right")))
+        end = int(begins[last]) if last < len(begins) else len(rows.row)
+        yield slice(int(begins[first]), end), begins[first:last] - begins[first]
+        first = last
+
+
+def _histories_behind(rows: _Rows, flags: Flags) -> float:
+    """Histories at each level that the fit takes the mean fraction for."""
+    begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
+    histories = np.minimum.reduceat(flags.histories[rows.row], begins)
+    weight = rows.weight[begins]
+    if not weight.any():
+        raise InputError("group: the weights of its walls are all zero")
+    return float(np.count_nonzero(weight) * (weight @ histories) / weight.sum())

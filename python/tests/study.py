@@ -1,0 +1,44 @@
+"""A study of many walls, small but in many blocks, for tests that stop and share out runs."""
+
+from pathlib import Path
+
+import numpy as np
+
+import dondolo as dd
+
+ROOT = Path(__file__).resolve().parents[2]
+WALLS = 60
+LEVELS = np.linspace(0.1, 1.6, 12)
+
+
+def arguments(**changes) -> dict:
+    """What `dd.typology` gets; some walls have twice as many histories as others."""
+    rng = np.random.default_rng(7)
+    kinds = (dd.OneSidedWall, dd.TwoBlockWall, dd.FreeStandingWall)
+    walls = [
+        kinds[i % 3](rng.uniform(1.5, 4.5), rng.choice([0.25, 0.38, 0.51]), name=f"wall {i:02}") for i in range(WALLS)
+    ]
+    given = {
+        "population": dd.Population(walls, rng.uniform(0.5, 2.0, WALLS)),
+        "records": dd.read_catalogue(ROOT / "data/records/synthetic44.csv")[::8],
+        "levels": LEVELS,
+        "polarity": "both",
+        "edp_thresholds": [0.1, 0.4],
+        "progress": False,
+    }
+    return given | changes
+
+
+def write(typology: dd.Typology, folder: Path) -> None:
+    """All tables and arrays."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for table in ("typology", "fragility", "stripes", "walls"):
+        typology.to_csv(folder / f"{table}.csv", table)
+    (folder / "flags").write_bytes(typology.flags.bits.tobytes())
+    (folder / "collapses").write_bytes(typology.collapses.tobytes())
+    (folder / "work").write_text(repr(typology.work))
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """The bytes of all that was written."""
+    return {file.name: file.read_bytes() for file in folder.iterdir()}

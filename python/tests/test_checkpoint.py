@@ -1,0 +1,273 @@
+"""Runs that end before their time, and go on."""
+
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from contextlib import closing
+
+import numpy as np
+import pytest
+import study
+from dondolo._checkpoint import Checkpoint
+
+import dondolo as dd
+from dondolo import _binding, _blocks, _core
+
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
+# Says of every block that it is kept, and ends with all results in a folder
+RUN = """
+import sys, warnings
+from pathlib import Path
+import dondolo as dd, study
+from dondolo import _checkpoint
+warnings.simplefilter("ignore")
+keep = _checkpoint.Checkpoint.keep
+def tell(self, first, walls, work, flags):
+    print("run", first, walls, flush=True)
+    keep(self, first, walls, work, flags)
+    print("kept", first, walls, flush=True)
+_checkpoint.Checkpoint.keep = tell
+path, folder, block = sys.argv[1:]
+typology = dd.typology(**study.arguments(checkpoint=path, block=int(block), threads=1))
+study.write(typology, Path(folder))
+"""
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The results of a run without interruption and checkpoint."""
+    folder = tmp_path_factory.mktemp("whole")
+    study.write(dd.typology(**study.arguments(threads=2)), folder)
+    return study.contents(folder)
+
+
+def kept(path):
+    """Numbers of the walls that a checkpoint holds."""
+    with closing(sqlite3.connect(path)) as file:
+        rows = file.execute("SELECT first, walls FROM block").fetchall()
+    return {wall for first, walls in rows for wall in range(first, first + walls)}
+
+
+def of(result, folder):
+    study.write(result, folder)
+    return study.contents(folder)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_killed_at_random_moments(whole, tmp_path, seed):
+    chance = random.Random(seed)
+    path, folder = tmp_path / "study.sqlite", tmp_path / "out"
+    before: set[int] = set()
+    for end in [*(chance.randrange(1, 9) for _ in range(4)), None]:
+        block = chance.randrange(1, 4)
+        command = [sys.executable, "-c", RUN, str(path), str(folder), str(block)]
+        with subprocess.Popen(command, cwd=os.path.dirname(__file__), stdout=subprocess.PIPE, text=True) as process:
+            lines = []
+            for line in process.stdout:
+                lines.append(line.split())
+                if len(lines) == end:
+                    time.sleep(chance.uniform(0.0, 0.02))
+                    process.kill()
+        told = {
+            what: {
+                wall
+                for word, first, walls in lines
+                if word == what
+                for wall in range(int(first), int(first) + int(walls))
+            }
+            for what in ("run", "kept")
+        }
+        # Nothing is run again that was kept, nothing that was said to be kept is lost.
+        assert not told["run"] & before
+        now = kept(path)
+        assert before | told["kept"] <= now <= before | told["run"]
+        assert end is None or process.returncode == -signal.SIGKILL
+        before = now
+    assert process.returncode == 0
+    assert study.contents(folder) == whole
+
+
+def test_complete(whole, tmp_path, monkeypatch):
+    path = tmp_path / "study.sqlite"
+    dd.typology(**study.arguments(checkpoint=path, block=7))
+    with closing(sqlite3.connect(path)) as file:
+        assert file.execute("SELECT * FROM progress").fetchall() == [(60, 60, "complete")]
+    monkeypatch.setattr(_core, "run_block", None)
+    # Weights and groups are of no matter to histories.
+    people = study.arguments()["population"]
+    again = dd.typology(**study.arguments(checkpoint=path))
+    assert of(again, tmp_path / "out") == whole
+    other = dd.typology(**study.arguments(checkpoint=path, population=dd.Population(people.walls)))
+    assert np.array_equal(other.collapses, again.collapses)
+    assert not np.array_equal(other.mean_fraction, again.mean_fraction)
+
+
+def test_ctrl_c(whole, tmp_path, monkeypatch):
+    path = tmp_path / "study.sqlite"
+    run_block, calls = _core.run_block, []
+
+    def stop(*given):
+        calls.append(given)
+        if len(calls) > 5:
+            raise KeyboardInterrupt
+        return run_block(*given)
+
+    monkeypatch.setattr(_core, "run_block", stop)
+    with pytest.raises(dd.Interrupted, match=r"interrupted: \d+ of 60 walls are complete") as caught:
+        dd.typology(**study.arguments(checkpoint=path, block=3))
+    monkeypatch.undo()
+    partial = caught.value.partial
+    assert len(kept(path)) <= len(partial.walls) <= len(kept(path)) + 3
+    alone = dd.typology(**study.arguments(population=partial.population))
+    assert of(partial, tmp_path / "partial") | {"work": b""} == of(alone, tmp_path / "alone") | {"work": b""}
+    assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
+
+
+CHANGES = {
+    "other walls": {"population": dd.Population([dd.OneSidedWall(3.0, 0.25)] * 1 + [dd.OneSidedWall(2.0, 0.25)])},
+    "other records": {"records": [dd.Record(np.sin(np.arange(500.0)), 0.01)]},
+    "other levels": {"levels": [0.2, 0.4]},
+    "im pga there, pgv here": {"im": "pgv"},
+    "polarity both there, reversed here": {"polarity": "reversed"},
+    "engine auto there, rk45 here": {"engine": "rk45"},
+    "rtol 1e-08 there, 1e-06 here": {"rtol": 1e-6},
+    "atol 1e-10 there, 1e-09 here": {"atol": 1e-9},
+    "edp_limit 1.0 there, 0.9 here": {"edp_limit": 0.9},
+    "edp_thresholds 0.1, 0.4 there, none here": {"edp_thresholds": None},
+}
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A checkpoint of a run that is complete."""
+    path = tmp_path_factory.mktemp("finished") / "study.sqlite"
+    dd.typology(**study.arguments(checkpoint=path))
+    return path
+
+
+@pytest.mark.parametrize("sentence", CHANGES)
+def test_another_study(finished, sentence):
+    with pytest.raises(dd.InputError) as caught:
+        dd.typology(**study.arguments(checkpoint=finished, **CHANGES[sentence]))
+    assert str(caught.value).startswith(f"checkpoint = '{finished}': belongs to another study: ")
+    assert sentence in str(caught.value).replace("number of walls", "")
+    if sentence not in ("other walls", "edp_limit 1.0 there, 0.9 here"):
+        assert str(caught.value).endswith(f"study: {sentence}")
+
+
+def test_another_build(finished, monkeypatch):
+    monkeypatch.setattr(_binding, "build_variant", lambda: "z80")
+    with pytest.raises(dd.InputError, match=r"another study: build variant .* there, z80 here"):
+        dd.typology(**study.arguments(checkpoint=finished))
+    constants = _binding.constants()._replace(version="9.9")
+    monkeypatch.undo()
+    monkeypatch.setattr(_binding, "constants", lambda: constants)
+    with pytest.raises(dd.InputError, match=r"another study: dondolo \S+ there, 9.9 here"):
+        dd.typology(**study.arguments(checkpoint=finished))
+
+
+def test_files_that_are_no_checkpoints(finished, tmp_path):
+    path = tmp_path / "study.sqlite"
+
+    def refused(sentence, kind=dd.InputError):
+        with pytest.raises(kind, match=sentence) as caught:
+            dd.typology(**study.arguments(checkpoint=path))
+        assert "\n" not in str(caught.value)
+
+    path.write_text("height,thickness\n" * 1000)
+    refused("is no checkpoint, or damaged")
+    path.unlink()
+    with closing(sqlite3.connect(path)) as file:
+        file.execute("CREATE TABLE mine (x)")
+    refused("is a database, but no checkpoint of dondolo")
+    content = finished.read_bytes()
+    path.write_bytes(content[: len(content) // 2])
+    refused("is no checkpoint, or damaged")
+    with closing(sqlite3.connect(finished)) as file:
+        ((flags,),) = file.execute("SELECT flags FROM block ORDER BY first LIMIT 1")
+    place = content.index(flags[200:240]) + 5
+    path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
+    refused(r"is damaged \(the block of wall 1\)")
+    with pytest.raises(dd.InputError, match="checkpoint = 3: must be the path of a file"):
+        dd.typology(**study.arguments(checkpoint=3))
+    path.unlink()
+    path.mkdir()
+    refused("cannot be written: unable to open", dd.DondoloError)
+    path = path / "missing" / "study.sqlite"
+    refused("cannot be written: unable to open", dd.DondoloError)
+
+
+def test_two_runs(tmp_path, monkeypatch):
+    path = tmp_path / "study.sqlite"
+    monkeypatch.setattr(_blocks.Run, "add", interrupt)
+    with pytest.raises(dd.Interrupted):
+        dd.typology(**study.arguments(checkpoint=path, block=5))
+    monkeypatch.undo()
+    with closing(sqlite3.connect(path)) as file:
+        study_of = dict(file.execute("SELECT what, value FROM study"))
+    with Checkpoint(path, study_of) as first:
+        assert len(list(first.blocks())) == 1
+        monkeypatch.setattr(_blocks.Shared, "run", None)
+        with pytest.raises(dd.DondoloError, match="is being written by another run"):
+            dd.typology(**study.arguments(checkpoint=path))
+    monkeypatch.undo()
+    dd.typology(**study.arguments(checkpoint=path))
+
+
+def interrupt(*given):
+    """Ctrl-C, after the first block was kept."""
+    raise KeyboardInterrupt
+
+
+def test_full_disk(whole, tmp_path, monkeypatch):
+    path = tmp_path / "study.sqlite"
+    connect = sqlite3.connect
+
+    def small(*given, **settings):
+        file = connect(*given, **settings)
+        file.execute("PRAGMA page_size = 512")
+        file.execute("PRAGMA max_page_count = 10")
+        return file
+
+    monkeypatch.setattr(sqlite3, "connect", small)
+    with pytest.raises(dd.DondoloError, match=r"cannot be written: .*full; it holds \d+ of 60 walls"):
+        dd.typology(**study.arguments(checkpoint=path, block=5))
+    monkeypatch.undo()
+    assert 0 < len(kept(path)) < 60
+    assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
+
+
+def test_blocks_change_nothing(whole, tmp_path):
+    for block in (1, 59, 1000):
+        assert of(dd.typology(**study.arguments(block=block)), tmp_path / str(block)) == whole
+    for wrong in (0, 1.5, True):
+        with pytest.raises(dd.InputError, match=r"block = .*: must be a whole number, at least 1"):
+            dd.typology(**study.arguments(block=wrong))
+
+
+def test_states(whole):
+    """Flags and counts are those of the EDPs of each wall."""
+    given = study.arguments()
+    result = dd.typology(**given)
+    for i in (0, 1, 2, 59):
+        stripes = dd.multiple_stripe(
+            given["population"][i], given["records"], given["levels"], polarity="both", progress=False
+        )
+        flags = result.flags.of([i])[0]
+        for state, threshold in enumerate([0.1, 0.4, 1.0]):
+            assert np.array_equal(flags[state], stripes.edp >= threshold)
+    # Who asks for collapses alone gets the same collapses.
+    alone = dd.typology(**study.arguments(edp_thresholds=None))
+    assert alone.flags.states == 1
+    assert np.array_equal(alone.collapses, result.collapses)
+    # Collapse is the last state, given or not.
+    same = dd.typology(**study.arguments(edp_thresholds=[0.1, 0.4, 1.0]))
+    assert np.array_equal(same.flags.bits, result.flags.bits)
+    for wrong, allowed in (([0.0], "positive"), ([0.4, 0.4], "increase"), ([0.4, 1.1], "at most edp_limit = 1")):
+        with pytest.raises(dd.InputError, match=f"edp_thresholds = .*: must be {allowed}|must {allowed}"):
+            dd.typology(**study.arguments(edp_thresholds=wrong))

@@ -1,0 +1,206 @@
+"""The bootstrap of a population over records and walls, against brute force and against simulated populations."""
+
+import time
+
+import numpy as np
+import pytest
+import study
+from dondolo._flags import Flags
+from dondolo.typology_bootstrap import resample_population
+
+import dondolo as dd
+
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
+LEVELS = np.geomspace(0.15, 3.0, 12)
+MECHANISMS = {"one_sided": dd.OneSidedWall, "two_block": dd.TwoBlockWall}
+
+
+def flags_of(reached):
+    """Flags of rows from booleans (states, levels, histories) of each; a stripe has 44 records, or twice as many."""
+    histories = np.array([row.shape[-1] for row in reached], dtype=np.int32)
+    records = int(histories.min())
+    flags = Flags.empty(histories, reached[0].shape[1], len(reached[0]), records)
+    for i, row in enumerate(reached):
+        flags.bits[flags.place(i, 1)] = np.packbits(row)
+    return flags
+
+
+@pytest.fixture(scope="module")
+def mixed():
+    """Walls with one mechanism or two, weights, groups, one polarity or both; and the flags as they are."""
+    rng = np.random.default_rng(3)
+    records, walls, weights, groups, p_occ, reached = 9, [], [], [], [], []
+    for i in range(12):
+        weight, group = rng.uniform(0.0, 2.0), ("north", "south")[i % 2]
+        for mechanism in list(MECHANISMS)[: 1 + i % 3 % 2]:
+            walls.append(MECHANISMS[mechanism](3.0, 0.25, name=f"wall {i}"))
+            weights.append(weight if i != 4 else 0.0)
+            groups.append(group)
+            p_occ.append(rng.uniform(0.2, 1.0))
+            count = records * (1 + i % 4 % 2)
+            capacity = np.exp(rng.normal(rng.normal(0.0, 0.3), 0.5, count))
+            reached.append(LEVELS[None, :, None] >= np.array([0.5, 1.0])[:, None, None] * capacity)
+    return dd.Population(walls, weights, groups, p_occ), flags_of(reached), reached
+
+
+def test_flags(mixed):
+    _, flags, reached = mixed
+    for i, row in enumerate(reached):
+        assert np.array_equal(flags.of([i])[0], row)
+    counts = flags.counts(3, 7)
+    assert np.array_equal(counts, np.stack([row.sum(axis=-1) for row in reached[3:10]], axis=-1))
+    some = np.array([1, 4, 5, 11])
+    assert np.array_equal(flags.chosen(some).counts(0, 4), np.stack([reached[i].sum(axis=-1) for i in some], axis=-1))
+
+
+@pytest.mark.parametrize("mechanism", [None, "all", "one_sided", "two_block"])
+@pytest.mark.parametrize("group", ["", "south"])
+@pytest.mark.parametrize("over", ["records", "walls", ("records", "walls"), ("walls", "records")])
+def test_brute_force(mixed, mechanism, group, over):
+    """History by history, wall by wall and sample by sample."""
+    population, flags, reached = mixed
+    state, samples = 0, 20
+    result = resample_population(population, flags.at(state), LEVELS, samples, 5, over, mechanism, group)
+    names = list(dict.fromkeys(w.name for w, g in zip(population, population.groups, strict=True) if group in ("", g)))
+    rng = np.random.default_rng(5)
+    records = np.ones((samples, 9), dtype=int)
+    if "records" in over:
+        records = rng.multinomial(9, np.full(9, 1 / 9), size=samples)
+    for sample in range(samples):
+        drawn = names if "walls" not in over else [names[i] for i in rng.integers(len(names), size=len(names))]
+        above, below = np.zeros(len(LEVELS)), 0.0
+        for name in drawn:
+            rows = [i for i, wall in enumerate(population) if wall.name == name]
+            survival = np.ones(len(LEVELS))
+            for i in rows:
+                number = reached[i].shape[-1]
+                times = np.array([records[sample][k % 9] for k in range(number)])
+                fraction = (reached[i][state] * times).sum(axis=-1) / number
+                if mechanism in (None, "all"):
+                    survival *= 1.0 - population.p_occ[i] * fraction
+                elif population[i].mechanism == mechanism:
+                    weight = population.weights[i] * population.p_occ[i]
+                    above, below = above + weight * fraction, below + weight
+            if mechanism in (None, "all"):
+                above = above + population.weights[rows[0]] * (1.0 - survival)
+                below += population.weights[rows[0]]
+        if below == 0.0:
+            # None of the walls that were drawn has the mechanism.
+            assert np.isnan(result.mean_fraction[sample]).all()
+            assert (result.status[sample], np.isnan(result.theta[sample])) == ("", True)
+            continue
+        assert result.mean_fraction[sample] == pytest.approx(above / below, rel=1e-12)
+        curve = dd.fit_fragility(LEVELS, above / below, 1.0)
+        if curve.has_fit and result.status[sample]:
+            assert (result.theta[sample], result.beta[sample]) == pytest.approx((curve.theta, curve.beta), rel=1e-6)
+    assert result.over == tuple(kind for kind in ("records", "walls") if kind in over)
+
+
+def test_chunks_change_nothing(mixed, monkeypatch):
+    from dondolo import typology_bootstrap
+
+    population, flags, _ = mixed
+    whole = resample_population(population, flags, LEVELS, n=50)
+    monkeypatch.setattr(typology_bootstrap, "_DRAWS", 30)
+    monkeypatch.setattr(typology_bootstrap, "_FRACTIONS", 100)
+    parts = resample_population(population, flags, LEVELS, n=50)
+    assert parts.mean_fraction == pytest.approx(whole.mean_fraction, rel=1e-12)
+
+
+def simulated(rng, walls, records, spread=0.3, shared=0.4, own=0.3):
+    """Walls that are all shaken by the same records: ln capacity = of the wall + of the record + of the history."""
+    of_wall, of_record = rng.normal(0.0, spread, walls), rng.normal(0.0, shared, records)
+    capacity = of_wall[:, None] + of_record + rng.normal(0.0, own, (walls, records))
+    return flags_of(list(np.log(LEVELS)[:, None] >= capacity[:, None, None, :]))
+
+
+def people(walls):
+    wall = dd.OneSidedWall(3.0, 0.25)
+    # The same wall under many names
+    return dd.Population([type(wall)(3.0, 0.25, name=f"wall {i}") for i in range(walls)])
+
+
+def test_standard_errors_and_coverage():
+    """Against many populations and record sets: the bootstrap knows their spread, the fit's own error does not."""
+    rng = np.random.default_rng(11)
+    population, studies = people(25), 80
+    thetas, own, both, records, walls, inside = [], [], [], [], [], []
+    for study_number in range(studies):
+        flags = simulated(rng, 25, 20)
+        curve = dd.fit_fragility(LEVELS, flags.counts(0, 25)[0].sum(axis=1), 500)
+        thetas.append(np.log(curve.theta))
+        own.append(curve.se_ln_theta)
+        samples = resample_population(population, flags, LEVELS, n=100)
+        both.append(samples.se_ln_theta)
+        low, high = samples.parameter_interval(0.9)["theta"]
+        # What infinitely many walls and records would give
+        inside.append(low <= 1.0 <= high)
+        if study_number < 20:
+            records.append(resample_population(population, flags, LEVELS, n=100, over="records").se_ln_theta)
+            walls.append(resample_population(population, flags, LEVELS, n=100, over="walls").se_ln_theta)
+    spread = np.std(thetas, ddof=1)
+    assert np.mean(both) == pytest.approx(spread, rel=0.15)
+    assert np.mean(records) == pytest.approx(np.sqrt(0.4**2 / 20 + 0.3**2 / 500), rel=0.15)
+    assert np.mean(walls) == pytest.approx(np.sqrt(0.3**2 / 25 + 0.3**2 / 500), rel=0.15)
+    # 500 histories that are not independent
+    assert np.mean(own) < 0.4 * spread
+    assert 0.82 < np.mean(inside) < 0.97
+
+
+def test_of_a_typology():
+    """Of real walls and records, which shake all walls alike."""
+    given = study.arguments(edp_thresholds=None)
+    typology = dd.typology(**given)
+    samples = typology.bootstrap(n=300)
+    assert samples.over == ("records", "walls")
+    again = typology.bootstrap(n=300)
+    assert np.array_equal(samples.theta, again.theta, equal_nan=True)
+    assert np.std(np.log(typology.bootstrap(n=300, seed=1).theta)) == pytest.approx(samples.se_ln_theta, rel=0.2)
+    curve = typology.fit()
+    assert samples.se_ln_theta > 2.0 * curve.se_ln_theta
+    records, walls = typology.bootstrap(n=300, over="records"), typology.bootstrap(n=300, over="walls")
+    assert samples.se_ln_theta > max(records.se_ln_theta, walls.se_ln_theta)
+    low, high = samples.mean_interval()
+    assert np.all((low <= typology.mean_fraction) & (typology.mean_fraction <= high))
+    low, high = samples.parameter_interval()["theta"]
+    assert low < curve.theta < high
+    low, high = samples.interval(curve.theta)
+    assert low < 0.5 < high
+    assert repr(samples) == "<TypologyBootstrap over records and walls: 300 samples, 0.0% without a fit>"
+    # A damage state of its own
+    states = dd.typology(**study.arguments())
+    light = states.at(0.1).bootstrap(n=50, over="walls")
+    flags = states.flags.at(0)
+    assert np.array_equal(
+        light.theta, resample_population(states.population, flags, states.levels, 50, 0, "walls").theta
+    )
+    assert np.median(light.theta) < np.median(states.bootstrap(n=50, over="walls").theta)
+    # One wall drawn over its records is the bootstrap of its stripes.
+    wall = given["population"][2]
+    alone = dd.typology([wall], given["records"], given["levels"], progress=False).bootstrap(n=100, over="records")
+    stripes = dd.multiple_stripe(wall, given["records"], given["levels"], progress=False)
+    if stripes.fit().has_fit:
+        theta = stripes.fit().bootstrap(n=100).theta
+        assert alone.theta == pytest.approx(theta, rel=1e-9, nan_ok=True)
+
+
+def test_errors(mixed):
+    population, flags, _ = mixed
+    for wrong, sentence in (
+        ({"over": "stones"}, "over = 'stones': must name 'records', 'walls' or both"),
+        ({"over": ()}, r"over = \(\): must name"),
+        ({"n": 0}, "n = 0: must be a whole number, at least 1"),
+        ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
+        ({"mechanism": "arch"}, "mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            resample_population(population, flags, LEVELS, **wrong)
+
+
+def test_a_thousand_walls_take_little_time():
+    flags = simulated(np.random.default_rng(0), 1000, 44)
+    population = people(1000)
+    start = time.perf_counter()
+    resample_population(population, flags, LEVELS, n=1000)
+    assert time.perf_counter() - start < 20.0
