@@ -42,6 +42,24 @@ class CrewError(Exception):
         super().__init__(f"{type(error).__name__}: {text}" if text else type(error).__name__)
 
 
+class Head(NamedTuple):
+    """What a task begins with.
+
+    Attributes
+    ----------
+    number : int
+        No two tasks are the same, since some executors remember results by what was asked for.
+    key : str
+        Digest of what its study shares.
+    build : str
+        Version and build variant that results must come from.
+    """
+
+    number: int
+    key: str
+    build: str
+
+
 class Answer(NamedTuple):
     """What comes back of a task.
 
@@ -67,24 +85,20 @@ class Task(NamedTuple):
     sent: float = 0.0
 
 
-def perform(key: str, build: str, block: bytes, parcel: bytes | None) -> Answer:
-    """Run a block in a worker.
-
-    The parcel is what the study shares, the key its digest; the build is the version and build variant that results
-    must come from.
-    """
+def perform(head: Head, block: bytes, parcel: bytes | None) -> Answer:
+    """Run a block in a worker; the parcel is what the study shares."""
     worker = f"{socket.gethostname()}:{os.getpid()}"
-    if build != _build():
+    if head.build != _build():
         raise InputError(
-            f"worker {worker}: has {_build()} and not {build}; the environment variable DONDOLO_VARIANT sets the"
+            f"worker {worker}: has {_build()} and not {head.build}; the environment variable DONDOLO_VARIANT sets the"
             " same build variant everywhere"
         )
     with _lock:
-        if parcel is not None and key not in _shared:
+        if parcel is not None and head.key not in _shared:
             while len(_shared) >= _KEPT:
                 del _shared[next(iter(_shared))]
-            _shared[key] = pickle.loads(parcel)
-        shared = _shared.get(key)
+            _shared[head.key] = pickle.loads(parcel)
+        shared = _shared.get(head.key)
     if shared is None:
         return Answer(worker, None)
     walls, histories = pickle.loads(block)
@@ -170,8 +184,9 @@ class Crew:
 
     def _send(self, task: Task, carries: bool) -> int:
         task = task._replace(number=next(self._numbers), sent=time.monotonic())
+        head = Head(task.number, self._key, _build())
         try:
-            future = self._executor.submit(perform, self._key, _build(), task.block, self._parcel if carries else None)
+            future = self._executor.submit(perform, head, task.block, self._parcel if carries else None)
         except Exception as error:
             raise CrewError(error) from error
         self.sends += carries
