@@ -31,6 +31,7 @@ from dondolo.plots import (
 )
 from dondolo.plots_population import plot_population
 from dondolo.plots_typology import plot_combination, plot_damage_states, plot_groups, plot_typology
+from dondolo.population import Population, read_population
 from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
@@ -40,10 +41,11 @@ from dondolo.risk import Risk, mean_annual_frequency
 from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
 from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
 from dondolo.stripes import Stripes, multiple_stripe
+from dondolo.study import typology
 from dondolo.synthetic import synthetic_records
-from dondolo.typology import Group, Typology, typology
+from dondolo.typology import Group, Typology
 from dondolo.typology_bootstrap import TypologyBootstrap
-from dondolo.walls import FreeStandingWall, OneSidedWall, Population, Terms, TwoBlockWall, Wall, read_population
+from dondolo.walls import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
 from dondolo.work import Work
 
 __version__ = _constants().version

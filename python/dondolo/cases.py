@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from dondolo import _binding, _core
 from dondolo.fragility import Fragility
 from dondolo.motion import Response, simulate
+from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes, multiple_stripe
-from dondolo.typology import Typology, typology
-from dondolo.walls import Population, wall_from
+from dondolo.study import typology
+from dondolo.typology import Typology
+from dondolo.walls import wall_from
 
 
 @dataclass(frozen=True, eq=False)

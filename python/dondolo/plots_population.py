@@ -13,7 +13,7 @@ from dondolo.errors import InputError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from dondolo.walls import Population
+    from dondolo.population import Population
 
 _COLOURS = (style.RED, style.BLUE, style.BLACK, style.GREY)
 _MARKERS = "osDv^<>P"

@@ -14,10 +14,11 @@ import numpy as np
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
 from dondolo.motion import Response, sides
+from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes
 from dondolo.typology import Typology, combine
-from dondolo.walls import MECHANISMS, Population, Wall
+from dondolo.walls import MECHANISMS, Wall
 from dondolo.work import Work
 
 # Columns of _walls.csv and the arguments of a wall

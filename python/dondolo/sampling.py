@@ -18,7 +18,8 @@ import numpy as np
 
 from dondolo import _binding
 from dondolo.errors import InputError
-from dondolo.walls import MECHANISMS, Population, Wall, wall_from
+from dondolo.population import Population
+from dondolo.walls import MECHANISMS, Wall, wall_from
 
 FloatArray = _binding.FloatArray
 

@@ -16,9 +16,10 @@ from dondolo.errors import DondoloError, InputError
 if TYPE_CHECKING:
     from dondolo.fragility import Fragility
     from dondolo.motion import Response
+    from dondolo.population import Population
     from dondolo.stripes import Stripes
     from dondolo.typology import Typology
-    from dondolo.walls import Population, Wall
+    from dondolo.walls import Wall
 
 Table = dict[str, Sequence[Any]]
 

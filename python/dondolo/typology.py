@@ -6,7 +6,6 @@ import dataclasses
 import math
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,21 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._blocks import run_walls
-from dondolo._flags import Flags, states_of
-from dondolo._request import new_request
+from dondolo._flags import Flags
+from dondolo._members import Members, first_rows
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
-from dondolo.records import Record, as_records
+from dondolo.population import Population
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
-from dondolo.walls import Population, Wall
+from dondolo.walls import Wall
 from dondolo.work import Work
 
 FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
-
-# Numbers that curves of many walls are computed at together: a few tens of MB
-_NUMBERS = 2_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,7 +275,7 @@ class Typology:
             done += probabilities.shape[1]
         return found.reshape(shares.shape + values.shape)
 
-    def _members(self, mechanism: str | None, group: str) -> _Members:
+    def _members(self, mechanism: str | None, group: str) -> Members:
         """The walls behind a curve."""
         curve = self.group(mechanism, group)
         people = self.population
@@ -293,10 +288,10 @@ class Typology:
         counts = self.collapses[:, rows] / self.histories[rows]
         curves = [self.curves[i] for i in rows]
         if curve.mechanism == "all":
-            first = _first_rows([people.walls[i].name for i in rows])
-            return _Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
+            first = first_rows([people.walls[i].name for i in rows])
+            return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
         weights = people.weights[rows] * people.p_occ[rows]
-        return _Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+        return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
 
     def bootstrap(
         self,
@@ -377,131 +372,6 @@ class Typology:
         return tables.html_of("Typology", self._facts())
 
 
-class _Members:
-    """Walls and their probabilities at any level; the rows of a wall are in series."""
-
-    def __init__(
-        self,
-        levels: FloatArray,
-        curves: list[Fragility],
-        fractions: FloatArray,
-        weights: FloatArray,
-        p_occ: FloatArray,
-        first: np.ndarray[Any, Any],
-    ) -> None:
-        self.levels, self.fractions = levels, fractions
-        self.weights, self.p_occ = weights, p_occ
-        self.theta = np.array([curve.theta for curve in curves])
-        self.beta = np.array([curve.beta for curve in curves])
-        self.without = np.flatnonzero(np.isnan(self.theta))
-        # Of each wall its first row, its second row, ...
-        number = np.diff(np.append(first, len(curves)))
-        self.rows = [(np.flatnonzero(number > k), first[number > k] + k) for k in range(max(number, default=0))]
-
-    def parts(self, x: FloatArray) -> list[FloatArray]:
-        """Levels in parts that all walls together take little memory for."""
-        return np.array_split(x, max(1, math.ceil(len(x) * len(self.p_occ) / _NUMBERS)))
-
-    def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Probabilities (walls, x) and weights (walls,)."""
-        from scipy.special import ndtr
-
-        with np.errstate(divide="ignore"):
-            rows = ndtr((np.log(x) - np.log(self.theta)[:, None]) / self.beta[:, None])
-        for i in self.without:
-            rows[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, i]))
-        rows *= self.p_occ[:, None]
-        whole = np.zeros((len(self.weights), len(x)))
-        for walls, row in self.rows:
-            whole[walls] += (1.0 - whole[walls]) * rows[row]
-        return whole, self.weights
-
-
-def typology(
-    population: Population | Iterable[Wall],
-    records: Record | Iterable[Record],
-    levels: ArrayLike,
-    im: str = "pga",
-    polarity: str = "as_recorded",
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float | None = None,
-    edp_thresholds: ArrayLike | None = None,
-    threads: int = 0,
-    executor: Executor | None = None,
-    checkpoint: str | os.PathLike[str] | None = None,
-    block: int | None = None,
-    progress: bool = True,
-) -> Typology:
-    """Fragility of a population of walls.
-
-    Parameters
-    ----------
-    population : Population or iterable of Wall
-        The walls; without weights they count alike.
-    records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
-        As for `multiple_stripe`.
-    edp_thresholds : array_like, optional
-        Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
-        collapse is always the last state. All states come from the same histories. Without thresholds only collapses
-        are asked for, which takes less time.
-    executor : concurrent.futures.Executor, optional
-        Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
-        thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of
-        processes must not fork after a run of this process: OpenMP's threads do not survive it.
-    checkpoint : path, optional
-        File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
-        results are the same to the bit. It stays when all is done.
-    block : int, optional
-        Walls of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
-        do not depend on it.
-
-    Returns
-    -------
-    Typology
-
-    Raises
-    ------
-    InputError
-        What cannot be run, with the sentence of the executable; a checkpoint of another study.
-    DondoloError
-        The executor failed, or the checkpoint cannot be written.
-    Interrupted
-        Ctrl-C; its `partial` is the typology of the walls that are complete.
-
-    Warns
-    -----
-    DondoloWarning
-        Scale factors above 10, records without motion, walls without a fit, a fit that extrapolates.
-    """
-    people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
-    if executor is not None and threads == 0:
-        threads = 1
-    several = as_records(records)
-    limit = float(_binding.settings(rtol, atol, edp_limit)[2])
-    states = states_of(edp_thresholds, limit)
-    alone = len(states) == 1
-    request = new_request(
-        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=alone
-    )
-    plan = request.plan()
-    run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
-    # A wall is complete with all its mechanisms.
-    first = _first_rows([wall.name for wall in people.walls])
-    whole = np.logical_and.reduceat(run.complete, first)
-    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
-    if not whole.any():
-        raise Interrupted("interrupted: no wall is complete")
-    work = Work.total(run.works)
-    result, sentences = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
-    result = dataclasses.replace(result, flags=run.flags.chosen(np.flatnonzero(rows)))
-    if not whole.all():
-        raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
-    _binding.warn([*plan.warnings, *sentences])
-    return result
-
-
 def combine(
     people: Population,
     im: str,
@@ -516,7 +386,7 @@ def combine(
 
     Exceedances are (thresholds, levels, rows); thresholds increase, and the last is that of collapse.
     """
-    first = _first_rows([wall.name for wall in people.walls])
+    first = first_rows([wall.name for wall in people.walls])
     rows = np.diff(np.append(first, len(people.walls)))
     chosen = np.flatnonzero(np.repeat(np.logical_and.reduceat(complete, first), rows))
     if len(chosen) == 0:
@@ -546,7 +416,7 @@ def _combine(
     """The curves of the last state."""
     walls = people.walls
     origin = {"im": im, "edp": float(edp_thresholds[-1])}
-    first = _first_rows([wall.name for wall in walls])
+    first = first_rows([wall.name for wall in walls])
     rows = np.diff(np.append(first, len(walls))).astype(np.int32)
     words = (
         _binding.as_text("name", word)
@@ -580,8 +450,3 @@ def _combine(
         array.flags.writeable = False
     result = Typology(people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work)
     return result, data.warnings
-
-
-def _first_rows(names: list[str]) -> np.ndarray[Any, Any]:
-    """Where each wall begins among rows, of which those of a wall stand one after the other."""
-    return np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)

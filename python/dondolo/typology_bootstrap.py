@@ -13,7 +13,7 @@ from dondolo import _binding
 from dondolo._flags import Flags
 from dondolo.errors import InputError
 from dondolo.fragility import Bootstrap, tails
-from dondolo.walls import Population
+from dondolo.population import Population
 
 FloatArray = _binding.FloatArray
 
