@@ -203,15 +203,16 @@ contains
       type(counts_type), allocatable :: rows(:)
       type(work_type) :: work
       integer(int64) :: bytes
+      integer :: last
 
       found = .false.
       if (self%at == size(self%rows)) then
-         if (size(self%rows) > 0) then
-            if (self%rows(self%at)%row == self%done) return
-         else if (self%done < self%first) then
-            return
-         end if
+         last = self%first - 1
+         if (self%at > 0) last = self%rows(self%at)%row
+         if (last == self%done) return
          call read_block(self, rows, work, bytes, found)
+         ! Two runs that wrote one file at a time would be seen here.
+         if (found) found = rows(1)%row == last + 1
          if (.not. found) then
             call raise_failure(error, self%path//': has changed while it was read')
             return
