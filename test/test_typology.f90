@@ -1,6 +1,6 @@
 !> Curves of populations: every formula by hand on small populations, fractiles against sorting
 program test_typology
-   use, intrinsic :: iso_fortran_env, only : int64
+   use, intrinsic :: iso_fortran_env, only : int64, real64
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_error, only : error_type
    use dondolo_fractiles, only : bits_within, fractiles_type, new_fractiles
@@ -14,6 +14,8 @@ program test_typology
 
    !> Levels of all populations here
    real(wp), parameter :: x(3) = [0.1_wp, 0.2_wp, 0.4_wp]
+   !> Fractiles have the digits of real64
+   real(wp), parameter :: tolerance = 0.5_wp*real(epsilon(1.0_real64), wp)
    !> Collapses of four walls of 44 histories; the second has no curve
    integer, parameter :: z(3, 4) = reshape([4, 20, 40, 0, 0, 10, 1, 9, 30, 10, 30, 43], [3, 4])
 
@@ -116,7 +118,7 @@ contains
          call check_close(curve%beta_records, wall%curve(1)%beta, 1.0e-14_wp, 'dispersion between records')
          call check_close(curve%fitted, 1.0_wp, 0.0_wp, 'share with a curve')
          do k = 1, 3
-            call check_close(curve%fractile(k, 2), wall%curve(1)%probability(x(2)), epsilon(1.0d0)*0.5_wp, 'fractile')
+            call check_close(curve%fractile(k, 2), wall%curve(1)%probability(x(2)), tolerance, 'fractile')
          end do
       end associate
       call check_close(wall%combined%theta, wall%curve(1)%theta, 0.0_wp, 'the wall is its mechanism')
@@ -154,7 +156,7 @@ contains
 
    !> Mechanisms in series, each with its chance to occur
    subroutine test_mixed_wall()
-      type(wall_curves_type) :: mixed, plain
+      type(wall_curves_type) :: mixed, plain, low, high
       type(typology_type), allocatable :: curves(:)
       type(fragility_type) :: fit
       type(error_type), allocatable :: error
@@ -180,13 +182,24 @@ contains
          & 'fraction of the first mechanism')
       call check_close(curves(2)%mean_curve(2), mixed%curve(2)%probability(x(2)), 1.0e-15_wp, &
          & 'curve of the second mechanism')
-      call check_close(curves(3)%mean_fraction(2), (2.0_wp*f(2) + 30.0_wp/44.0_wp)/3.0_wp, 1.0e-15_wp, 'fraction of all')
+      call check_close(curves(3)%mean_fraction(2), (2.0_wp*f(2) + 30.0_wp/44.0_wp)/3.0_wp, 1.0e-15_wp, &
+         & 'fraction of all')
       call check_close(curves(3)%mean_curve(2), (2.0_wp*p(2) + plain%curve(1)%probability(x(2)))/3.0_wp, 1.0e-14_wp, &
          & 'curve of all')
       call check_close(curves(2)%histories, 88.0_wp, 1.0e-15_wp, 'histories of the second mechanism')
       call check_close(curves(3)%histories, 88.0_wp, 1.0e-15_wp, 'histories of all')
       call check_close(curves(3)%beta_records, sqrt((2.0_wp*fit%beta**2 + plain%curve(1)%beta**2)/3.0_wp), 1.0e-12_wp, &
          & 'dispersion between records is that of the walls as a whole')
+
+      ! Of one mechanism the wall counts as often as it can occur: 0.9 of 1 with the lower curve, then 0.1.
+      low = wall_of([3], ['one_sided'], 1.0_wp, [0.9_wp])
+      high = wall_of([1], ['one_sided'], 1.0_wp, [0.1_wp])
+      curves = combined([low, high])
+      call check_close(curves(1)%fractile(3, 2), low%curve(1)%probability(x(2)), tolerance, 'low where it can occur')
+      low%p_occ = 0.1_wp
+      high%p_occ = 0.9_wp
+      curves = combined([low, high])
+      call check_close(curves(1)%fractile(1, 2), high%curve(1)%probability(x(2)), tolerance, 'high where it can occur')
 
       ! A lone mechanism that may not occur
       curves = combined([wall_of([1], ['one_sided'], 1.0_wp, [0.25_wp])])
@@ -195,7 +208,8 @@ contains
       call check_close(curves(2)%mean_fraction(3), 10.0_wp/44.0_wp, 1.0e-15_wp, 'all in all')
       curves = combined([wall_of([1], ['one_sided'], 1.0_wp, [0.0_wp])])
       call check_text(names_of(curves), ':all ', 'a mechanism that never occurs')
-      call check(curves(1)%fit%status == 'no_collapse' .and. .not. curves(1)%fitted > 0.0_wp, 'and never makes collapse')
+      call check(curves(1)%fit%status == 'no_collapse' .and. .not. curves(1)%fitted > 0.0_wp, &
+         & 'and never makes collapse')
 
       ! Three mechanisms
       mixed = wall_of([1, 3, 4], ['one_sided    ', 'two_block    ', 'free_standing'], 1.0_wp, [0.5_wp, 1.0_wp, 0.25_wp])
@@ -270,7 +284,7 @@ contains
       call check_text(names_of(curves), ':one_sided ', 'curves')
       call check(curves(1)%walls == 1, 'one wall')
       call check_close(curves(1)%fit%theta, walls(2)%curve(1)%theta, 1.0e-12_wp, 'theta')
-      call check_close(curves(1)%fractile(1, 2), walls(2)%curve(1)%probability(x(2)), 1.0e-15_wp, 'fractile')
+      call check_close(curves(1)%fractile(1, 2), walls(2)%curve(1)%probability(x(2)), tolerance, 'fractile')
       call combine_population(curves, walls([1, 3]), x, error)
       call check_error(error, 'weight: must be positive for at least one wall', 'no weight at all')
    end subroutine test_weights_of_nothing
@@ -298,6 +312,7 @@ contains
    !> Fractiles of a few numbers
    subroutine test_fractiles_by_hand()
       real(wp) :: found(3)
+      integer :: i
 
       call suite('fractiles by hand')
       found = fractiles_of([0.5_wp], [2.0_wp], 8)
@@ -308,10 +323,10 @@ contains
       call check(all(abs(found - [0.25_wp, 0.75_wp, 0.75_wp]) <= 0.0_wp), 'less than half')
       found = fractiles_of([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], spread(1.0_wp, 1, 5), 1)
       call check(all(abs(found - [0.0_wp, 0.0_wp, 1.0_wp]) <= 0.0_wp), 'zeros and ones')
-      ! Ten of 0.1 add up to less than 1; five are half of the weight.
-      found = fractiles_of(real([9, 2, 7, 4, 5, 6, 3, 8, 1, 10], wp)/16.0_wp, spread(0.1_wp, 1, 10), 11)
-      call check(all(abs(found - [2.0_wp, 5.0_wp, 9.0_wp]/16.0_wp) <= 0.0_wp), 'a tenth each')
-      found = fractiles_of([tiny(1.0_wp)**0.9_wp, 0.3_wp], [9.0_wp, 1.0_wp], 12)
+      ! Half of the weights is half of the weight, though rounding makes 0.3 twenty times less than half of forty times.
+      found = fractiles_of([(real(modulo(7*i, 40) + 1, wp)/64.0_wp, i=1, 40)], spread(0.3_wp, 1, 40), 11)
+      call check(all(abs(found - [7.0_wp, 20.0_wp, 34.0_wp]/64.0_wp) <= 0.0_wp), 'forty alike')
+      found = fractiles_of([1.0e-250_wp, 0.3_wp], [9.0_wp, 1.0_wp], 12)
       call check(found(2) < 1.0e-200_wp .and. found(2) > 0.0_wp, 'a very small number is not zero')
       call check(bits_within(2_int64**25, 60_int64) == 13, 'many bits for few')
       call check(bits_within(2_int64**25, 2_int64**40) == 1, 'one bit for very many')
@@ -389,7 +404,7 @@ contains
          where (u > 0.4_wp .and. u < 0.5_wp) weights = 0.0_wp
          weights(1) = 0.5_wp
          ! Numbers with no more digits than real64
-         numbers = real(real(numbers, kind(1.0d0)), wp)
+         numbers = real(real(numbers, real64), wp)
          if (any(abs(fractiles_of(numbers, weights, bits) - sorted_fractiles(numbers, weights)) > 0.0_wp)) &
             & wrong = wrong + 1
       end do

@@ -751,12 +751,12 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    !$omp end parallel do
 end subroutine fit_curves
 
-! Curves of rows (mechanisms of walls), of their walls and of the population. texts: name, mechanism and group of each row;
-! rows: how many each wall has. Integers: number of the population's curves, statuses of the rows, of the walls and of the
-! population's curves, and the number of walls in each of these; reals: numbers of the curves of the rows and of the walls,
-! fractions of collapse of the walls, then for each of the population's curves weight, dispersions between walls and
-! between records, share with a curve, histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group
-! and mechanism of the population's curves, then warnings
+! Curves of rows (mechanisms of walls), of their walls and of the population. texts: name, mechanism and group of each
+! row; rows: how many each wall has. Integers: number of the population's curves, statuses of the rows, of the walls and
+! of the population's curves, and the number of walls in each of these; reals: numbers of the curves of the rows and of
+! the walls, fractions of collapse of the walls, then for each of the population's curves weight, dispersions between
+! walls and between records, share with a curve, histories, mean fractions, mean curve, fractiles (3 a level), numbers;
+! text: group and mechanism of the population's curves, then warnings
 subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code

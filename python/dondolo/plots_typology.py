@@ -51,12 +51,14 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     """
     curve = typology.group(mechanism, group)
     if ax is None:
-        ax = style.new_axes()
+        ax = _axes(3)
     grid = _grid(typology.levels)
-    walls = typology.probabilities(grid, mechanism, group)
-    drawn = np.unique(np.linspace(0, len(walls) - 1, _THIN).round().astype(int))
-    ax.plot(grid, walls[drawn].T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
-    text = f"{len(drawn)} of {len(walls)} walls" if len(drawn) < len(walls) else f"{len(walls)} walls"
+    members = typology._members(mechanism, group)
+    walls = len(members.weights)
+    drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
+    thin = np.concatenate([members.at(part)[0][drawn] for part in members.parts(grid)], axis=1)
+    ax.plot(grid, thin.T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
+    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else f"{walls} walls"
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, typology, grid, mechanism, group, style.BLUE)
     mean = typology.mean(grid, mechanism, group)
@@ -99,7 +101,7 @@ def plot_combination(typology: Typology, ax: Axes | None = None, group: str = ""
     curves = [curve for curve in typology.groups if curve.group == group and curve.mechanism != "all"]
     whole = typology.group(None, group)
     if ax is None:
-        ax = style.new_axes()
+        ax = _axes(len(curves) + 3)
     grid = _grid(typology.levels)
     _band(ax, typology, grid, None, group, style.GREY)
     where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
@@ -144,7 +146,7 @@ def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | Non
     known = {(curve.group, curve.mechanism) for curve in typology.groups}
     names = [name for name in names if mechanism is None or (name, mechanism) in known]
     if ax is None:
-        ax = style.new_axes()
+        ax = _axes(len(names) + 1)
     grid = _grid(typology.levels)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
     for i, (name, color) in enumerate(zip(names, colors, strict=True)):
@@ -186,7 +188,7 @@ def plot_damage_states(
     import matplotlib.pyplot as plt
 
     if ax is None:
-        ax = style.new_axes()
+        ax = _axes(2)
     grid = _grid(states.levels)
     if edp is None:
         wall = isinstance(states, Stripes)
@@ -214,6 +216,11 @@ def plot_damage_states(
     return ax
 
 
+def _axes(rows: int) -> Axes:
+    """Axes of a new figure with room for so many rows of a legend below."""
+    return style.new_axes(size=(6.0, 3.8 + 0.19 * rows))
+
+
 def _grid(levels: Any) -> Any:
     """Levels that a curve is drawn at."""
     right = 1.05 * float(np.max(levels))
@@ -236,7 +243,8 @@ def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
     ax.set_xlabel(style.im_label(what.im))
     ax.set_ylabel("probability of collapse")
     ax.set_title(title, loc="left", parse_math=False)
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    longest = max(map(len, ax.get_legend_handles_labels()[1]))
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=1 if longest > 36 else 2)
     return ax
 
 

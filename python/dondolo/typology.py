@@ -512,6 +512,8 @@ def combine(
     first = _first_rows([wall.name for wall in people.walls])
     rows = np.diff(np.append(first, len(people.walls)))
     chosen = np.flatnonzero(np.repeat(np.logical_and.reduceat(complete, first), rows))
+    if len(chosen) == 0:
+        raise Interrupted("interrupted: no wall is complete")
     if len(chosen) < len(people.walls):
         weights = people.weights[chosen]
         people = Population(

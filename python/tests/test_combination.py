@@ -240,6 +240,15 @@ def test_walls_without_a_fit():
     assert stepped.group().fitted == 1.0
 
 
+def test_a_wall_has_the_fewest_histories_of_its_mechanisms(people):
+    histories = np.array(people.histories)
+    histories[1] *= 2
+    complete = np.ones(len(histories), dtype=bool)
+    again, _ = combine(people.population, "pga", LEVELS, np.ones(1), people.exceedances, histories, complete, Work())
+    assert list(again.combined["a"].histories) == [HISTORIES] * len(LEVELS)
+    assert again.group("two_block").fit.histories[0] > people.group("two_block").fit.histories[0]
+
+
 def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
     complete = np.ones(len(people.walls), dtype=bool)
     complete[1] = complete[-1] = False
@@ -247,6 +256,9 @@ def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
     part, _ = combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
     assert list(part.combined) == ["b", "c", "d", "e"]
     assert part.curves[0].theta == people.curves[2].theta
+    complete[:] = [True, *[False] * (len(complete) - 1)]
+    with pytest.raises(dd.Interrupted, match="no wall is complete"):
+        combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
 
 
 @pytest.fixture(scope="module")
@@ -359,3 +371,8 @@ def test_figures(people, states, monkeypatch):
         labels = ax.get_legend_handles_labels()[1]
         assert [label.split(":")[0] for label in labels] == [f"EDP ≥ {one:g}" for one in edp]
         assert ax.get_ylabel() == "probability to reach the state"
+        curves = [what.at(one).mean if what is typology else what.fit(one) for one in edp]
+        curves = [curve for curve in curves if what is typology or curve.has_fit]
+        lines = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) > len(what.levels)]
+        for drawn, curve in zip(lines, curves, strict=True):
+            assert np.array_equal(drawn.get_ydata(), curve(drawn.get_xdata()))
