@@ -111,15 +111,16 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
 
     with Listening(workers) as executor:
         assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "out") == whole
-        assert len(seen) <= crews[0].sends <= workers + 3
+        assert len(seen) <= crews[0].sends <= workers + 4
         assert len(seen) > workers // 2
         # What goes with each block is small.
         assert max(sizes) < 2000
-        # A worker that has begun anew gets them again, and no other.
+        late = workers - len(seen)
+        # A worker that has begun anew gets them again, and those that had no work until now.
         perform = _crew.perform
         monkeypatch.setattr(_crew, "perform", forget)
         assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "again") == whole
-        assert 1 <= crews[1].sends <= 3
+        assert 1 <= crews[1].sends <= late + 4
 
 
 def test_no_two_tasks_are_the_same(monkeypatch):
