@@ -6,7 +6,6 @@ is not set. Checkpoints in out/city keep what was computed; remove the folder to
 """
 
 import os
-import sys
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -107,8 +106,12 @@ def curves(study):
     """Medians, dispersions and the bootstrap of each curve."""
     peaks = np.array([record.intensity("pga") for record in study.records])
     factors = LEVELS[-1] / peaks
-    print(f"PGA {peaks.min():.3f} to {peaks.max():.3f} g, median {np.median(peaks):.3f} g; factors to {LEVELS[-1]:g} g:"
-          f" median {np.median(factors):.1f}, largest {factors.max():.1f}")
+    velocity = np.median([record.intensity("pgv") for record in study.records] / peaks)
+    print(
+        f"median PGV/PGA {velocity:.3f} m/s for 1 g; PGA {peaks.min():.3f} to {peaks.max():.3f} g, median"
+        f" {np.median(peaks):.3f} g; factors to {LEVELS[-1]:g} g: median {np.median(factors):.1f}, largest"
+        f" {factors.max():.1f}"
+    )
     for one in study.typology.groups:
         print(
             f"{one.group or 'population'}, {one.mechanism}: {one.walls} walls, {text(one.fit)}, beta_walls"
@@ -171,7 +174,8 @@ def sizes(study):
         left = np.log(theta) - columns @ coefficient
         spread = np.sqrt(np.average(left**2, weights=weights))
         print(
-            f"{mechanism}: median of theta {median(theta, weights):.3f}, of theta/a0 {median(theta / trigger, weights):.2f};"
+            f"{mechanism}: median of theta {median(theta, weights):.3f} g, of a0/p"
+            f" {median(9.81 * trigger / p, weights):.3f} m/s, of theta/a0 {median(theta / trigger, weights):.2f};"
             f" ln theta = {coefficient[0]:.2f} + {coefficient[1]:.2f} ln a0 + {coefficient[2]:.2f} ln p,"
             f" left {spread:.3f} of {study.typology.group(mechanism).beta_walls:.3f}"
         )
@@ -197,8 +201,10 @@ def polarity(study):
         for i in range(len(rows))
     ]
     ratio = np.abs(np.diff(np.log(np.array(medians)), axis=1)[:, 0])
-    print(f"one wall, ratio of the medians of both polarities: median {np.exp(np.nanmedian(ratio)):.3f}, 95 % of walls below"
-          f" {np.exp(np.nanquantile(ratio, 0.95)):.3f}")
+    print(
+        f"one wall, ratio of the medians of both polarities: median {np.exp(np.nanmedian(ratio)):.3f}, 95 % of walls"
+        f" below {np.exp(np.nanquantile(ratio, 0.95)):.3f}"
+    )
 
 
 def fitted(fraction, histories):
@@ -251,13 +257,16 @@ def dependence(study):
             ways["never both"] = sums
         for way, values in ways.items():
             fraction = np.average(values, axis=0, weights=weights)
-            print(f"walls with two mechanisms, {what}, {way}: {text(fitted(fraction, 44))}", np.round(fraction[[1, 2, 3, 5, 9, 19]], 3))
-        difference = np.average(independent - same, axis=0, weights=weights)
-        j = int(np.argmax(difference))
-        print(f"   largest difference of the means {difference[j]:.3f} at {LEVELS[j]:.1f} g; of a wall {np.max(independent - same):.3f}")
-    whole = study.typology.mean_fraction
-    print("check, mean fractions of the typology against these:", np.abs(whole - centre_mean(study, combined(study, centre.p_occ)[0])).max())
-    print(f"population, same record: {text(fitted(centre_mean(study, combined(study, centre.p_occ)[1]), 44))}")
+            print(f"walls with two mechanisms, {what}, {way}: {text(fitted(fraction, 44))}; at 2 g {fraction[-1]:.3f}")
+        off = independent - same
+        j = int(np.argmax(np.average(off, axis=0, weights=weights)))
+        print(
+            f"   means differ by at most {np.average(off[:, j], weights=weights):.4f}, at {LEVELS[j]:.1f} g; a wall by"
+            f" {off.max():.3f}"
+        )
+    independent, same, _, _ = combined(study, centre.p_occ)
+    check = np.abs(study.typology.mean_fraction - centre_mean(study, independent)).max()
+    print(f"population, same record: {text(fitted(centre_mean(study, same), 44))}; check of the sums {check:.1e}")
 
 
 def pairs():
@@ -292,16 +301,22 @@ def centre_mean(study, of_pairs):
 def mixture(study):
     """The mean curve against the lognormal fitted to it, and how that depends on the highest level."""
     typology = study.typology
-    most = np.average(1.0 - np.prod(np.array([[1 - centre.p_occ[i], 1 - centre.p_occ[j]] for i, j in pairs()]), axis=1),
-                      weights=centre.weights[[i for i, _ in pairs()]])
-    print(f"a wall with two mechanisms collapses with {most:.3f} at most; mean at 2 g {typology.mean(2.0):.3f},"
-          f" lognormal {typology.fit()(2.0):.3f}; at 5 g {typology.mean(5.0):.3f} and {typology.fit()(5.0):.3f}")
+    most = np.average(
+        1.0 - np.prod(np.array([[1 - centre.p_occ[i], 1 - centre.p_occ[j]] for i, j in pairs()]), axis=1),
+        weights=centre.weights[[i for i, _ in pairs()]],
+    )
+    print(
+        f"a wall with two mechanisms collapses with {most:.3f} at most; mean at 2 g {typology.mean(2.0):.3f},"
+        f" lognormal {typology.fit()(2.0):.3f}; at 5 g {typology.mean(5.0):.3f} and {typology.fit()(5.0):.3f}"
+    )
     x = np.linspace(0.02, 2.0, 100)
     for mechanism in (*MECHANISMS, "all"):
         gap = typology.mean(x, mechanism) - typology.fit(mechanism)(x)
         j = int(np.argmax(abs(gap)))
-        print(f"{mechanism}: mean curve - lognormal at most {gap[j]:+.3f} at {x[j]:.2f} g; at 0.1 g"
-              f" {typology.mean(0.1, mechanism):.4f} and {typology.fit(mechanism)(0.1):.4f}")
+        print(
+            f"{mechanism}: mean curve - lognormal at most {gap[j]:+.3f} at {x[j]:.2f} g; at 0.1 g"
+            f" {typology.mean(0.1, mechanism):.4f} and {typology.fit(mechanism)(0.1):.4f}"
+        )
     for mechanism in ("one_sided", "all"):
         for top in (6, 10, 15, 20):
             one = typology.group(mechanism)
@@ -313,38 +328,34 @@ def enough(study):
     """Standard error of ln theta with so many records and walls, all drawn with replacement."""
     generator = np.random.default_rng(0)
     names = list(dict.fromkeys(wall.name for wall in centre))
-    place = {name: k for k, name in enumerate(names)}
-    by_record = np.array([c.reshape(len(LEVELS), -1, 44).mean(axis=1) for c in study.collapsed])
-    owner = np.array([place[wall.name] for wall in centre])
+    owner = np.array([names.index(wall.name) for wall in centre])
     weight = np.zeros(len(names))
     weight[owner] = centre.weights
+    by_record = np.array([flags.reshape(len(LEVELS), -1, 44).mean(axis=1) for flags in study.collapsed])
+
+    def theta(records, times):
+        survival = np.ones((len(names), len(LEVELS)))
+        np.multiply.at(survival, owner, 1.0 - centre.p_occ[:, None] * by_record[:, :, records].mean(axis=2))
+        return fitted(np.average(1.0 - survival, axis=0, weights=times * weight), 44).theta
 
     def error(records, walls, together=1):
-        theta = []
-        for _ in range(300):
+        medians = []
+        for _ in range(SAMPLES // 2):
             # Components of a recording stand next to each other
             groups = generator.integers(44 // together, size=records // together)
             drawn = (together * groups[:, None] + np.arange(together)).ravel()
-            survival = np.ones((len(names), len(LEVELS)))
-            np.multiply.at(survival, owner, 1.0 - centre.p_occ[:, None] * by_record[:, :, drawn].mean(axis=2))
-            times = np.ones(len(names)) if walls is None else np.bincount(generator.integers(len(names), size=walls), minlength=len(names))
-            theta.append(fitted(np.average(1.0 - survival, axis=0, weights=times * weight), 44).theta)
-        return np.std(np.log(theta), ddof=1)
+            times = np.ones(len(names))
+            if walls:
+                times = np.bincount(generator.integers(len(names), size=walls), minlength=len(names))
+            medians.append(theta(drawn, times))
+        return np.std(np.log(medians), ddof=1)
 
-    for walls in (30, 120, 240, None):
-        print(f"walls {walls or 'as they are'}:", ", ".join(f"{n} records {error(n, walls):.3f}" for n in (11, 22, 44)))
-    print(f"44 records drawn as 22 pairs of components: {error(44, None, 2):.3f}")
-    quarter = [fitted(centre_of(study, by_record[:, :, k::4].mean(axis=2)), 44).theta for k in range(4)]
-    print("median of four sets of 11 records, one a set of every fourth:", np.round(quarter, 3))
-
-
-def centre_of(study, fraction):
-    """Mean of all walls from fractions of rows."""
-    survival = {}
-    for i, wall in enumerate(centre):
-        survival[wall.name] = survival.get(wall.name, 1.0) * (1.0 - centre.p_occ[i] * fraction[i])
-    weights = {wall.name: weight for wall, weight in zip(centre, centre.weights, strict=True)}
-    return 1.0 - np.average(np.array([survival[name] for name in weights]), axis=0, weights=list(weights.values()))
+    for walls in (30, 120, 240, 0):
+        errors = (f"{records} records {error(records, walls):.3f}" for records in (11, 22, 44))
+        print(f"standard error of ln theta, {walls or 'the same'} walls:", ", ".join(errors))
+    print(f"   the same walls, 44 records drawn as 22 pairs of components: {error(44, 0, 2):.3f}")
+    quarters = (f"{theta(np.arange(first, 44, 4), 1.0):.3f}" for first in range(4))
+    print("median under every fourth record:", ", ".join(quarters))
 
 
 # Illustrative, of no real site
@@ -360,7 +371,7 @@ def risk(study):
         ("two_block, lognormal", study.typology.fit("two_block")),
     ):
         one = dd.mean_annual_frequency(curve, HAZARD)
-        print(f"{what}: {one.frequency:.3g} a year (up to {one.bounds[1]:.3g}), in 50 years {one.probability(50.0):.3f}")
+        print(f"{what}: {one.frequency:.3g} a year, in 50 years {one.probability(50.0):.4f}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.2f}")
@@ -432,4 +443,4 @@ def draw_mixture(ax, typology):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
