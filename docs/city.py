@@ -1,8 +1,8 @@
 """Measure what docs/city.md says of the illustrative historic centre, and draw its figures into docs/figures.
 
-Run from the root of the repository: .venv/bin/python docs/city.py. Everything is computed on the embedded synthetic
-accelerograms, and again on recorded ones where those are: DONDOLO_RECORDS names their folder, ../shared/records if it
-is not set. Checkpoints in out/city keep what was computed; remove the folder to compute everything again.
+./run city runs it. Everything is computed on the embedded synthetic accelerograms, and again on recorded ones where
+those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set. Checkpoints in out/city keep what was
+computed; remove the folder to compute everything again.
 """
 
 import os
@@ -364,14 +364,12 @@ HAZARD = dd.HazardCurve.power_law(2e-5, 2.5)
 
 def risk(study):
     """Frequencies of collapse under the hazard of an imagined site."""
-    for what, curve in (
-        ("mean curve", study.typology.mean),
-        ("lognormal", study.typology.fit()),
-        ("one_sided, lognormal", study.typology.fit("one_sided")),
-        ("two_block, lognormal", study.typology.fit("two_block")),
-    ):
-        one = dd.mean_annual_frequency(curve, HAZARD)
-        print(f"{what}: {one.frequency:.3g} a year, in 50 years {one.probability(50.0):.4f}")
+    for edp in study.typology.edp_thresholds:
+        state = study.typology.at(edp)
+        mean, fit = (dd.mean_annual_frequency(curve, HAZARD) for curve in (state.mean, state.fit()))
+        print(f"EDP >= {edp:g}: mean curve {mean.frequency:.3g} a year, lognormal {fit.frequency:.3g}")
+    for mechanism in MECHANISMS:
+        print(f"{mechanism}: lognormal {dd.mean_annual_frequency(study.typology.fit(mechanism), HAZARD).frequency:.3g}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.2f}")
