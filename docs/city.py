@@ -1,0 +1,444 @@
+"""Measure what docs/city.md says of the illustrative historic centre, and draw its figures into docs/figures.
+
+./run city runs it. Everything is computed on the embedded synthetic accelerograms, and again on recorded ones where
+those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set. Checkpoints in out/city keep what was
+computed; remove the folder to compute everything again.
+"""
+
+import os
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import dondolo as dd
+from dondolo import style
+
+root = Path(__file__).resolve().parents[1]
+figures = root / "docs/figures"
+out = root / "out/city"
+centre = dd.read_population(root / "data/walls/historic_centre.csv")
+LEVELS = 0.1 * np.arange(1, 21)  # those of data/cases/historic_centre.nml
+MECHANISMS = ("one_sided", "two_block")
+SAMPLES = 1000
+
+
+def main() -> None:
+    """Measure and draw."""
+    warnings.simplefilter("ignore", dd.DondoloWarning)
+    out.mkdir(parents=True, exist_ok=True)
+    sets = {"synthetic44": dd.read_catalogue(root / "data/records/synthetic44.csv")}
+    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    if (folder / "italy44.csv").is_file():
+        sets["recorded"] = dd.read_catalogue(folder / "italy44.csv")
+    else:
+        print("no recorded accelerograms here (DONDOLO_RECORDS names their folder): synthetic ones only")
+    walls()
+    studies = {name: Study(name, records) for name, records in sets.items()}
+    for study in studies.values():
+        print(f"\n=== {study.name}")
+        curves(study)
+        states(study)
+        sizes(study)
+        occurrence(study)
+        polarity(study)
+        restitution(study)
+        intensities(study)
+        dependence(study)
+        mixture(study)
+        enough(study)
+        risk(study)
+    draw(studies)
+
+
+class Study:
+    """The centre under one set of records.
+
+    Attributes
+    ----------
+    collapsed : list of ndarray, each of shape (levels, histories)
+        Who collapses, row by row; the histories of a one-sided wall are those of all records, and again reversed.
+    """
+
+    def __init__(self, name, records):
+        self.name, self.records = name, records
+        self.typology = self.run("centre", centre, LEVELS, edp_thresholds=[0.1, 0.4], progress=True)
+        flags = self.typology.flags
+        self.collapsed = [flags.of([row])[0, -1] for row in range(len(centre))]
+
+    def run(self, what, population, levels, progress=False, **options):
+        """A typology that is computed once."""
+        checkpoint = out / f"{self.name}_{what}.sqlite"
+        options = {"polarity": "both", "checkpoint": checkpoint, "progress": progress, **options}
+        return dd.typology(population, self.records, levels, **options)
+
+
+def rows_of(mechanism):
+    """Rows of a mechanism."""
+    return [i for i, wall in enumerate(centre) if wall.mechanism == mechanism]
+
+
+def part(mechanism, **changes):
+    """The rows of a mechanism as a population in which it can occur everywhere, their walls changed."""
+    rows = rows_of(mechanism)
+    weights = centre.weights[rows] * centre.p_occ[rows]
+    return dd.Population(tuple(replace(centre[i], **changes) for i in rows), weights)
+
+
+def median(values, weights):
+    """Weighted median."""
+    order = np.argsort(values)
+    return float(values[order][np.searchsorted(np.cumsum(weights[order]), 0.5 * weights.sum())])
+
+
+def text(fit):
+    """Median and dispersion."""
+    return f"theta {fit.theta:.3f}, beta {fit.beta:.3f}" if fit.has_fit else fit.status
+
+
+def curves(study):
+    """Medians, dispersions and the bootstrap of each curve."""
+    peaks = np.array([record.intensity("pga") for record in study.records])
+    factors = LEVELS[-1] / peaks
+    velocity = np.median([record.intensity("pgv") for record in study.records] / peaks)
+    print(
+        f"median PGV/PGA {velocity:.3f} m/s for 1 g; PGA {peaks.min():.3f} to {peaks.max():.3f} g, median"
+        f" {np.median(peaks):.3f} g; factors to {LEVELS[-1]:g} g: median {np.median(factors):.1f}, largest"
+        f" {factors.max():.1f}"
+    )
+    for one in study.typology.groups:
+        print(
+            f"{one.group or 'population'}, {one.mechanism}: {one.walls} walls, {text(one.fit)}, beta_walls"
+            f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}"
+        )
+    for mechanism in (*MECHANISMS, "all"):
+        fit = study.typology.fit(mechanism)
+        errors = [
+            f"{' and '.join(over)} {study.typology.bootstrap(SAMPLES, over=over, mechanism=mechanism).se_ln_theta:.4f}"
+            for over in (("records",), ("walls",), ("records", "walls"))
+        ]
+        print(f"standard error of ln theta, {mechanism}: fit {fit.se_ln_theta:.4f}, bootstrap over", ", ".join(errors))
+    low, high = study.typology.bootstrap(SAMPLES).mean_interval()
+    shares = study.typology.group().fractiles
+    for level in (0.3, 0.5, 1.0):
+        j = int(np.argmin(abs(LEVELS - level)))
+        print(
+            f"{level} g: mean {study.typology.mean(level):.3f}, 95 % {low[j]:.3f} to {high[j]:.3f}; fractiles of the"
+            f" walls {shares[0, j]:.3f} {shares[1, j]:.3f} {shares[2, j]:.3f}"
+        )
+
+
+def states(study):
+    """Damage states."""
+    for edp in study.typology.edp_thresholds:
+        state = study.typology.at(edp)
+        print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state.fit(name))}" for name in (*MECHANISMS, "all")))
+
+
+def walls():
+    """Medians of the walls, weighted by how often a mechanism can occur."""
+    print(centre)
+    for mechanism in MECHANISMS:
+        rows = rows_of(mechanism)
+        weights = centre.weights[rows] * centre.p_occ[rows]
+        for group in dict.fromkeys([None, *(centre.groups[i] for i in rows)]):
+            here = np.array([group in (None, centre.groups[i]) for i in rows])
+            several = [centre[i] for i, chosen in zip(rows, here, strict=True) if chosen]
+            facts = {
+                "height m": [wall.height for wall in several],
+                "trigger g": [wall.trigger_acceleration / wall.gravity for wall in several],
+                "p rad/s": [wall.frequency_parameter for wall in several],
+                "speed ratio": [abs(wall.restitution_coefficient) for wall in several],
+            }
+            medians = (f"{name} {median(np.array(values), weights[here]):.4g}" for name, values in facts.items())
+            print(f"{mechanism}, {group or 'all groups'}:", ", ".join(medians))
+
+
+def sizes(study):
+    """Medians against trigger and frequency parameter: ln theta = c + m ln a0 + n ln p."""
+    for mechanism in MECHANISMS:
+        rows = [i for i in rows_of(mechanism) if study.typology.curves[i].has_fit]
+        theta = np.array([study.typology.curves[i].theta for i in rows])
+        trigger = np.array([centre[i].trigger_acceleration / centre[i].gravity for i in rows])
+        p = np.array([centre[i].frequency_parameter for i in rows])
+        weights = centre.weights[rows] * centre.p_occ[rows]
+        root_weight = np.sqrt(weights)[:, None]
+        columns = np.column_stack([np.ones(len(rows)), np.log(trigger), np.log(p)])
+        coefficient = np.linalg.lstsq(root_weight * columns, root_weight[:, 0] * np.log(theta), rcond=None)[0]
+        left = np.log(theta) - columns @ coefficient
+        spread = np.sqrt(np.average(left**2, weights=weights))
+        print(
+            f"{mechanism}: median of theta {median(theta, weights):.3f} g, of a0/p"
+            f" {median(9.81 * trigger / p, weights):.3f} m/s, of theta/a0 {median(theta / trigger, weights):.2f};"
+            f" ln theta = {coefficient[0]:.2f} + {coefficient[1]:.2f} ln a0 + {coefficient[2]:.2f} ln p,"
+            f" left {spread:.3f} of {study.typology.group(mechanism).beta_walls:.3f}"
+        )
+
+
+def occurrence(study):
+    """What the probabilities of occurrence do."""
+    certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
+    print(f"p_occ as assumed: {text(study.typology.fit())}; 1 everywhere: {text(certain.fit())}")
+
+
+def polarity(study):
+    """One-sided walls under records as they are, and reversed."""
+    rows = rows_of("one_sided")
+    weights = centre.weights[rows] * centre.p_occ[rows]
+    both = np.array([study.collapsed[i] for i in rows])
+    for name, chosen in (("as recorded", slice(0, 44)), ("reversed", slice(44, 88)), ("both", slice(0, 88))):
+        fraction = np.average(both[:, :, chosen].mean(axis=2), axis=0, weights=weights)
+        print(f"one_sided, {name}: {text(fitted(fraction, 44))}")
+    # Of each wall, how far its two medians are apart
+    medians = [
+        [dd.fit_fragility(LEVELS, both[i, :, s].sum(axis=1), 44).theta for s in (slice(0, 44), slice(44, 88))]
+        for i in range(len(rows))
+    ]
+    ratio = np.abs(np.diff(np.log(np.array(medians)), axis=1)[:, 0])
+    print(
+        f"one wall, ratio of the medians of both polarities: median {np.exp(np.nanmedian(ratio)):.3f}, 95 % of walls"
+        f" below {np.exp(np.nanquantile(ratio, 0.95)):.3f}"
+    )
+
+
+def fitted(fraction, histories):
+    """The lognormal fitted to a mean fraction."""
+    n = float(histories)
+    return dd.fit_fragility(LEVELS, np.clip(fraction * n, 0.0, n), n)
+
+
+def restitution(study):
+    """Factors of the two-block rows, and constant speed ratios of the one-sided ones."""
+    for factor in (0.84, 0.87, 0.90, 1.0):
+        population = part("two_block", restitution_factor=factor)
+        print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS).fit())}")
+    print(f"one_sided, equation (2): {text(study.typology.fit('one_sided'))}")
+    for value in (0.0, 0.3, 0.5, 0.7, 0.9):
+        population = part("one_sided", restitution="constant", restitution_value=value)
+        print(f"one_sided, constant {value}: {text(study.run(f'constant_{value}', population, LEVELS).fit())}")
+
+
+def intensities(study):
+    """What the intensity measure does to the dispersions; levels of each measure reach equally far."""
+    reach = np.geomspace(0.03, 4.0, 24)
+    trigger = np.median([wall.trigger_acceleration / wall.gravity for wall in centre])
+    for im in ("pga", "pgv", "hi", "saavg(0.2:2)", "sa(1)", "pga/a0", "p*pgv/a0"):
+        if im == "pga/a0":
+            unit = 1.0 / trigger
+        elif im == "p*pgv/a0":
+            p = np.median([wall.frequency_parameter for wall in centre])
+            unit = p * np.median([r.intensity("pgv") / r.intensity("pga") for r in study.records]) / (9.81 * trigger)
+        else:
+            unit = np.median([record.intensity(im) / record.intensity("pga") for record in study.records])
+        typology = study.run(f"im_{im.replace('/', '_over_')}", centre, unit * reach, im=im)
+        parts = []
+        for mechanism in MECHANISMS:
+            one = typology.group(mechanism)
+            parts.append(
+                f"{mechanism} {text(one.fit)}, beta_walls {one.beta_walls:.3f}, beta_records {one.beta_records:.3f},"
+                f" total {one.beta_total:.3f}, fitted {one.fitted:.3f}"
+            )
+        error = typology.bootstrap(SAMPLES, over="records", mechanism="one_sided").se_ln_theta
+        print(f"{im}:", "; ".join(parts), f"; se over records, one_sided {error:.3f}")
+
+
+def dependence(study):
+    """Mechanisms of a wall: independent, under the same record, and never both."""
+    for what, p_occ in (("p_occ as assumed", centre.p_occ), ("p_occ = 1", np.ones(len(centre)))):
+        independent, same, sums, weights = combined(study, p_occ)
+        ways = {"independent": independent, "same record": same}
+        if what == "p_occ as assumed":
+            ways["never both"] = sums
+        for way, values in ways.items():
+            fraction = np.average(values, axis=0, weights=weights)
+            print(f"walls with two mechanisms, {what}, {way}: {text(fitted(fraction, 44))}; at 2 g {fraction[-1]:.3f}")
+        off = independent - same
+        j = int(np.argmax(np.average(off, axis=0, weights=weights)))
+        print(
+            f"   means differ by at most {np.average(off[:, j], weights=weights):.4f}, at {LEVELS[j]:.1f} g; a wall by"
+            f" {off.max():.3f}"
+        )
+    independent, same, _, _ = combined(study, centre.p_occ)
+    check = np.abs(study.typology.mean_fraction - centre_mean(study, independent)).max()
+    print(f"population, same record: {text(fitted(centre_mean(study, same), 44))}; check of the sums {check:.1e}")
+
+
+def pairs():
+    """Rows of the walls with both mechanisms."""
+    names = [wall.name for wall in centre]
+    return [(i, i + 1) for i in range(len(names) - 1) if names[i] == names[i + 1]]
+
+
+def combined(study, p_occ):
+    """Fractions (walls, levels) of walls with two mechanisms, three ways, and their weights."""
+    independent, same, sums = [], [], []
+    for i, j in pairs():
+        # A wall that folds does not feel the polarity
+        one, two = study.collapsed[i], np.tile(study.collapsed[j], 2)
+        p, q = p_occ[i], p_occ[j]
+        independent.append(1.0 - (1.0 - p * one.mean(axis=1)) * (1.0 - q * two.mean(axis=1)))
+        same.append((1.0 - (1.0 - p * one) * (1.0 - q * two)).mean(axis=1))
+        sums.append(p * one.mean(axis=1) + q * two.mean(axis=1))
+    weights = centre.weights[[i for i, _ in pairs()]]
+    return np.array(independent), np.array(same), np.array(sums), weights
+
+
+def centre_mean(study, of_pairs):
+    """Mean over all walls, those with one mechanism too."""
+    paired = {row for pair in pairs() for row in pair}
+    alone = [i for i in range(len(centre)) if i not in paired]
+    rest = np.array([centre.p_occ[i] * study.collapsed[i].mean(axis=1) for i in alone])
+    weights = np.append(centre.weights[[i for i, _ in pairs()]], centre.weights[alone])
+    return np.average(np.vstack([of_pairs, rest]), axis=0, weights=weights)
+
+
+def mixture(study):
+    """The mean curve against the lognormal fitted to it, and how that depends on the highest level."""
+    typology = study.typology
+    most = np.average(
+        1.0 - np.prod(np.array([[1 - centre.p_occ[i], 1 - centre.p_occ[j]] for i, j in pairs()]), axis=1),
+        weights=centre.weights[[i for i, _ in pairs()]],
+    )
+    print(
+        f"a wall with two mechanisms collapses with {most:.3f} at most; mean at 2 g {typology.mean(2.0):.3f},"
+        f" lognormal {typology.fit()(2.0):.3f}; at 5 g {typology.mean(5.0):.3f} and {typology.fit()(5.0):.3f}"
+    )
+    x = np.linspace(0.02, 2.0, 100)
+    for mechanism in (*MECHANISMS, "all"):
+        gap = typology.mean(x, mechanism) - typology.fit(mechanism)(x)
+        j = int(np.argmax(abs(gap)))
+        print(
+            f"{mechanism}: mean curve - lognormal at most {gap[j]:+.3f} at {x[j]:.2f} g; at 0.1 g"
+            f" {typology.mean(0.1, mechanism):.4f} and {typology.fit(mechanism)(0.1):.4f}"
+        )
+    for mechanism in ("one_sided", "all"):
+        for top in (6, 10, 15, 20):
+            one = typology.group(mechanism)
+            fit = dd.fit_fragility(LEVELS[:top], one.mean_fraction[:top] * 44.0, 44.0)
+            print(f"{mechanism}, levels up to {LEVELS[top - 1]:.1f} g: {text(fit)}")
+
+
+def enough(study):
+    """Standard error of ln theta with so many records and walls, all drawn with replacement."""
+    generator = np.random.default_rng(0)
+    names = list(dict.fromkeys(wall.name for wall in centre))
+    owner = np.array([names.index(wall.name) for wall in centre])
+    weight = np.zeros(len(names))
+    weight[owner] = centre.weights
+    by_record = np.array([flags.reshape(len(LEVELS), -1, 44).mean(axis=1) for flags in study.collapsed])
+
+    def theta(records, times):
+        survival = np.ones((len(names), len(LEVELS)))
+        np.multiply.at(survival, owner, 1.0 - centre.p_occ[:, None] * by_record[:, :, records].mean(axis=2))
+        return fitted(np.average(1.0 - survival, axis=0, weights=times * weight), 44).theta
+
+    def error(records, walls, together=1):
+        medians = []
+        for _ in range(SAMPLES // 2):
+            # Components of a recording stand next to each other
+            groups = generator.integers(44 // together, size=records // together)
+            drawn = (together * groups[:, None] + np.arange(together)).ravel()
+            times = np.ones(len(names))
+            if walls:
+                times = np.bincount(generator.integers(len(names), size=walls), minlength=len(names))
+            medians.append(theta(drawn, times))
+        return np.std(np.log(medians), ddof=1)
+
+    for walls in (30, 120, 240, 0):
+        errors = (f"{records} records {error(records, walls):.3f}" for records in (11, 22, 44))
+        print(f"standard error of ln theta, {walls or 'the same'} walls:", ", ".join(errors))
+    print(f"   the same walls, 44 records drawn as 22 pairs of components: {error(44, 0, 2):.3f}")
+    quarters = (f"{theta(np.arange(first, 44, 4), 1.0):.3f}" for first in range(4))
+    print("median under every fourth record:", ", ".join(quarters))
+
+
+# Illustrative, of no real site
+HAZARD = dd.HazardCurve.power_law(2e-5, 2.5)
+
+
+def risk(study):
+    """Frequencies of collapse under the hazard of an imagined site."""
+    for edp in study.typology.edp_thresholds:
+        state = study.typology.at(edp)
+        mean, fit = (dd.mean_annual_frequency(curve, HAZARD) for curve in (state.mean, state.fit()))
+        print(f"EDP >= {edp:g}: mean curve {mean.frequency:.3g} a year, lognormal {fit.frequency:.3g}")
+    for mechanism in MECHANISMS:
+        print(f"{mechanism}: lognormal {dd.mean_annual_frequency(study.typology.fit(mechanism), HAZARD).frequency:.3g}")
+    one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
+    for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
+        print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.2f}")
+
+
+def draw(studies):
+    """The figures, of the synthetic records; the recorded ones beside them where they are."""
+    typology = studies["synthetic44"].typology
+    with plt.rc_context(style.RC):
+        figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9), layout="constrained")
+    for ax, mechanism in zip(axes, MECHANISMS, strict=True):
+        dd.plot_typology(typology, ax, mechanism)
+    figure.savefig(figures / "city_mechanisms.png", dpi=100)
+
+    with plt.rc_context(style.RC):
+        figure, axes = plt.subplots(1, 2, figsize=(10.4, 5.0), layout="constrained")
+    dd.plot_combination(typology, axes[0])
+    dd.plot_damage_states(typology, axes[1])
+    figure.savefig(figures / "city_combined.png", dpi=100)
+
+    with plt.rc_context(style.RC):
+        figure, axes = plt.subplots(1, 3, figsize=(10.4, 3.9), layout="constrained")
+    draw_sets(axes[0], studies)
+    draw_sizes(axes[1], typology)
+    draw_mixture(axes[2], typology)
+    for ax in axes:
+        style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.17))
+    figure.savefig(figures / "city_discussion.png", dpi=100)
+
+
+def draw_sets(ax, studies):
+    """Mean curves of both mechanisms under each set of records."""
+    x = np.linspace(0.0, 2.0, 101)
+    for mechanism, color in zip(MECHANISMS, (style.RED, style.BLUE), strict=True):
+        for (name, study), line in zip(studies.items(), ("-", "--"), strict=False):
+            label = f"{mechanism.replace('_', '-')}, {name}"
+            ax.plot(x, study.typology.mean(x, mechanism), color=color, linestyle=line, label=label)
+    ax.set_xlabel(style.im_label("pga"))
+    ax.set_ylabel("probability of collapse")
+
+
+def draw_sizes(ax, typology):
+    """Medians of the walls against what trigger and frequency parameter make of them."""
+    for mechanism, color, marker in zip(MECHANISMS, (style.RED, style.BLUE), ("o", "^"), strict=True):
+        rows = rows_of(mechanism)
+        velocity = [centre[i].trigger_acceleration / centre[i].frequency_parameter for i in rows]
+        theta = [typology.curves[i].theta for i in rows]
+        label = mechanism.replace("_", "-")
+        ax.plot(velocity, theta, color=color, marker=marker, markersize=3, alpha=0.5, linestyle="none", label=label)
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xticks([0.2, 0.4, 0.6, 1.0, 1.5], ["0.2", "0.4", "0.6", "1", "1.5"])
+    ax.set_yticks([0.3, 0.5, 1.0, 2.0, 3.0], ["0.3", "0.5", "1", "2", "3"])
+    ax.minorticks_off()
+    ax.set_xlabel("trigger / frequency parameter, $a_0/p$ [m/s]")
+    ax.set_ylabel("median of a wall, θ [g]")
+
+
+def draw_mixture(ax, typology):
+    """The mean curve of all, and lognormals fitted to it up to two levels."""
+    x = np.linspace(0.0, 4.0, 201)
+    ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
+    for top, line in ((20, "--"), (10, ":")):
+        fit = dd.fit_fragility(LEVELS[:top], typology.mean_fraction[:top] * 44.0, 44.0)
+        ax.plot(x, fit(x), color=style.BLACK, linestyle=line, label=f"lognormal, levels up to {LEVELS[top - 1]:g} g")
+    ax.set_ylim(0.0, 1.02)
+    ax.set_xlabel(style.im_label("pga"))
+    ax.set_ylabel("probability of collapse")
+
+
+if __name__ == "__main__":
+    main()
