@@ -279,6 +279,8 @@ contains
                who = 'population, '//typology%mechanism
                if (len(typology%group) > 0) who = 'group '''//typology%group//''', '//typology%mechanism
                if (k < thresholds) who = who//', EDP '//rounded(case%stripes%thresholds(k))
+               if (typology%saturation < 1.0_wp) who = who//' (can occur: '// &
+                  & rounded(100.0_wp*typology%saturation)//' %)'
                if (typology%fit%has_fit()) then
                   write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &

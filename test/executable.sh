@@ -230,7 +230,7 @@ check "typology: exit code" equal "$rc" 0
 check "typology: files" equal "$(ls out | tr '\n' ' ')" \
    "people_fragility.csv people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
-   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,edp_threshold"
+   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'

@@ -160,14 +160,17 @@ contains
       type(typology_type), allocatable :: curves(:)
       type(fragility_type) :: fit
       type(error_type), allocatable :: error
-      real(wp) :: f(3), p(3), rest(3)
+      real(wp) :: f(3), p(3), rest(3), can
 
       call suite('mixed wall')
       mixed = wall_of([1, 3], ['one_sided', 'two_block'], 2.0_wp, [0.3_wp, 0.8_wp], histories=[44, 88])
       plain = wall_of([4], ['one_sided'], 1.0_wp)
       f = 1.0_wp - (1.0_wp - 0.3_wp*real(z(:, 1), wp)/44.0_wp)*(1.0_wp - 0.8_wp*real(z(:, 3), wp)/88.0_wp)
       p = 1.0_wp - (1.0_wp - 0.3_wp*mixed%curve(1)%probability(x))*(1.0_wp - 0.8_wp*mixed%curve(2)%probability(x))
-      call fit_fragility(fit, x, 44.0_wp*f, spread(44.0_wp, 1, 3), error)
+      ! A mechanism can occur in this share of such walls; their capacities are what the lognormal describes.
+      can = 1.0_wp - 0.7_wp*0.2_wp
+      call check_close(mixed%occurrence(), can, 1.0e-15_wp, 'what the wall can come to')
+      call fit_fragility(fit, x, 44.0_wp*f/can, spread(44.0_wp, 1, 3), error)
       call check_close(mixed%combined%theta, fit%theta, 1.0e-12_wp, 'theta of the wall')
       call check_close(mixed%combined%se_beta(), fit%se_beta(), 1.0e-11_wp, 'it counts the fewer histories')
 
@@ -188,8 +191,15 @@ contains
          & 'curve of all')
       call check_close(curves(2)%histories, 88.0_wp, 1.0e-15_wp, 'histories of the second mechanism')
       call check_close(curves(3)%histories, 88.0_wp, 1.0e-15_wp, 'histories of all')
-      call check_close(curves(3)%beta_records, sqrt((2.0_wp*fit%beta**2 + plain%curve(1)%beta**2)/3.0_wp), 1.0e-12_wp, &
-         & 'dispersion between records is that of the walls as a whole')
+      call check_close(curves(3)%beta_records, sqrt((2.0_wp*can*fit%beta**2 + plain%curve(1)%beta**2) &
+         & /(2.0_wp*can + 1.0_wp)), 1.0e-12_wp, 'dispersion between records is that of the walls as a whole')
+      call check_close(curves(3)%beta_walls, sqrt(2.0_wp*can)/(2.0_wp*can + 1.0_wp) &
+         & *abs(log(fit%theta/plain%curve(1)%theta)), 1.0e-12_wp, 'dispersion between walls that can collapse')
+      call check_close(curves(3)%saturation, (2.0_wp*can + 1.0_wp)/3.0_wp, 1.0e-15_wp, 'what the mean comes to')
+      call check_close(curves(1)%saturation, 1.0_wp, 0.0_wp, 'one mechanism, if it can occur')
+      call check_close(curves(3)%fitted, 1.0_wp, 1.0e-15_wp, 'all have a curve')
+      call fit_fragility(fit, x, 88.0_wp*curves(3)%mean_fraction/curves(3)%saturation, spread(88.0_wp, 1, 3), error)
+      call check_close(curves(3)%fit%theta, fit%theta, 1.0e-12_wp, 'the lognormal is that of walls that can collapse')
 
       ! Of one mechanism the wall counts as often as it can occur: 0.9 of 1 with the lower curve, then 0.1.
       low = wall_of([3], ['one_sided'], 1.0_wp, [0.9_wp])

@@ -134,6 +134,7 @@ class GroupData(NamedTuple):
     beta_walls: float
     beta_records: float
     fitted: float
+    saturation: float
     histories: float
     mean_fraction: FloatArray
     mean_curve: FloatArray
@@ -492,13 +493,13 @@ def fit_walls(
     numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
     together = []
-    for i, row in enumerate(groups.reshape(number, 5 + 5 * m + 8)):
-        mean_fraction, mean_curve, fractiles, curve = np.split(row[5:], np.cumsum([m, m, 3 * m]))
+    for i, row in enumerate(groups.reshape(number, 6 + 5 * m + 8)):
+        mean_fraction, mean_curve, fractiles, curve = np.split(row[6:], np.cumsum([m, m, 3 * m]))
         together.append(
             GroupData(
                 *parcel.lines[2 * i : 2 * i + 2],
                 int(walls[i]),
-                *(float(number) for number in row[:5]),
+                *(float(number) for number in row[:6]),
                 mean_fraction,
                 mean_curve,
                 np.ascontiguousarray(fractiles.reshape(m, 3).T),

@@ -757,7 +757,7 @@ end subroutine fit_curves
 ! row; rows: how many each wall has. Integers: number of the population's curves, statuses of the rows, of the walls and
 ! of the population's curves, and the number of walls in each of these; reals: numbers of the curves of the rows and of
 ! the walls, fractions of collapse of the walls, then for each of the population's curves weight, dispersions between
-! walls and between records, share with a curve, histories, mean fractions, mean curve, fractiles (3 a level), numbers;
+! walls and between records, share with a curve, saturation, histories, mean fractions, mean curve, fractiles (3 a level), numbers;
 ! text: group and mechanism of the population's curves, then warnings
 subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -814,7 +814,7 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
          & (status_code(groups(i)%fit), i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
       parcel%reals = [(pack_curve(curves(i)), i=1, r), (pack_curve(walls(i)%combined), i=1, w), &
          & whole, (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
-         & groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
+         & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
          & pack_curve(groups(i)%fit), i=1, size(groups))]
       do i = 1, size(groups)
          call lines%add(groups(i)%group)

@@ -64,8 +64,9 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     mean = typology.mean(grid, mechanism, group)
     ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
     if curve.fit.has_fit:
-        fitted = f"lognormal, {_parameters(curve.fit)}"
-        ax.plot(grid, curve.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
+        times = f", times {curve.saturation:.2g}" if curve.saturation < 1.0 else ""
+        fitted = f"lognormal, {_parameters(curve.fit)}{times}"
+        ax.plot(grid, curve.curve(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
     ax.plot(
         typology.levels,
         curve.mean_fraction,

@@ -248,6 +248,7 @@ def _typology_of(typology: Typology) -> Table:
         "fractile_84": np.concatenate([group.fractiles[2] for group in groups]),
         "beta_walls": repeated(group.beta_walls for group in groups),
         "beta_records": repeated(group.beta_records for group in groups),
+        "saturation": repeated(group.saturation for group in groups),
         "edp_threshold": [typology.edp_thresholds[-1]] * (number * len(groups)),
     }
 

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._flags import Flags
 from dondolo._members import Members, first_rows
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.population import Population
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
@@ -51,10 +51,12 @@ class Group:
         Dispersion between walls, the weighted standard deviation of ln theta, and between records, the weighted root
         mean square of beta, over the walls with a curve; NaN if there are none.
     fitted : float
-        Share of the weight that has a curve.
+        Share of what can occur that has a curve.
+    saturation : float
+        What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
     fit : Fragility
-        The lognormal curve fitted to the mean fractions; its standard errors take the walls' histories for
-        independent.
+        The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
+        its standard errors take the walls' histories for independent. `curve` gives it with the saturation.
     """
 
     group: str
@@ -67,7 +69,22 @@ class Group:
     beta_walls: float
     beta_records: float
     fitted: float
+    saturation: float
     fit: Fragility
+
+    def curve(self, x: ArrayLike) -> Any:
+        """The lognormal in place of the mean curve: saturation times fit.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+        """
+        return self.saturation * self.fit(x)
 
     @property
     def beta_total(self) -> float:
@@ -324,6 +341,10 @@ class Typology:
         -------
         TypologyBootstrap
         """
+        if self.flags is None:
+            raise DondoloError(
+                "bootstrap: needs every history, so it is for results of typology, not for files read back"
+            )
         return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group)
 
     def _tables(self) -> dict[str, Any]:
@@ -436,15 +457,28 @@ def _combine(
             combined[walls[i].name] = own[i]
             continue
         n = np.full(len(levels), float(histories[i : i + number].min()))
-        combined[walls[i].name] = curve_of(curve, levels, n * fraction, n, **origin)
+        occurrence = 1.0 - np.prod(1.0 - people.p_occ[i : i + number])
+        conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
+        combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin)
     together = []
     for group in data.groups:
         n = np.full(len(levels), group.histories)
-        fit = curve_of(group.curve, levels, np.minimum(n * group.mean_fraction, n), n, **origin)
+        z = n * group.mean_fraction / group.saturation if group.saturation > 0.0 else 0.0 * n
+        fit = curve_of(group.curve, levels, np.minimum(z, n), n, **origin)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
         means = (group.mean_fraction, group.mean_curve, group.fractiles)
         together.append(
-            Group(group.group, group.mechanism, group.walls, group.weight, *means, *betas, group.fitted, fit)
+            Group(
+                group.group,
+                group.mechanism,
+                group.walls,
+                group.weight,
+                *means,
+                *betas,
+                group.fitted,
+                group.saturation,
+                fit,
+            )
         )
     for array in (edp_thresholds, exceedances, histories):
         array.flags.writeable = False

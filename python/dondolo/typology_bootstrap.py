@@ -31,19 +31,22 @@ class TypologyBootstrap(Bootstrap):
     Attributes
     ----------
     theta, beta : ndarray, shape (samples,)
-        Parameters of the lognormal curve fitted to each mean fraction; NaN where a sample has no fit.
+        Parameters of the lognormal curve fitted to each mean fraction / saturation; NaN where a sample has no fit.
     status : ndarray of str, shape (samples,)
         What came of each fit; '' where it failed.
     levels : ndarray, shape (levels,)
         Levels of intensity.
     mean_fraction : ndarray, shape (samples, levels)
         Weighted mean of the walls' fractions of collapse; NaN where a sample has no wall that counts.
+    saturation : ndarray, shape (samples,)
+        Share of the weight in which any mechanism can occur.
     over : tuple of str
         What was drawn: 'records', 'walls' or both.
     """
 
     levels: FloatArray
     mean_fraction: FloatArray
+    saturation: FloatArray
     over: tuple[str, ...]
 
     @property
@@ -131,10 +134,12 @@ def resample_population(
         _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
         for start in range(0, n, size)
     ]
-    fraction = np.concatenate(parts)
+    fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
     counted = np.isfinite(fraction[:, 0])
     histories = np.full_like(fraction, _histories_behind(rows, flags))
-    curves, statuses = _binding.fit_curves(levels, np.where(counted[:, None], fraction, 0.0) * histories, histories)
+    occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
+    share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
+    curves, statuses = _binding.fit_curves(levels, share * histories, histories)
     status = np.where(counted, np.array(statuses), "")
     fitted = np.isin(status, ("ok", "extrapolated"))
     return TypologyBootstrap(
@@ -143,6 +148,7 @@ def resample_population(
         status,
         levels,
         fraction,
+        saturation,
         tuple(kind for kind in _KINDS if kind in kinds),
     )
 
@@ -174,8 +180,8 @@ def _mean_fractions(
     records: FloatArray,
     resampled: bool,
     draws: np.random.Generator | None,
-) -> FloatArray:
-    """Mean fractions (samples, levels); `records` says how often each record is in each sample."""
+) -> tuple[FloatArray, FloatArray]:
+    """Mean fractions (samples, levels) and saturations; `records` says how often each record is in each sample."""
     samples = len(records)
     times = np.ones((samples, rows.walls))
     if draws is not None:
@@ -184,19 +190,20 @@ def _mean_fractions(
     # Without drawn records all samples share the fractions.
     if not resampled:
         records = records[:1]
-    total, weight = np.zeros((samples, flags.levels)), np.zeros(samples)
+    total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
         survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], records)
         if len(starts) < survival.shape[1]:
             survival = np.multiply.reduceat(survival, starts, axis=1)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
+        occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))
         if resampled:
             total += (own[:, None, :] @ (1.0 - survival))[:, 0, :]
         else:
             total += own @ (1.0 - survival[0])
     with np.errstate(invalid="ignore"):
-        return np.clip(total / weight[:, None], 0.0, 1.0)
+        return np.clip(total / weight[:, None], 0.0, 1.0), occurring / weight
 
 
 def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:

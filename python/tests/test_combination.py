@@ -141,6 +141,32 @@ def test_dispersion_of_all():
     assert curve.beta_walls == pytest.approx(np.log(2.0) * np.sqrt(3.0) / 4.0, rel=1e-4)
 
 
+def test_saturation(people):
+    """The mean curve ends where no further mechanism can occur; the lognormal is that of the walls that can collapse."""
+    for group in ("", "facades", "towers"):
+        capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
+        curve = people.group(group=group)
+        finite = np.isfinite(capacity)
+        error = np.sqrt(curve.saturation * (1.0 - curve.saturation) / len(capacity))
+        assert abs(curve.saturation - finite.mean()) < 4.0 * error
+        assert people.mean(1e3, group=group) == pytest.approx(curve.saturation, rel=1e-6)
+        assert curve.curve(1e3) == pytest.approx(curve.saturation, rel=1e-6)
+        assert curve.fit.theta == pytest.approx(np.median(capacity[finite]), rel=0.1)
+    assert all(curve.saturation == 1.0 for curve in people.groups if curve.mechanism != "all")
+
+
+def test_dispersion_where_no_mechanism_may_occur():
+    """Walls that may not collapse at all: theta and beta are those of the others, whatever the levels end with."""
+    walls = [("a", "", 1.0, {"one_sided": (0.3, 0.4, 0.5)}), ("b", "", 3.0, {"two_block": (0.6, 0.2, 0.25)})]
+    capacity, _ = simulate(walls)
+    ln = np.log(capacity[np.isfinite(capacity)])
+    wide, narrow = typology_of(walls).group(), typology_of(walls, LEVELS[LEVELS < 1.0]).group()
+    assert wide.saturation == pytest.approx(0.3125, rel=1e-12)
+    assert wide.beta_walls**2 + wide.beta_records**2 == pytest.approx(ln.var(), rel=0.02)
+    assert (wide.fit.theta, wide.fit.beta) == pytest.approx((np.exp(ln.mean()), ln.std()), rel=0.05)
+    assert (narrow.fit.theta, narrow.fit.beta) == pytest.approx((wide.fit.theta, wide.fit.beta), rel=0.1)
+
+
 def test_each_wall(people):
     capacity, drawn = simulate(WALLS)
     walls = people.probabilities(X)

@@ -69,29 +69,32 @@ def test_brute_force(mixed, mechanism, group, over):
         records = rng.multinomial(9, np.full(9, 1 / 9), size=samples)
     for sample in range(samples):
         drawn = names if "walls" not in over else [names[i] for i in rng.integers(len(names), size=len(names))]
-        above, below = np.zeros(len(LEVELS)), 0.0
+        above, below, occurring = np.zeros(len(LEVELS)), 0.0, 0.0
         for name in drawn:
             rows = [i for i, wall in enumerate(population) if wall.name == name]
-            survival = np.ones(len(LEVELS))
+            survival, never = np.ones(len(LEVELS)), 1.0
             for i in rows:
                 number = reached[i].shape[-1]
                 times = np.array([records[sample][k % 9] for k in range(number)])
                 fraction = (reached[i][state] * times).sum(axis=-1) / number
                 if mechanism in (None, "all"):
                     survival *= 1.0 - population.p_occ[i] * fraction
+                    never *= 1.0 - population.p_occ[i]
                 elif population[i].mechanism == mechanism:
                     weight = population.weights[i] * population.p_occ[i]
-                    above, below = above + weight * fraction, below + weight
+                    above, below, occurring = above + weight * fraction, below + weight, occurring + weight
             if mechanism in (None, "all"):
                 above = above + population.weights[rows[0]] * (1.0 - survival)
                 below += population.weights[rows[0]]
+                occurring += population.weights[rows[0]] * (1.0 - never)
         if below == 0.0:
             # None of the walls that were drawn has the mechanism.
             assert np.isnan(result.mean_fraction[sample]).all()
             assert (result.status[sample], np.isnan(result.theta[sample])) == ("", True)
             continue
         assert result.mean_fraction[sample] == pytest.approx(above / below, rel=1e-12)
-        curve = dd.fit_fragility(LEVELS, above / below, 1.0)
+        assert result.saturation[sample] == pytest.approx(occurring / below, rel=1e-12)
+        curve = dd.fit_fragility(LEVELS, np.minimum(above / occurring, 1.0), 1.0)
         if curve.has_fit and result.status[sample]:
             assert (result.theta[sample], result.beta[sample]) == pytest.approx((curve.theta, curve.beta), rel=1e-6)
     assert result.over == tuple(kind for kind in ("records", "walls") if kind in over)

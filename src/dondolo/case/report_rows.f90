@@ -22,7 +22,7 @@ module dondolo_report_rows
       & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
       & 'bracket_high,edp_threshold', &
       & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
-      & 'fractile_50,fractile_84,beta_walls,beta_records,edp_threshold', &
+      & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
 
 contains
@@ -121,7 +121,7 @@ contains
          & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
          & trim(typology%fit%status)//','//quoted(typology%group)//','//to_table(typology%fractile(1, level))//','// &
          & to_table(typology%fractile(2, level))//','//to_table(typology%fractile(3, level))//','//dispersion//','// &
-         & to_table(threshold)
+         & to_table(typology%saturation)//','//to_table(threshold)
    end function typology_row
 
    !> A history

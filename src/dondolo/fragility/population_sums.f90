@@ -14,6 +14,8 @@ module dondolo_population_sums
       character(len=:), allocatable :: mechanism
       !> Sum of the weights
       real(wp) :: weight = 0.0_wp
+      !> Sum of weight and probability that any mechanism can occur
+      real(wp) :: occurring = 0.0_wp
       !> Number of walls
       integer :: walls = 0
       !> Sum of weight and fraction at each level
@@ -22,13 +24,13 @@ module dondolo_population_sums
       real(wp), allocatable :: curve(:)
       !> Sum of weight and histories of a stripe
       real(wp) :: histories = 0.0_wp
-      !> Weight of the walls with a curve
+      !> The same sum over the walls with a curve
       real(wp) :: fitted = 0.0_wp
-      !> Mean of their ln theta
+      !> Mean of their ln theta, with these weights
       real(wp) :: centre = 0.0_wp
-      !> Sum of weight and square of the distance from it
+      !> Sum of these weights and the square of the distance from it
       real(wp) :: squares = 0.0_wp
-      !> Sum of weight and square of beta
+      !> Sum of these weights and the square of beta
       real(wp) :: beta_squares = 0.0_wp
    end type sums_type
 
@@ -71,18 +73,20 @@ contains
             if (group%mechanism(place)%mechanism == wall%mechanism(m)) exit
          end do
          if (place > size(group%mechanism)) call add_mechanism(group, trim(wall%mechanism(m)), levels)
-         call sum_row(group%mechanism(place), wall%weight*wall%p_occ(m), f(:, m), p(:, m), wall%histories(m), &
+         call sum_row(group%mechanism(place), wall%weight*wall%p_occ(m), 1.0_wp, f(:, m), p(:, m), wall%histories(m), &
             & wall%curve(m))
       end do
-      call sum_row(group%all, wall%weight, f(:, m), p(:, m), wall%combined_histories(), wall%combined)
+      call sum_row(group%all, wall%weight, wall%occurrence(), f(:, m), p(:, m), wall%combined_histories(), wall%combined)
    end subroutine sum_wall
 
    !> Take a wall or one of its mechanisms into the sums of a curve
-   pure subroutine sum_row(sums, weight, fraction, p, histories, fit)
+   pure subroutine sum_row(sums, weight, occurrence, fraction, p, histories, fit)
       !> The sums
       type(sums_type), intent(inout) :: sums
       !> Its weight, positive
       real(wp), intent(in) :: weight
+      !> Probability that any mechanism can occur in it
+      real(wp), intent(in) :: occurrence
       !> Its fractions of collapse at each level
       real(wp), intent(in) :: fraction(:)
       !> Its probability of collapse at each level
@@ -92,20 +96,22 @@ contains
       !> Its lognormal
       type(fragility_type), intent(in) :: fit
 
-      real(wp) :: distance
+      real(wp) :: part, distance
 
       sums%walls = sums%walls + 1
       sums%weight = sums%weight + weight
+      part = weight*occurrence
+      sums%occurring = sums%occurring + part
       sums%fraction = sums%fraction + weight*fraction
       sums%curve = sums%curve + weight*p
       sums%histories = sums%histories + weight*real(histories, wp)
       if (.not. fit%has_fit()) return
-      sums%fitted = sums%fitted + weight
+      sums%fitted = sums%fitted + part
       ! The mean moves on with every wall, and the squares with it (West 1979): no difference of large sums.
       distance = log(fit%theta) - sums%centre
-      sums%centre = sums%centre + distance*weight/sums%fitted
-      sums%squares = sums%squares + weight*distance*(log(fit%theta) - sums%centre)
-      sums%beta_squares = sums%beta_squares + weight*fit%beta**2
+      sums%centre = sums%centre + distance*part/sums%fitted
+      sums%squares = sums%squares + part*distance*(log(fit%theta) - sums%centre)
+      sums%beta_squares = sums%beta_squares + part*fit%beta**2
    end subroutine sum_row
 
    !> Has a group a curve of all mechanisms, beside that of its only one?

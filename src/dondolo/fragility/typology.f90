@@ -43,15 +43,17 @@ module dondolo_typology
       real(wp), allocatable :: mean_curve(:)
       !> Probability that so much of the weight does not exceed (fractile_shares, levels)
       real(wp), allocatable :: fractile(:, :)
+      !> What the mean curve tends to: share of the weight in which any mechanism can occur, 1 for one mechanism
+      real(wp) :: saturation = 1.0_wp
       !> Dispersion between walls: weighted standard deviation of ln theta over the walls with a curve
       real(wp) :: beta_walls = 0.0_wp
       !> Dispersion between records: weighted root mean square of their beta
       real(wp) :: beta_records = 0.0_wp
-      !> Share of the weight that has a curve
+      !> Share of what can occur that has a curve
       real(wp) :: fitted = 0.0_wp
       !> Histories at each level that the fit counts: number of walls by the weighted mean of their histories
       real(wp) :: histories = 0.0_wp
-      !> Lognormal fitted to the mean fractions; its standard errors take the walls' histories for independent
+      !> Lognormal fitted to the mean fractions / saturation; its standard errors take the walls' histories for independent
       type(fragility_type) :: fit
    end type typology_type
 
@@ -254,7 +256,7 @@ contains
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: n(size(levels))
+      real(wp) :: n(size(levels)), z(size(levels))
 
       curve%group = group
       curve%mechanism = sums%mechanism
@@ -264,14 +266,17 @@ contains
       ! Rounding must not leave more collapses than histories.
       curve%mean_fraction = min(sums%fraction/sums%weight, 1.0_wp)
       curve%mean_curve = min(sums%curve/sums%weight, 1.0_wp)
-      curve%fitted = sums%fitted/sums%weight
+      curve%saturation = sums%occurring/sums%weight
+      if (sums%occurring > 0.0_wp) curve%fitted = sums%fitted/sums%occurring
       if (sums%fitted > 0.0_wp) then
          curve%beta_walls = sqrt(max(sums%squares/sums%fitted, 0.0_wp))
          curve%beta_records = sqrt(sums%beta_squares/sums%fitted)
       end if
       curve%histories = real(sums%walls, wp)*(sums%histories/sums%weight)
       n = curve%histories
-      call fit_fragility(curve%fit, levels, min(n*curve%mean_fraction, n), n, error)
+      z = n*curve%mean_fraction
+      if (curve%saturation > 0.0_wp) z = z/curve%saturation
+      call fit_fragility(curve%fit, levels, min(z, n), n, error)
    end subroutine make_curve
 
 end module dondolo_typology

@@ -32,11 +32,14 @@ module dondolo_wall_curves
       real(wp), allocatable :: fraction(:, :)
       !> Histories of a stripe of each
       integer, allocatable :: histories(:)
-      !> Lognormal fitted to the fractions of the wall as a whole; that of its mechanism, if one always can occur
+      !> Lognormal of the wall as a whole if a mechanism can occur in it: fitted to its fractions / occurrence; that of its
+      !> mechanism, if one always can occur
       type(fragility_type) :: combined
    contains
       !> Can the wall do anything but collapse by one mechanism?
       procedure :: is_mixed
+      !> Probability that any mechanism can occur
+      procedure :: occurrence
       !> Histories of a stripe of the wall as a whole
       procedure :: combined_histories
       !> Fractions of collapse of the mechanisms and of the wall as a whole
@@ -89,6 +92,7 @@ contains
       end if
       n = real(wall%combined_histories(), wp)
       part = wall%fractions()
+      if (wall%occurrence() > 0.0_wp) part = min(part/wall%occurrence(), 1.0_wp)
       call fit_fragility(wall%combined, levels, n*part(:, size(part, 2)), n, error)
    end subroutine new_wall_curves
 
@@ -99,6 +103,18 @@ contains
 
       is_mixed = size(self%p_occ) > 1 .or. any(self%p_occ < 1.0_wp)
    end function is_mixed
+
+   !> Probability that any mechanism can occur: what the probability of collapse tends to
+   pure real(wp) function occurrence(self)
+      !> The wall
+      class(wall_curves_type), intent(in) :: self
+
+      real(wp) :: certain(1, size(self%p_occ)), whole(1)
+
+      certain = 1.0_wp
+      whole = in_series(self%p_occ, certain)
+      occurrence = whole(1)
+   end function occurrence
 
    !> Histories of a stripe of the wall as a whole: no more than its mechanisms have
    pure integer function combined_histories(self)
