@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo import fragility
+from dondolo import _binding, fragility
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 
@@ -69,6 +69,11 @@ def compare(
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):
         curve._need_fit()
+    if any(curve.wall is None and curve.edp is not None for curve in (first, second)):
+        sentence = (
+            "walls of a population share their records: the comparison is too sure; typology.bootstrap tells more"
+        )
+        _binding.warn([sentence])
     if method == "likelihood":
         return _by_likelihood(first, second, level)
     if method == "bootstrap":

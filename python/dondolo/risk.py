@@ -36,6 +36,7 @@ seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic h
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -228,7 +229,8 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     if not callable(fragility):
         raise InputError(f"fragility: {type(fragility).__name__} is no curve")
     # A method knows the measure of its object, as the mean of a typology does; a plain function does not.
-    im = getattr(fragility, "im", "") or getattr(getattr(fragility, "__self__", None), "im", "")
+    method = fragility.func if isinstance(fragility, functools.partial) else fragility
+    im = getattr(method, "im", "") or getattr(getattr(method, "__self__", None), "im", "")
     if im and im != hazard.im:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -317,6 +317,7 @@ class Typology:
         over: str | Iterable[str] = ("records", "walls"),
         mechanism: str | None = None,
         group: str = "",
+        events: Sequence[Any] | None = None,
     ) -> TypologyBootstrap:
         """Fit the curve again to records and walls drawn with replacement.
 
@@ -336,16 +337,19 @@ class Typology:
             The curve of one mechanism; all combined if left out.
         group : str
             The curve of one group; '' for the whole population.
+        events : sequence, optional
+            A label for each record, such as its recording or its earthquake: records with the same label are drawn
+            together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
+            much evidence as they are.
 
         Returns
         -------
         TypologyBootstrap
         """
         if self.flags is None:
-            raise DondoloError(
-                "bootstrap: needs every history, so it is for results of typology, not for files read back"
-            )
-        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group)
+            raise DondoloError("bootstrap: needs every history: it is for results of typology, not for files read back")
+        self.group(mechanism, group)
+        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group, events)
 
     def _tables(self) -> dict[str, Any]:
         return {

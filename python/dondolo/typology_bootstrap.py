@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,6 +112,7 @@ def resample_population(
     over: str | Iterable[str] = _KINDS,
     mechanism: str | None = None,
     group: str = "",
+    events: Sequence[Any] | None = None,
 ) -> TypologyBootstrap:
     """Fit the curve of a population again to records and walls drawn with replacement.
 
@@ -127,7 +128,7 @@ def resample_population(
     generator = np.random.default_rng(seed)
     records = np.ones((n, flags.records))
     if "records" in kinds:
-        records[:] = generator.multinomial(flags.records, np.full(flags.records, 1.0 / flags.records), size=n)
+        records = _draw_records(flags.records, events, n, generator)
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
@@ -151,6 +152,18 @@ def resample_population(
         saturation,
         tuple(kind for kind in _KINDS if kind in kinds),
     )
+
+
+def _draw_records(number: int, events: Sequence[Any] | None, n: int, generator: np.random.Generator) -> FloatArray:
+    """How often each record is in each sample (samples, records); as many in all as there are records."""
+    labels = range(number) if events is None else list(events)
+    if len(labels) != number:
+        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
+    places: dict[Any, int] = {}
+    place = [places.setdefault(label, len(places)) for label in labels]
+    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
+    # Events with many records must not make a sample count for more histories than there are.
+    return drawn * (number / drawn.sum(axis=1, keepdims=True))
 
 
 def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:

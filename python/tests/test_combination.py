@@ -142,7 +142,7 @@ def test_dispersion_of_all():
 
 
 def test_saturation(people):
-    """The mean curve ends where no further mechanism can occur; the lognormal is that of the walls that can collapse."""
+    """The mean curve ends where nothing more can occur; the lognormal is that of the walls that can collapse."""
     for group in ("", "facades", "towers"):
         capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
         curve = people.group(group=group)
@@ -403,3 +403,8 @@ def test_figures(people, states, monkeypatch):
         lines = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) > len(what.levels)]
         for drawn, curve in zip(lines, curves, strict=True):
             assert np.array_equal(drawn.get_ydata(), curve(drawn.get_xdata()))
+
+
+def test_populations_are_compared_with_a_warning(people):
+    with pytest.warns(dd.DondoloWarning, match="share their records"):
+        dd.compare(people.fit("one_sided"), people.fit("two_block"))

@@ -207,3 +207,23 @@ def test_a_thousand_walls_take_little_time():
     start = time.perf_counter()
     resample_population(population, flags, LEVELS, n=1000)
     assert time.perf_counter() - start < 20.0
+
+
+def test_records_of_one_event_are_drawn_together(mixed):
+    """Two copies of every record are no more evidence than one, if it is said which belong together."""
+    population, flags, reached = mixed
+    twice = [
+        np.concatenate([row[..., k * 9 : (k + 1) * 9].repeat(2, axis=-1) for k in range(row.shape[-1] // 9)], axis=-1)
+        for row in reached
+    ]
+    doubled = flags_of(twice)
+    once = resample_population(population, flags, LEVELS, 200, 3, "records")
+    paired = resample_population(population, doubled, LEVELS, 200, 3, "records", events=[i // 2 for i in range(18)])
+    apart = resample_population(population, doubled, LEVELS, 200, 3, "records")
+    assert paired.mean_fraction == pytest.approx(once.mean_fraction, rel=1e-12)
+    assert apart.mean_fraction.std(axis=0).max() < 0.85 * paired.mean_fraction.std(axis=0).max()
+    # Events of different size: each is drawn as often, and a sample counts for as many histories.
+    uneven = resample_population(population, flags, LEVELS, 200, 3, "records", events=[0] * 5 + [1, 2, 3, 4])
+    assert np.nanmax(uneven.mean_fraction) <= 1.0
+    with pytest.raises(dd.InputError, match="events: 2 labels for 9 records: must be as many"):
+        resample_population(population, flags, LEVELS, 5, events=["a", "b"])
