@@ -35,10 +35,11 @@ from dondolo.processing import RotD, band_pass, correct_baseline, resample, reve
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.regression import Logistic, Regression
+from dondolo.report import report
 from dondolo.results import StoredResults, read_results
-from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
 from dondolo.risk import Risk, mean_annual_frequency
 from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
+from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.synthetic import synthetic_records
 from dondolo.typology import Group, Typology, typology
@@ -129,6 +130,7 @@ __all__ = [
     "read_record",
     "read_records",
     "read_results",
+    "report",
     "resample",
     "response_spectrum",
     "reverse",

@@ -17,7 +17,7 @@ from dondolo import _binding, tables
 from dondolo._blocks import run_walls
 from dondolo._flags import Flags, states_of
 from dondolo._request import new_request
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
 from dondolo.records import Record, as_records
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
@@ -111,7 +111,8 @@ class Typology:
     work : Work
         What was computed for all walls, and what was not.
     flags : Flags
-        The states that every history reaches, packed, which `bootstrap` needs.
+        The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
+        read back.
     """
 
     population: Population
@@ -328,8 +329,21 @@ class Typology:
         Returns
         -------
         TypologyBootstrap
+
+        Raises
+        ------
+        DondoloError
+            Records cannot be drawn where the results were read back from files.
         """
-        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group)
+        flags = self.flags
+        if flags is None:
+            if over not in ("walls", ("walls",), ["walls"]):
+                raise DondoloError(
+                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts, and not"
+                    " which records they are of"
+                )
+            flags = Flags.of_counts(self.exceedances, self.histories)
+        return resample_population(self.population, flags, self.levels, n, seed, over, mechanism, group)
 
     def _tables(self) -> dict[str, Any]:
         return {
