@@ -18,10 +18,13 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+# Typography, by name: they look like others
+DASH, MINUS, TIMES = "\N{EN DASH}", "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
+
 # Rows of a table that are written; what is left out is said
 ROWS = 500
 # A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
-_SVG_BYTES = 200_000
+_SVG_BYTES = 600_000
 _DOTS_PER_INCH = 180
 
 
@@ -60,14 +63,14 @@ def symbol(letter: str, index: str = "") -> Markup:
 def number(value: float | None, figures: int = 4) -> Markup:
     """A number with so many significant figures; a dash for none."""
     if value is None or np.isnan(value):
-        return Markup('<span title="none">–</span>')
+        return Markup(f'<span title="none">{DASH}</span>')
     if np.isinf(value):
-        return Markup("∞" if value > 0.0 else "−∞")
+        return Markup("∞" if value > 0.0 else f"{MINUS}∞")
     if value == round(value) and abs(value) < 1e15:
-        return Markup(whole(int(value)) if abs(value) >= 10**figures else str(int(value)).replace("-", "−"))
+        return Markup(whole(int(value)) if abs(value) >= 10**figures else str(int(value)).replace("-", MINUS))
     mantissa, _, power = f"{value:.{figures}g}".partition("e")
-    text = mantissa.replace("-", "−")
-    return Markup(text + (f" × 10<sup>{str(int(power)).replace('-', '−')}</sup>" if power else ""))
+    text = mantissa.replace("-", MINUS)
+    return Markup(text + (f" {TIMES} 10<sup>{str(int(power)).replace('-', MINUS)}</sup>" if power else ""))
 
 
 def whole(value: float) -> Markup:
@@ -105,14 +108,14 @@ def table(caption: Any, columns: dict[Any, Sequence[Any]], texts: Iterable[str] 
     rows : int
         Rows that are written at most.
     """
-    words = {list(columns)[0], *texts}
+    words = {next(iter(columns)), *texts}
     head = joined(*(tag("th", name, scope="col", class_="text" if name in words else "num") for name in columns))
     total = len(next(iter(columns.values())))
     body = []
     for row in zip(*(cells[:rows] for cells in columns.values()), strict=True):
         first, *others = zip(columns, row, strict=True)
         cells = [tag("td", cell, class_="text" if name in words else "num") for name, cell in others]
-        body.append(joined("<tr>" and Markup("<tr>"), tag("th", first[1], scope="row"), *cells, Markup("</tr>\n")))
+        body.append(joined(Markup("<tr>"), tag("th", first[1], scope="row"), *cells, Markup("</tr>\n")))
     note = f" First {rows} of {total} rows; all are in the result files." if total > rows else ""
     content = joined(tag("caption", caption, note), tag("thead", tag("tr", head)), Markup("\n"), tag("tbody", *body))
     label = re.sub("<[^>]*>", "", str(escaped(caption)))
@@ -267,7 +270,7 @@ nav ol { display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; margin: 1rem 0 0; pa
 .warnings ul { margin: 0; padding-left: 1.2rem; overflow-wrap: anywhere; }
 .fine { border-color: #9cc5a9; border-left-color: #2e7d4f; background: #f1f9f4; }
 figure { margin: 1.2rem 0; }
-figure img { display: block; max-width: 100%; height: auto; margin: 0 auto; }
+figure img { display: block; width: 40rem; max-width: 100%; height: auto; max-height: 46rem; margin: 0 auto; }
 figcaption { margin: .5rem auto 0; max-width: 42rem; color: var(--soft); font-size: .88rem; }
 .scroll { margin: 1rem 0; overflow-x: auto; }
 .scroll:focus-visible, summary:focus-visible { outline: 2px solid var(--blue); outline-offset: 2px; }
@@ -286,7 +289,8 @@ summary { padding: .3rem 0; color: var(--blue); cursor: pointer; font-weight: 60
 pre { margin: .8rem 0; padding: .9rem 1rem; border: 1px solid var(--line); border-radius: 3px; background: var(--wash);
   font: .8rem/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; white-space: pre-wrap;
   overflow-wrap: anywhere; }
-footer { margin-top: 3rem; padding-top: .8rem; border-top: 1px solid var(--line); color: var(--soft); font-size: .82rem; }
+footer { margin-top: 3rem; padding-top: .8rem; border-top: 1px solid var(--line); color: var(--soft);
+  font-size: .82rem; }
 @media (max-width: 40rem) {
   body { padding: 1.2rem 1rem 2rem; }
   h1 { font-size: 1.5rem; }

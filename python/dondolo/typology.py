@@ -339,8 +339,8 @@ class Typology:
         if flags is None:
             if over not in ("walls", ("walls",), ["walls"]):
                 raise DondoloError(
-                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts, and not"
-                    " which records they are of"
+                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts,"
+                    " and not which records they are of"
                 )
             flags = Flags.of_counts(self.exceedances, self.histories)
         return resample_population(self.population, flags, self.levels, n, seed, over, mechanism, group)
