@@ -69,8 +69,16 @@ def number(value: float | None, figures: int = 4) -> Markup:
     if value == round(value) and abs(value) < 1e15:
         return Markup(whole(int(value)) if abs(value) >= 10**figures else str(int(value)).replace("-", MINUS))
     mantissa, _, power = f"{value:.{figures}g}".partition("e")
+    if power and 0 < int(power) < 6:
+        return whole(float(f"{value:.{figures}g}"))
     text = mantissa.replace("-", MINUS)
     return Markup(text + (f" {TIMES} 10<sup>{str(int(power)).replace('-', MINUS)}</sup>" if power else ""))
+
+
+def parameter(value: float) -> Markup:
+    """A number with four significant figures, also where they are zeros: for columns of a kind."""
+    text = f"{value:#.4g}".removesuffix(".")
+    return number(value) if "e" in text or not np.isfinite(value) else Markup(text.replace("-", MINUS))
 
 
 def whole(value: float) -> Markup:
@@ -91,6 +99,8 @@ def probability(value: float) -> Markup:
 
 def percent(share: float) -> Markup:
     """A share in per cent."""
+    if 0.0 < share < 0.0005:
+        return Markup("&lt;0.1 %")
     return joined(number(100.0 * share, 3), " %")
 
 
@@ -246,7 +256,7 @@ header { border-bottom: 3px solid var(--blue); padding-bottom: 1.1rem; }
 .kicker { margin: 0; color: var(--blue); font-size: .8rem; font-weight: 600; letter-spacing: .06em;
   text-transform: uppercase; }
 h1 { margin: .25rem 0 .4rem; font-size: 1.95rem; line-height: 1.2; overflow-wrap: anywhere; }
-.lead { margin: 0; color: var(--soft); }
+.lead { margin: 0; max-width: none; color: var(--soft); }
 h2 { margin: 2.8rem 0 .8rem; padding-top: .3rem; font-size: 1.35rem; line-height: 1.25; }
 h3 { margin: 1.8rem 0 .5rem; font-size: 1.05rem; }
 p { margin: .6rem 0; max-width: 46rem; }
@@ -269,12 +279,13 @@ nav ol { display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; margin: 1rem 0 0; pa
 .warnings h2 { margin: 0 0 .3rem; padding: 0; color: var(--amber); font-size: 1.05rem; }
 .warnings ul { margin: 0; padding-left: 1.2rem; overflow-wrap: anywhere; }
 .fine { border-color: #9cc5a9; border-left-color: #2e7d4f; background: #f1f9f4; }
+sub, sup { line-height: 0; }
 figure { margin: 1.2rem 0; }
 figure img { display: block; width: 40rem; max-width: 100%; height: auto; max-height: 46rem; margin: 0 auto; }
 figcaption { margin: .5rem auto 0; max-width: 42rem; color: var(--soft); font-size: .88rem; }
 .scroll { margin: 1rem 0; overflow-x: auto; }
 .scroll:focus-visible, summary:focus-visible { outline: 2px solid var(--blue); outline-offset: 2px; }
-table { border-collapse: collapse; font-size: .84rem; line-height: 1.35; font-variant-numeric: tabular-nums; }
+table { min-width: 24rem; border-collapse: collapse; font-size: .84rem; line-height: 1.35; font-variant-numeric: tabular-nums; }
 caption { padding: 0 0 .45rem; color: var(--soft); font-size: .88rem; text-align: left; }
 th, td { padding: .26rem .7rem .26rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 thead th { border-bottom: 2px solid var(--ink); font-weight: 600; vertical-align: bottom; }

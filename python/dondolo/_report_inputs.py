@@ -20,6 +20,7 @@ from dondolo._page import (
     joined,
     number,
     paragraph,
+    parameter,
     percent,
     symbol,
     table,
@@ -106,8 +107,8 @@ def walls_chapter(run: Run) -> Markup:
     if isinstance(results, Typology):
         unit = _binding.unit_of(results.im) or "-"
         columns |= {
-            joined(THETA, f" [{unit}]"): [number(curve.theta) for curve in results.curves],
-            BETA: [number(curve.beta) for curve in results.curves],
+            joined(THETA, f" [{unit}]"): [parameter(curve.theta) for curve in results.curves],
+            BETA: [parameter(curve.beta) for curve in results.curves],
             "status": [curve.status for curve in results.curves],
         }
     words = ("group", "mechanism", "status")

@@ -51,7 +51,7 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
         found.append(
             f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the bounds of the annual frequency differ by"
-            f" more than 1 % for {', '.join(name for name, _ in short)}"
+            f" more than 1 % for {'; '.join(name for name, _ in short)}"
         )
     columns: dict[Any, Any] = {
         "curve": [name for name, _ in cases],

@@ -16,6 +16,7 @@ from dondolo._page import (
     joined,
     number,
     paragraph,
+    parameter,
     percent,
     probability,
     symbol,
@@ -180,11 +181,14 @@ def _typology_tables(people: Typology) -> Markup:
         content = _levels_table(state, state.group(), text)
         pieces.append(content if edp == limit else details(text, content))
     others = [curve for curve in people.groups if curve is not people.group()]
-    pieces += [
-        details(text, _levels_table(people, curve, text))
+    rest = [
+        _levels_table(
+            people, curve, f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}, collapse"
+        )
         for curve in others
-        for text in [f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}, collapse"]
     ]
+    if rest:
+        pieces.append(details(f"Each mechanism and group, collapse ({len(rest)} tables)", *rest))
     return joined(*pieces)
 
 
@@ -203,10 +207,10 @@ def _curves_table(people: Typology, caption: str) -> Markup:
         "mechanism": [mechanism_name(curve.mechanism) for curve in curves],
         "walls": [whole(curve.walls) for curve in curves],
         "weight": [number(curve.weight) for curve in curves],
-        joined(THETA, unit): [number(curve.fit.theta) for curve in curves],
-        BETA: [number(curve.fit.beta) for curve in curves],
-        symbol("β", "walls"): [number(curve.beta_walls) for curve in curves],
-        symbol("β", "records"): [number(curve.beta_records) for curve in curves],
+        joined(THETA, unit): [parameter(curve.fit.theta) for curve in curves],
+        BETA: [parameter(curve.fit.beta) for curve in curves],
+        symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
+        symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
         "largest misfit": [number(misfit(curve), 2) for curve in curves],
         "weight with a curve": [percent(curve.fitted) for curve in curves],
         "status": [curve.fit.status for curve in curves],
@@ -240,7 +244,7 @@ def _typology_uncertainty(people: Typology) -> Markup:
     low, high = samples.mean_interval()
     drawn = " and ".join(over)
     text = (
-        f"The whole analysis was repeated on {_SAMPLES} samples of {drawn}, drawn with replacement"
+        f"The curve was fitted again to {_SAMPLES} samples of {drawn}, drawn with replacement"
         " (bootstrap); the intervals hold the middle 95 % of them."
     )
     if stored:
@@ -257,9 +261,9 @@ def _typology_uncertainty(people: Typology) -> Markup:
     ]
     columns: dict[Any, Any] = {
         "parameter": [row[0] for row in rows],
-        "estimate": [number(row[1]) for row in rows],
-        "from": [number(row[2]) for row in rows],
-        "to": [number(row[3]) for row in rows],
+        "estimate": [parameter(row[1]) for row in rows],
+        "from": [parameter(row[2]) for row in rows],
+        "to": [parameter(row[3]) for row in rows],
     }
     levels: dict[Any, Any] = {
         level_head(people.im): [number(level) for level in people.levels],

@@ -8,7 +8,20 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding
-from dondolo._page import Markup, cards, facts, figure, joined, number, paragraph, percent, probability, table, whole
+from dondolo._page import (
+    Markup,
+    cards,
+    facts,
+    figure,
+    joined,
+    number,
+    paragraph,
+    parameter,
+    percent,
+    probability,
+    table,
+    whole,
+)
 from dondolo._report_words import BETA, LOGNORMAL, STATUSES, THETA, Chapter, level_head, quiet, state_name, with_unit
 from dondolo.fragility import Fragility
 from dondolo.motion import Response
@@ -102,11 +115,11 @@ def _stripes_tables(stripes: Stripes, curve: Fragility, thresholds: Sequence[flo
     states = [curve if edp == stripes.edp_limit else quiet(stripes.fit, float(edp)) for edp in thresholds]
     fits: dict[Any, Any] = {
         "damage state": [state_name(edp, stripes.edp_limit) for edp in thresholds],
-        joined(THETA, f" [{_binding.unit_of(stripes.im) or '-'}]"): [number(one.theta) for one in states],
+        joined(THETA, f" [{_binding.unit_of(stripes.im) or '-'}]"): [parameter(one.theta) for one in states],
         joined("standard error of ln ", THETA): [number(one.se_ln_theta, 3) for one in states],
-        BETA: [number(one.beta) for one in states],
+        BETA: [parameter(one.beta) for one in states],
         joined("standard error of ", BETA): [number(one.se_beta, 3) for one in states],
-        "log likelihood": [number(one.log_likelihood) for one in states],
+        "log likelihood": [parameter(one.log_likelihood) for one in states],
         "status": [one.status for one in states],
     }
     return joined(
@@ -133,8 +146,8 @@ def _stripes_uncertainty(curve: Fragility) -> Markup:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(_SAMPLES).parameter_interval()
     columns: dict[Any, Any] = {"method": list(methods)}
     for letter, name in ((THETA, "theta"), (BETA, "beta")):
-        columns[joined(letter, " from")] = [number(interval[name][0]) for interval in methods.values()]
-        columns[joined(letter, " to")] = [number(interval[name][1]) for interval in methods.values()]
+        columns[joined(letter, " from")] = [parameter(interval[name][0]) for interval in methods.values()]
+        columns[joined(letter, " to")] = [parameter(interval[name][1]) for interval in methods.values()]
     return joined(
         paragraph(
             "The first two methods take all histories for independent. The bootstrap draws whole records, and so knows"

@@ -93,4 +93,4 @@ def symbols(im: str) -> Markup:
 
 def date_in_words(moment: datetime) -> str:
     """A date in words."""
-    return f"{moment.day} {moment:%B %Y, %H:%M %Z}".strip()
+    return f"{moment.day} {moment:%B %Y, %H:%M %Z}".strip().replace(" ", "\N{NO-BREAK SPACE}")
