@@ -278,14 +278,17 @@ nav ol { display: flex; flex-wrap: wrap; gap: .2rem 1.4rem; margin: 1rem 0 0; pa
   border-radius: 3px; background: var(--amber-wash); }
 .warnings h2 { margin: 0 0 .3rem; padding: 0; color: var(--amber); font-size: 1.05rem; }
 .warnings ul { margin: 0; padding-left: 1.2rem; overflow-wrap: anywhere; }
+.warnings.fine h2 { margin: 0; color: #1f5f3a; }
 .fine { border-color: #9cc5a9; border-left-color: #2e7d4f; background: #f1f9f4; }
 sub, sup { line-height: 0; }
 figure { margin: 1.2rem 0; }
-figure img { display: block; width: 40rem; max-width: 100%; height: auto; max-height: 46rem; margin: 0 auto; }
+figure img { display: block; width: 40rem; max-width: 100%; height: auto; max-height: 38rem; margin: 0 auto;
+  object-fit: contain; }
 figcaption { margin: .5rem auto 0; max-width: 42rem; color: var(--soft); font-size: .88rem; }
 .scroll { margin: 1rem 0; overflow-x: auto; }
 .scroll:focus-visible, summary:focus-visible { outline: 2px solid var(--blue); outline-offset: 2px; }
-table { min-width: 24rem; border-collapse: collapse; font-size: .84rem; line-height: 1.35; font-variant-numeric: tabular-nums; }
+table { min-width: 24rem; border-collapse: collapse; font-size: .84rem; line-height: 1.35;
+  font-variant-numeric: tabular-nums; }
 caption { padding: 0 0 .45rem; color: var(--soft); font-size: .88rem; text-align: left; }
 th, td { padding: .26rem .7rem .26rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 thead th { border-bottom: 2px solid var(--ink); font-weight: 600; vertical-align: bottom; }
@@ -293,6 +296,7 @@ tbody th { font-weight: 400; text-align: left; }
 th.num, td.num { padding-left: .5rem; text-align: right; white-space: nowrap; }
 th.num { white-space: normal; }
 .text { text-align: left; }
+td.text { padding-left: .3rem; }
 tbody tr:hover { background: var(--wash); }
 tr.strong > * { font-weight: 600; }
 details { margin: .8rem 0; padding: .1rem 0 .1rem .9rem; border-left: 3px solid var(--line); }
@@ -310,15 +314,16 @@ footer { margin-top: 3rem; padding-top: .8rem; border-top: 1px solid var(--line)
 }
 @page { size: A4; margin: 16mm 15mm 18mm; }
 @media print {
-  body { max-width: none; padding: 0; font-size: 9.5pt; }
+  html { font-size: 9.5pt; }
+  body { max-width: none; padding: 0; }
   nav { display: none; }
-  h1 { font-size: 20pt; } h2 { font-size: 14pt; margin-top: 16pt; break-after: avoid; } h3 { break-after: avoid; }
+  h1 { font-size: 20pt; } h2 { margin-top: 1.6rem; break-after: avoid; } h3 { break-after: avoid; }
   a { color: inherit; text-decoration: none; }
   .scroll { overflow: visible; }
-  table { font-size: 7pt; } th, td { padding-right: .4rem; } th.num, td.num { padding-left: .2rem; }
+  table { font-size: 7.5pt; } th, td { padding-right: .4rem; } th.num, td.num { padding-left: .2rem; }
   thead { display: table-header-group; }
   tr, figure, .cards, .cards > div, .warnings, .facts > div { break-inside: avoid; }
-  figure img { max-height: 115mm; }
+  figure img { max-height: 100mm; }
   .cards > div, .warnings, pre { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 """

@@ -157,8 +157,9 @@ def _typology_tables(people: Typology) -> Markup:
             " and ",
             symbol("β", "records"),
             " part the dispersion between walls from that between records; they add in squares."
-            " The largest misfit is the greatest distance between the fitted curve and the mean fractions at the"
-            " levels: a lognormal only approximates a mixture of walls, the less so where some walls cannot collapse.",
+            " The misfit is the greatest distance between the fitted curve and the mean fractions at the"
+            " levels: a lognormal only approximates a mixture of walls, the less so where some walls cannot collapse."
+            " Fitted is the weight of the walls that have a curve of their own.",
         ),
         _curves_table(people, "Collapse"),
     ]
@@ -211,8 +212,8 @@ def _curves_table(people: Typology, caption: str) -> Markup:
         BETA: [parameter(curve.fit.beta) for curve in curves],
         symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
         symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
-        "largest misfit": [number(misfit(curve), 2) for curve in curves],
-        "weight with a curve": [percent(curve.fitted) for curve in curves],
+        "misfit": [number(misfit(curve), 2) for curve in curves],
+        "fitted": [percent(curve.fitted) for curve in curves],
         "status": [curve.fit.status for curve in curves],
     }
     return table(f"{caption}: parameters of the curves.", columns, ("mechanism", "status"))
