@@ -323,7 +323,7 @@ footer { margin-top: 3rem; padding-top: .8rem; border-top: 1px solid var(--line)
   table { font-size: 7.5pt; } th, td { padding-right: .4rem; } th.num, td.num { padding-left: .2rem; }
   thead { display: table-header-group; }
   tr, figure, .cards, .cards > div, .warnings, .facts > div { break-inside: avoid; }
-  figure img { max-height: 100mm; }
+  figure img { max-height: 90mm; }
   .cards > div, .warnings, pre { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
 """
