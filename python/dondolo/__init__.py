@@ -36,6 +36,7 @@ from dondolo.processing import RotD, band_pass, correct_baseline, resample, reve
 from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records import Record, read_catalogue, read_record, read_records
 from dondolo.regression import Logistic, Regression
+from dondolo.report import report
 from dondolo.results import StoredResults, read_results
 from dondolo.risk import Risk, mean_annual_frequency
 from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
@@ -131,6 +132,7 @@ __all__ = [
     "read_record",
     "read_records",
     "read_results",
+    "report",
     "resample",
     "response_spectrum",
     "reverse",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable
@@ -13,6 +14,7 @@ from typing import Any
 import dondolo as dd
 from dondolo import _binding
 from dondolo.catalogues import build_catalogue
+from dondolo.nrml import functions_of
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -58,6 +60,31 @@ def _parser() -> argparse.ArgumentParser:
     )
     plot.add_argument("--animate", action="store_true", help="of a motion, also write an animation (GIF)")
     plot.set_defaults(run=_plot)
+    report = commands.add_parser(
+        "report",
+        help="write a report of a run of the executable: one HTML file",
+        description="Write a report of a run of the executable from its CSV files: one HTML file with figures, tables, "
+        "inputs, checks and versions, which opens offline.",
+    )
+    report.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
+    report.add_argument("-o", "--output", help="the report; PREFIX_report.html if left out", metavar="FILE")
+    report.add_argument(
+        "--hazard",
+        help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, whose head "
+        "names the intensity measure, and annual_frequency",
+        metavar="FILE",
+    )
+    report.set_defaults(run=_report)
+    nrml = commands.add_parser(
+        "nrml",
+        help="write the curves of a run of the executable for OpenQuake",
+        description="Write the fragility curves of a run of the executable as a fragility model of OpenQuake, NRML "
+        "0.5: one function a group and mechanism, or of the wall, with its damage states. What has no fit "
+        "is written as fractions at the levels, and named on stderr.",
+    )
+    nrml.add_argument("prefix", help="what the names of the result files begin with, for example out/population")
+    nrml.add_argument("-o", "--output", help="the file; PREFIX_fragility.xml if left out", metavar="FILE")
+    nrml.set_defaults(run=_nrml)
     records = commands.add_parser(
         "records",
         help="print a table of the records of a catalogue",
@@ -91,6 +118,34 @@ def _catalogue(options: argparse.Namespace) -> None:
     for problem in made.problems:
         print(f"dondolo: left out: {problem}", file=sys.stderr)
     print(f"written: {made.path} ({made.records} records)")
+
+
+def _report(options: argparse.Namespace) -> None:
+    """Write the report of a run."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    path = options.output or f"{options.prefix}_report.html"
+    hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
+    dd.report(dd.read_results(options.prefix), path, hazard)
+    print(f"written: {path}")
+
+
+def _nrml(options: argparse.Namespace) -> None:
+    """Write the curves of a run for OpenQuake."""
+    path = options.output or f"{options.prefix}_fragility.xml"
+    results = dd.read_results(options.prefix)
+    curves = results.typology or results.fragility
+    if curves is None:
+        raise dd.InputError(f"{options.prefix}: is a single motion, which has no curves")
+    functions, sentences = functions_of(curves)
+    for sentence in sentences:
+        print(f"dondolo: {sentence}", file=sys.stderr)
+    if not functions:
+        raise dd.DondoloError(f"{options.prefix}: there is no curve that NRML can hold")
+    name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
+    dd.write_nrml(path, functions, id=name)
+    print(f"written: {path} ({len(functions)} function{'s' if len(functions) > 1 else ''})")
 
 
 def _plot(options: argparse.Namespace) -> None:

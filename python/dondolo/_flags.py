@@ -53,6 +53,16 @@ class Flags:
         sizes = _bytes_of(histories, levels * states)
         return cls(histories, levels, states, records, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
+    @classmethod
+    def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
+        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
+        states, levels, walls = exceedances.shape
+        bits = [
+            np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None])  # type: ignore[operator]
+            for i in range(walls)
+        ]
+        return cls(histories, levels, states, 1, np.concatenate(bits))
+
     @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:
         """Where the bytes of each wall begin, and the end of the last."""

@@ -45,18 +45,23 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.fragility import Fragility
+
+if TYPE_CHECKING:
+    from dondolo.typology import Typology
 
 FloatArray = _binding.FloatArray
 
@@ -197,6 +202,74 @@ def write_nrml(
     except OSError as error:
         part.unlink(missing_ok=True)
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
+
+
+def functions_of(results: Typology | Fragility) -> tuple[dict[str, dict[str, Curve]], list[str]]:
+    """Fragility functions of a population, one a group and mechanism with its damage states, or of a wall.
+
+    Parameters
+    ----------
+    results : Typology or Fragility
+        A population; or the curve of a wall with its stripes.
+
+    Returns
+    -------
+    functions : dict of dict
+        For `write_nrml`: continuous where every state has a fit and the curves do not cross, else the mean fractions.
+    sentences : list of str
+        What is written as fractions, or is left out, and why.
+    """
+    if isinstance(results, Fragility):
+        wall = results.wall.name if results.wall else "wall"
+        return {_taxonomy(wall): {"collapse": results}}, []
+    functions: dict[str, dict[str, Curve]] = {}
+    sentences = []
+    with warnings.catch_warnings():
+        # What has no fit is said by the sentences.
+        warnings.simplefilter("ignore", DondoloWarning)
+        states = {_state_name(float(edp)): results.at(float(edp)) for edp in results.edp_thresholds[:-1]}
+    states["collapse"] = results
+    for curve in results.groups:
+        name = _taxonomy(f"{curve.group or 'population'}/{curve.mechanism}")
+        if name in functions:
+            sentences.append(f"'{name}': left out: another group has the same name in letters of ASCII")
+            continue
+        of_states = {state: people.group(curve.mechanism, curve.group) for state, people in states.items()}
+        try:
+            smooth: dict[str, Curve] = {state: one.fit for state, one in of_states.items()}
+            _check_curves(name, smooth)
+            _continuous(ElementTree.Element("trial"), name, smooth, None, None, None)  # type: ignore[arg-type]
+            functions[name] = smooth
+            continue
+        except (InputError, DondoloError) as error:
+            reason = _reason(error)
+        try:
+            points: dict[str, Curve] = {
+                state: DiscreteFragility(results.levels, one.mean_fraction, results.im)
+                for state, one in of_states.items()
+            }
+            _discrete(ElementTree.Element("trial"), name, points, None)  # type: ignore[arg-type]
+            functions[name] = points
+            sentences.append(f"'{name}': written as fractions at the levels: {reason}")
+        except InputError as error:
+            sentences.append(f"'{name}': left out: {reason}; its fractions: {_reason(error)}")
+    return functions, sentences
+
+
+def _reason(error: Exception) -> str:
+    """What is wrong, without whose it is and what else could be done."""
+    text = re.sub(r"^taxonomy '[^']*'(?:, |: )", "", str(error))
+    return re.split(r"; its fractions|: choose min|: choose max", text)[0]
+
+
+def _taxonomy(text: str) -> str:
+    """A name as the format takes it."""
+    return re.sub(r"[^!$-&(-~]", "_", text)[:100]
+
+
+def _state_name(edp: float) -> str:
+    """Name of a damage state: the format takes no point."""
+    return f"edp_{edp:g}".replace(".", "p").replace("+", "")
 
 
 def _states(functions: Mapping[str, Mapping[str, Curve]]) -> tuple[str, ...]:

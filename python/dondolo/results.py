@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import os
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -50,6 +51,10 @@ class StoredResults:
         Task 'stripes'.
     typology : Typology or None
         Task 'typology'.
+    comments : tuple of str
+        Head of the files: versions, the case with all its variables, counts of the work, warnings of the run.
+    written : datetime or None
+        When the file of the walls was last written.
     """
 
     population: Population
@@ -57,6 +62,8 @@ class StoredResults:
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
+    comments: tuple[str, ...] = ()
+    written: datetime | None = None
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
@@ -80,16 +87,18 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     prefix = os.fspath(prefix)
     walls, comments = _read(prefix + "_walls.csv")
     gravity = _setting(comments, "gravity", 9.81)
+    written = datetime.fromtimestamp(os.path.getmtime(prefix + "_walls.csv")).astimezone()
     try:
         population = _population(walls, gravity)
+        stored = StoredResults(population, comments=tuple(comments), written=written)
         # The files of another task may lie there from a run before: the walls' file tells the task of the last.
         task = next((found.group(1) for line in comments if (found := re.match(r"&job task = '(\w+)'", line))), "")
         if task == "history":
-            return StoredResults(population, response=_response(prefix + "_history.csv", population.walls[0], comments))
+            return replace(stored, response=_response(prefix + "_history.csv", population.walls[0], comments))
         if task == "stripes":
             stripes = _stripes(prefix + "_histories.csv", population.walls[0])
-            return StoredResults(population, stripes=stripes, fragility=stripes.fit())
-        return StoredResults(population, typology=_typology(prefix + "_stripes.csv", population))
+            return replace(stored, stripes=stripes, fragility=stripes.fit())
+        return replace(stored, typology=_typology(prefix + "_stripes.csv", population))
     except (KeyError, ValueError, IndexError) as error:
         if isinstance(error, InputError):
             raise

@@ -123,7 +123,8 @@ class Typology:
     work : Work
         What was computed for all walls, and what was not.
     flags : Flags
-        The states that every history reaches, packed, which `bootstrap` needs.
+        The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
+        read back.
     """
 
     population: Population
@@ -345,11 +346,22 @@ class Typology:
         Returns
         -------
         TypologyBootstrap
+
+        Raises
+        ------
+        DondoloError
+            Records cannot be drawn where the results were read back from files.
         """
-        if self.flags is None:
-            raise DondoloError("bootstrap: needs every history: it is for results of typology, not for files read back")
+        flags = self.flags
+        if flags is None:
+            if over not in ("walls", ("walls",), ["walls"]):
+                raise DondoloError(
+                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts,"
+                    " and not which records they are of"
+                )
+            flags = Flags.of_counts(self.exceedances, self.histories)
         self.group(mechanism, group)
-        return resample_population(self.population, self.flags, self.levels, n, seed, over, mechanism, group, events)
+        return resample_population(self.population, flags, self.levels, n, seed, over, mechanism, group, events)
 
     def _tables(self) -> dict[str, Any]:
         return {

@@ -1,0 +1,112 @@
+"""Chapter of a report on how often a wall collapses at its site."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+from dondolo import _binding
+from dondolo._page import figure, joined, number, paragraph, percent, table
+from dondolo._report_typology import combined
+from dondolo._report_words import Chapter, quiet, state_name
+from dondolo.errors import DondoloWarning
+from dondolo.hazard import HazardCurve
+from dondolo.typology import Typology
+
+_YEARS = 50.0
+
+
+def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter, list[str]]:
+    """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
+    from dondolo.risk import mean_annual_frequency
+    from dondolo.risk_plots import plot_risk
+
+    population = isinstance(results, Typology)
+    if population:
+        limit = float(results.edp_thresholds[-1])
+        cases = [
+            (f"whole population, {state_name(edp, limit)}", quiet(results.at, float(edp)).mean)
+            for edp in results.edp_thresholds
+        ]
+        cases += [
+            (f"{one.group}, collapse", lambda x, name=one.group: results.mean(x, group=name))
+            for one in combined(results)
+            if one.group
+        ]
+        # The measure is checked against that of the population first, by its own method.
+        main = len(results.edp_thresholds) - 1
+    else:
+        cases, main = [("collapse", curve)], 0
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", DondoloWarning)
+        risks = [mean_annual_frequency(fragility, hazard) for _, fragility in cases]
+    risk = risks[main]
+    low, high = risk.bounds
+    found = []
+    if any(issubclass(one.category, DondoloWarning) for one in caught):
+        short = [
+            (name, one) for (name, _), one in zip(cases, risks, strict=True) if one.bounds[0] < 0.99 * one.bounds[1]
+        ]
+        first, last = hazard.im_levels[[0, -1]]
+        unit = f" {_binding.unit_of(hazard.im)}".rstrip()
+        found.append(
+            f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the bounds of the annual frequency differ by"
+            f" more than 1 % for {'; '.join(name for name, _ in short)}"
+        )
+    columns: dict[Any, Any] = {
+        "curve": [name for name, _ in cases],
+        "annual frequency from": [number(one.bounds[0], 3) for one in risks],
+        "to [1/year]": [number(one.bounds[1], 3) for one in risks],
+        "return period [years]": [number(one.return_period, 3) for one in risks],
+        f"probability in {_YEARS:g} years": [number(one.probability(_YEARS), 3) for one in risks],
+    }
+    edges = hazard.im_levels
+    parts = risk.deaggregate(edges)
+    unit = _binding.unit_of(hazard.im) or "-"
+    shares: dict[Any, Any] = {
+        f"{hazard.im} from [{unit}]": [number(x) for x in edges[:-1]],
+        f"to [{unit}]": [number(x) for x in edges[1:]],
+        "exceeded, lower end [1/year]": [number(h, 3) for h in hazard.annual_frequency[:-1]],
+        "contribution [1/year]": [number(part, 3) for part in parts],
+        "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
+    }
+    who = (
+        "For a population it is that of a wall drawn by weight: the share of the walls lost a year. "
+        if population
+        else ""
+    )
+    content = joined(
+        paragraph(
+            "The mean annual frequency of collapse is the integral of the fragility over the hazard of the site,"
+            " λ = ∫ P(C | x) |dH(x)|, where H(x) is how often a year the intensity x is exceeded. ",
+            who,
+            "It lies between ",
+            number(low, 3),
+            " and ",
+            number(high, 3),
+            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Return period and"
+            f" probability in {_YEARS:g} years (events as a Poisson process) belong to the lower bound.",
+        ),
+        figure(
+            lambda: plot_risk(risk),
+            f"Hazard, fragility and the intensities that the risk comes from: {low:.3g} to {high:.3g} a year.",
+            "Above, the hazard of the site; in the middle, the fragility; below, which intensities the frequency of"
+            " collapse comes from.",
+        ),
+        table("Mean annual frequencies.", columns),
+        table(
+            f"Deaggregation of the frequency of collapse{', whole population' if population else ''}: what intensities"
+            " between the levels of the hazard contribute.",
+            shares,
+        ),
+        paragraph(
+            "Above the highest level: between ",
+            number(risk.above[0], 3),
+            " and ",
+            number(risk.above[1], 3),
+            " a year; below the lowest: up to ",
+            number(risk.below[1], 3),
+            ".",
+        ),
+    )
+    return ("risk", "Annual frequency of collapse", content), found

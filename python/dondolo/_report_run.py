@@ -1,0 +1,155 @@
+"""What a report knows of a run: gathered from whatever holds its results."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+
+from dondolo._request import new_request
+from dondolo.cases import Results
+from dondolo.errors import DondoloWarning, InputError
+from dondolo.fragility import Fragility
+from dondolo.motion import Response
+from dondolo.population import Population
+from dondolo.records import Record
+from dondolo.results import StoredResults
+from dondolo.stripes import Stripes
+from dondolo.typology import Typology, combine
+
+_STATES = (0.1, 0.4, 1.0)
+LARGE_SCALE = 10.0
+
+
+@dataclass
+class Run:
+    """All that is known of a run.
+
+    Attributes
+    ----------
+    results : Typology, Stripes or Response
+    population : Population
+    title : str
+    curve : Fragility or None
+        Of stripes.
+    thresholds : sequence of float
+        Damage states of stripes.
+    records : tuple of Record
+        Those that are at hand.
+    settings : list
+        Names of what was asked for, and values.
+    comments : tuple of str
+        Head of the result files.
+    written : datetime or None
+        Their date.
+    warnings : list of str
+    """
+
+    results: Typology | Stripes | Response
+    population: Population
+    title: str
+    curve: Fragility | None = None
+    thresholds: Sequence[float] = ()
+    records: tuple[Record, ...] = ()
+    settings: list[tuple[Any, Any]] = field(default_factory=list)
+    comments: tuple[str, ...] = ()
+    written: datetime | None = None
+    warnings: list[str] = field(default_factory=list)
+
+
+def run_of(results: Any) -> Run:
+    """Gather what the objects hold."""
+    if isinstance(results, StoredResults):
+        given = results.typology or results.stripes or results.response
+        run = run_of(given)
+        run.comments, run.written = results.comments, results.written
+        run.title = quoted("title", results.comments) or run.title
+        run.population = results.population
+        run.warnings = _merged(heads("warning:", results.comments), run.warnings)
+        run.thresholds = _thresholds(results) or run.thresholds
+        return run
+    if isinstance(results, Results):
+        case = results.case
+        run = run_of(results.typology or results.stripes or results.response)
+        run.title, run.population = case.title or run.title, case.population
+        run.records = case.records if case.task != "history" else (case.records[case.record],)
+        run.settings = [
+            ("task", case.task),
+            ("intensity measure", case.im),
+            *([("polarity", case.polarity)] if case.task != "history" else []),
+            ("levels", ", ".join(f"{level:g}" for level in case.levels) or "none"),
+            ("damage states (EDP)", ", ".join(f"{edp:g}" for edp in case.edp_thresholds)),
+            ("engine", case.engine),
+            ("rtol, atol", f"{case.rtol:g}, {case.atol:g}"),
+            ("edp_limit", f"{case.edp_limit:g}"),
+        ]
+        if case.task == "typology":
+            solver = (case.engine, case.rtol, case.atol, case.edp_limit, 1)
+            plan = new_request(case.population.walls, case.records, case.levels, case.im, case.polarity, *solver).plan()
+            run.warnings = _merged(plan.warnings, run.warnings)
+        if case.task == "stripes" and len(case.edp_thresholds) > 1:
+            run.thresholds = case.edp_thresholds
+        return run
+    if isinstance(results, Typology):
+        everyone = np.ones(len(results.population), dtype=bool)
+        counts = (results.edp_thresholds[-1:], results.exceedances[-1:], results.histories)
+        _, found = combine(results.population, results.im, results.levels, *counts, everyone, results.work)
+        walls = len(results.combined)
+        title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.walls[0].name}"
+        return Run(results, results.population, title, warnings=found)
+    if isinstance(results, Stripes):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always", DondoloWarning)
+            curve = results.fit()
+        large = float(np.mean(results.scale > LARGE_SCALE))
+        found = [str(one.message) for one in caught if issubclass(one.category, DondoloWarning)]
+        if large:
+            many, most = int(np.sum(results.scale > LARGE_SCALE)), results.scale.max()
+            found.insert(
+                0, f"scale factors above 10 in {many} of {results.scale.size} histories, the largest {most:.4g}"
+            )
+        settings = [
+            ("engine", results.engine),
+            ("rtol, atol", f"{results.rtol:g}, {results.atol:g}"),
+            ("edp_limit", f"{results.edp_limit:g}"),
+        ]
+        thresholds = [share * results.edp_limit for share in _STATES]
+        title = f"Fragility of {results.wall.name}"
+        return Run(results, Population((results.wall,)), title, curve, thresholds, settings=settings, warnings=found)
+    if isinstance(results, Response):
+        title = f"{results.wall.name} in {results.record.name}"
+        return Run(results, Population((results.wall,)), title, records=(results.record,))
+    raise InputError(f"results: {type(results).__name__} is nothing that a report can be made of")
+
+
+def heads(start: str, comments: Sequence[str]) -> list[str]:
+    """What stands in the comments after a word."""
+    return [line[len(start) :].strip() for line in comments if line.startswith(start)]
+
+
+def quoted(name: str, comments: Sequence[str]) -> str:
+    """A text of the case."""
+    for line in comments:
+        found = re.match(rf"(?:&\w+ +)?{name} = '((?:[^']|'')*)'", line)
+        if found:
+            return found.group(1).replace("''", "'")
+    return ""
+
+
+def _thresholds(stored: StoredResults) -> list[float]:
+    """Damage states that the case of a wall names, if there are several."""
+    line = next((line for line in stored.comments if line.startswith("edp_thresholds = ")), "")
+    values = [float(value) for value in re.findall(r"[0-9][-+0-9.eE]*", line)]
+    return values if len(values) > 1 else []
+
+
+def _merged(first: Sequence[str], second: Sequence[str]) -> list[str]:
+    """Sentences of both, once each: of a run, and of the same fits repeated; a run knows more of its scale factors."""
+    scales = any(line.startswith("scale factors above") for line in first)
+    kept = [line for line in second if not (scales and line.startswith("scale factors above"))]
+    return list(dict.fromkeys([*first, *kept]))

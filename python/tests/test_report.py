@@ -1,0 +1,505 @@
+"""The report of a run: a page that is well formed, needs nothing else, and repeats the results' numbers."""
+
+import dataclasses
+import functools
+import html.parser
+import http.server
+import os
+import re
+import shutil
+import subprocess
+import sys
+import threading
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+from dondolo.nrml import functions_of
+
+import dondolo as dd
+from dondolo import _page
+
+matplotlib.use("agg")
+
+VOID = {"meta", "link", "img", "br", "hr", "input"}
+NASTY = "<b>\"x\" & 'y'</b>"
+
+
+class Page(html.parser.HTMLParser):
+    """A page read: its text, ids, links and tables; tags that do not fit are errors."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.ids, self.links, self.tables, self.images = [], [], [], {}, []
+        self.words, self.errors, self.heads = [], [], []
+        self.cell = None
+        self.feed(text)
+        self.close()
+        self.errors += [f"<{name}> stays open" for name in self.open]
+        self.text = " ".join("".join(self.words).split())
+
+    def handle_starttag(self, tag, attributes):
+        known = dict(attributes)
+        if len(known) < len(attributes):
+            self.errors.append(f"<{tag}> has an attribute twice")
+        if "id" in known:
+            self.ids.append(known["id"])
+        self.links += [known[name] for name in ("href", "src", "srcset", "action", "data") if name in known]
+        if tag == "img":
+            self.images.append(known)
+        if tag == "th":
+            self.heads.append(known.get("scope"))
+        if tag == "table":
+            self.rows, self.caption = [], ""
+        if tag == "tr":
+            self.rows.append([])
+        if tag in ("th", "td", "caption"):
+            self.cell = []
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.errors.append(f"</{tag}> closes nothing, at {self.getpos()}")
+        if tag in ("th", "td"):
+            self.rows[-1].append("".join(self.cell))
+        if tag == "caption":
+            self.caption = "".join(self.cell)
+        if tag == "table":
+            self.tables[self.caption] = self.rows
+        if tag in ("th", "td", "caption"):
+            self.cell = None
+
+    def handle_data(self, data):
+        if not self.open or self.open[-1] != "style":
+            self.words.append(data)
+        if self.cell is not None:
+            self.cell.append(data)
+
+    def table(self, start):
+        """Columns of the table whose caption begins so."""
+        (rows,) = (rows for caption, rows in self.tables.items() if caption.startswith(start))
+        head, *body = rows
+        return {name: [row[i] for row in body] for i, name in enumerate(head)}
+
+
+def read(path):
+    text = Path(path).read_text(encoding="utf-8")
+    page = Page(text)
+    page.source = text
+    return page
+
+
+def four(values):
+    """Numbers as the columns of parameters show them."""
+    return ["–" if np.isnan(value) else f"{value:#.4g}" for value in values]  # noqa: RUF001
+
+
+def chances(values):
+    return [
+        re.sub("<.*?>", "", str(_page.probability(value))).replace("&lt;", "<").replace("&gt;", ">") for value in values
+    ]
+
+
+@pytest.fixture(scope="module")
+def people(few):
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.TwoBlockWall(3.0, 0.25, name="a"),
+        dd.OneSidedWall(2.0, 0.30, name="b"),
+        dd.OneSidedWall(0.5, 1.0, name="never"),
+    ]
+    population = dd.Population(walls, [2.0, 2.0, 1.0, 0.5], ["low", "low", "high", "high"], [0.6, 0.5, 1.0, 1.0])
+    levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
+    with pytest.warns(dd.DondoloWarning):
+        return dd.typology(population, few, levels, edp_thresholds=[0.3], progress=False)
+
+
+@pytest.fixture(scope="module")
+def hazard():
+    return dd.HazardCurve([0.02, 0.1, 0.5, 2.5], [0.1, 0.01, 3e-4, 2e-6])
+
+
+@pytest.fixture(scope="module")
+def runs(executable, root, tmp_path_factory):
+    """Prefixes of runs of the executable."""
+    folder = tmp_path_factory.mktemp("runs")
+    for case in ("two_block", "history", "population"):
+        subprocess.run([executable, "--quiet", root / "data/cases" / f"{case}.nml"], cwd=folder, check=True)
+    return folder / "out"
+
+
+@pytest.fixture(scope="module")
+def pages(people, stripes, wall, records, hazard, tmp_path_factory):
+    """Reports of everything that there is in memory."""
+    folder = tmp_path_factory.mktemp("pages")
+    dd.report(people, folder / "typology.html", hazard)
+    dd.report(stripes, folder / "stripes.html", hazard)
+    dd.report(dd.simulate(wall, records[6]), folder / "history.html")
+    return folder
+
+
+KINDS = ("typology", "stripes", "history")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_page_is_well_formed_and_needs_nothing_else(kind, pages):
+    page = read(pages / f"{kind}.html")
+    assert page.errors == []
+    assert len(page.ids) == len(set(page.ids)) > 5
+    assert all(link.startswith(("#", "data:")) for link in page.links)
+    assert {link[1:] for link in page.links if link.startswith("#")} == set(page.ids)
+    assert not re.search(r"https?://|@import|url\(|<script|\son\w+=", re.sub(r'"data:[^"]*"', "", page.source))
+    assert page.source.startswith('<!DOCTYPE html>\n<html lang="en">')
+    assert re.search("<title>[^<]+</title>", page.source)
+    assert page.images
+    assert all(len(image["alt"]) > 20 for image in page.images)
+    assert set(page.heads) <= {"col", "row"}
+    assert len(page.source) < 1_000_000
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_page_is_html5(kind, pages):
+    html5lib = pytest.importorskip("html5lib")
+    html5lib.HTMLParser(strict=True).parse(read(pages / f"{kind}.html").source)
+
+
+def test_numbers_are_those_of_the_results(people, pages):
+    page = read(pages / "typology.html")
+    table = page.table("Collapse: parameters")
+    assert table["group"] == [curve.group or "whole population" for curve in people.groups]
+    assert table["walls"] == [str(curve.walls) for curve in people.groups]
+    assert table["θ [g]"] == four(curve.fit.theta for curve in people.groups)
+    assert table["β"] == four(curve.fit.beta for curve in people.groups)
+    assert table["βwalls"] == four(curve.beta_walls for curve in people.groups)
+    assert table["βrecords"] == four(curve.beta_records for curve in people.groups)
+    assert table["status"] == [curve.fit.status for curve in people.groups]
+    with pytest.warns(dd.DondoloWarning):
+        state = dataclasses.replace(people, _states={}).at(0.3)
+    table = page.table("Damage state EDP ≥ 0.3")
+    assert table["θ [g]"] == four(curve.fit.theta for curve in state.groups)
+    table, curve = page.table("Whole population, collapse"), people.group()
+    assert table["mean of curves"] == chances(curve.mean_curve)
+    assert table["16 % fractile"] == chances(curve.fractiles[0])
+    assert table["84 % fractile"] == chances(curve.fractiles[2])
+    table = page.table("high, one-sided, collapse")
+    assert table["50 % fractile"] == chances(people.group("one_sided", "high").fractiles[1])
+    table = page.table("Walls and mechanisms")
+    assert table["wall"] == ["a", "a", "b", "never"]
+    assert table["θ [g]"] == four(curve.theta for curve in people.curves)
+    assert table["status"] == [curve.status for curve in people.curves]
+    samples = people.bootstrap(500).parameter_interval()
+    table = page.table("95 % intervals of the parameters")
+    assert table["from"] == four(samples[name][0] for name in ("theta", "beta"))
+    assert table["to"] == four(samples[name][1] for name in ("theta", "beta"))
+
+
+def test_statuses_are_counted(people, pages):
+    table = read(pages / "typology.html").table("Fits of the single walls")
+    assert dict(zip(table["status"], table["collapse"], strict=True)) == {"ok": "3", "no_collapse": "1"}
+
+
+def test_numbers_of_a_wall(stripes, pages):
+    page, curve = read(pages / "stripes.html"), stripes.fit()
+    table = page.table("Curves of the damage states")
+    assert table["damage state"] == ["EDP ≥ 0.1", "EDP ≥ 0.4", "collapse"]
+    assert table["θ [g]"] == four(stripes.fit(edp).theta for edp in (0.1, 0.4, 1.0))
+    table = page.table("Stripes")
+    assert table["collapses"] == [str(z) for z in stripes.collapses]
+    assert table["fitted curve"] == chances(curve(stripes.levels))
+    table = page.table("95 % intervals")
+    assert table["θ from"][1] == four([curve.parameter_interval(method="profile")["theta"][0]])[0]
+    table = page.table("Records, and collapses")
+    assert table["record"] == list(stripes.record_names)
+    # The intensity of a record is a level over its factor.
+    assert table["pga unscaled [g]"][0] == f"{stripes.levels[2] / stripes.scale[2, 0]:.4g}"
+    large = 100.0 * np.mean(stripes.scale > 10.0)
+    assert f"{large:.3g} % of the histories, the largest {stripes.scale.max():.4g}" in page.text
+
+
+def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
+    page = read(pages / "typology.html")
+    risk = dd.mean_annual_frequency(people.mean, hazard)
+    table = page.table("Mean annual frequencies")
+    shown = dict(zip(table["curve"], table["annual frequency from"], strict=True))
+
+    def value(text):
+        mantissa, _, power = text.partition(" \N{MULTIPLICATION SIGN} 10")
+        return float(mantissa) * 10.0 ** int(power.replace("\N{MINUS SIGN}", "-") or 0)
+
+    assert list(shown) == [
+        "whole population, EDP ≥ 0.3",
+        *(f"{who}, collapse" for who in ("whole population", "low", "high")),
+    ]
+    assert value(shown["whole population, collapse"]) == pytest.approx(risk.frequency, rel=5e-3)
+    high = dd.mean_annual_frequency(lambda x: people.mean(x, group="high"), hazard)
+    assert value(shown["high, collapse"]) == pytest.approx(high.frequency, rel=5e-3)
+    parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
+    np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
+    alone = read(pages / "stripes.html").table("Mean annual frequencies")["to [1/year]"]
+    assert value(alone[0]) == pytest.approx(dd.mean_annual_frequency(stripes.fit(), hazard).bounds[1], rel=5e-3)
+
+
+@pytest.mark.parametrize("case", ["two_block", "history", "population"])
+def test_files_tell_the_run(case, runs, tmp_path):
+    stored = dd.read_results(runs / case)
+    dd.report(stored, tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    assert page.errors == []
+    warned = [line.removeprefix("warning:").strip() for line in stored.comments if line.startswith("warning:")]
+    shown = re.search('<aside class="warnings.*?</aside>', page.source, re.S).group(0)
+    assert [item.text for item in ElementTree.fromstring(shown).iter("li")] == warned
+    assert bool(warned) == (case != "history")
+    title = next(line for line in stored.comments if line.startswith("title")).split("'")[1]
+    assert f"<title>{title}</title>" in page.source
+    assert f"{stored.written.day}\N{NO-BREAK SPACE}{stored.written:%B}" in page.source
+    for line in stored.comments[:3]:
+        assert line.partition(": ")[2] in page.text
+    for line in stored.comments:
+        if line.startswith("&"):
+            assert " ".join(line.split()) in page.text
+
+
+def test_a_case_run_in_python_knows_its_records(root, tmp_path):
+    run = dd.run_case(root / "data/cases/two_block.nml", progress=False)
+    dd.report(run, tmp_path / "report.html", title="Mine")
+    page = read(tmp_path / "report.html")
+    assert "<title>Mine</title>" in page.source
+    assert "scale factors above 10 in 123 of 396 histories" in page.text
+    history = dd.run_case(root / "data/cases/history.nml", progress=False)
+    dd.report(history, tmp_path / "report.html")
+    assert history.case.title in read(tmp_path / "report.html").text
+
+
+def test_texts_are_escaped(few, tmp_path):
+    names = [NASTY, "$_{1}$ and $", "_under", "100 %"]
+    walls = [dd.OneSidedWall(1.5, 0.25 + 0.01 * i, name=name) for i, name in enumerate(names)]
+    population = dd.Population(walls, groups=names)
+    people = dd.typology(population, few, [0.3, 0.5, 0.7, 0.9], edp_thresholds=[0.4], progress=False)
+    stripes = dd.multiple_stripe(walls[0], few, [0.3, 0.5, 0.7, 0.9], progress=False)
+    record = dd.Record(few[0].acceleration, few[0].dt, name=NASTY)
+    for results in (people, stripes, dd.simulate(walls[0], record, 3.0)):
+        dd.report(results, tmp_path / "report.html", title=NASTY)
+        page = read(tmp_path / "report.html")
+        assert page.errors == []
+        assert NASTY in page.text
+        assert "<b>" not in page.source
+
+
+def test_long_tables_are_cut_and_say_so():
+    page = Page(_page.table("Much", {"number": [str(i) for i in range(_page.ROWS + 7)]}))
+    (rows,) = page.tables.values()
+    assert len(rows) == _page.ROWS + 1
+    assert f"First {_page.ROWS} of {_page.ROWS + 7} rows" in page.text
+
+
+def test_numbers_are_shown_as_people_write_them():
+    def plain(piece):
+        return re.sub("<.*?>", "", str(piece))
+
+    assert plain(_page.number(4.5e-7)) == "4.5 \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}7"
+    assert plain(_page.number(-0.25)) == "\N{MINUS SIGN}0.25"
+    assert plain(_page.number(5725.29, 3)) == "5\u202f730"
+    assert plain(_page.number(np.inf)) == "∞"
+    assert plain(_page.parameter(0.373)) == "0.3730"
+    assert [str(_page.probability(p)) for p in (0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0)] == [
+        "0",
+        "&lt;0.0001",
+        "0.5000",
+        "&gt;0.9999",
+        "1",
+    ]
+
+
+def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
+    path = tmp_path / "report.html"
+    dd.report(stripes, path)
+    before = path.read_bytes()
+
+    def broken(self, target):
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "replace", broken)
+        with pytest.raises(dd.DondoloError, match="cannot be written: No space left"):
+            dd.report(stripes, path, title="Another")
+    assert path.read_bytes() == before
+    assert os.listdir(tmp_path) == ["report.html"]
+    dd.report(stripes, path, title="Another")
+    assert "<title>Another</title>" in path.read_text()
+
+
+def test_only_reports_are_replaced(stripes, tmp_path):
+    path = tmp_path / "walls.csv"
+    path.write_text("wall\n")
+    with pytest.raises(dd.InputError, match=r"walls\.csv: exists, and is no report of dondolo"):
+        dd.report(stripes, path)
+    assert path.read_text() == "wall\n"
+    with pytest.raises(dd.DondoloError, match="cannot be written"):
+        dd.report(stripes, tmp_path / "nowhere" / "report.html")
+    with pytest.raises(dd.DondoloError, match="cannot be written"):
+        dd.report(stripes, tmp_path)
+
+
+def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
+    path = tmp_path / "report.html"
+    with pytest.raises(dd.InputError, match="results: str is nothing"):
+        dd.report("out/parapet", path)
+    with pytest.raises(dd.InputError, match="hazard: float is no hazard curve"):
+        dd.report(stripes, path, 0.1)
+    with pytest.raises(dd.InputError, match="hazard: must be left out"):
+        dd.report(dd.simulate(wall, sine), path, hazard)
+    with pytest.raises(dd.InputError, match="must be the same"):
+        dd.report(stripes, path, dd.HazardCurve([0.1, 1.0], [0.1, 0.001], im="pgv"))
+    assert not path.exists()
+
+
+def test_a_wall_without_a_fit(records, tmp_path):
+    stripes = dd.multiple_stripe(dd.OneSidedWall(0.5, 1.0), records[:3], [0.1, 0.2], progress=False)
+    dd.report(stripes, tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    assert "no_collapse" in page.text
+    assert page.errors == []
+    with pytest.raises(dd.DondoloError, match="no curve"):
+        dd.report(stripes, tmp_path / "risk.html", dd.HazardCurve([0.1, 1.0], [0.1, 0.001]))
+
+
+def test_bootstrap_over_walls_needs_counts_only(people):
+    counts = dataclasses.replace(people, flags=None)
+    expected, found = people.bootstrap(50, over="walls"), counts.bootstrap(50, over="walls")
+    np.testing.assert_array_equal(found.theta, expected.theta)
+    np.testing.assert_array_equal(found.mean_fraction, expected.mean_fraction)
+    with pytest.raises(dd.DondoloError, match="must be 'walls'"):
+        counts.bootstrap(50)
+
+
+def command(*arguments):
+    return subprocess.run(
+        [sys.executable, "-m", "dondolo", *map(str, arguments)], capture_output=True, text=True, check=False
+    )
+
+
+def test_command_report(runs, hazard, tmp_path):
+    done = command("report", runs / "two_block")
+    assert (done.returncode, done.stdout) == (0, f"written: {runs}/two_block_report.html\n")
+    hazard.to_csv(tmp_path / "hazard.csv")
+    done = command("report", runs / "population", "-o", tmp_path / "r.html", "--hazard", tmp_path / "hazard.csv")
+    assert done.returncode == 0, done.stderr
+    assert "Annual frequency of collapse" in read(tmp_path / "r.html").text
+    done = command("report", runs / "nothing")
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_command_nrml(runs):
+    done = command("nrml", runs / "two_block")
+    assert done.returncode == 0, done.stderr
+    path = runs / "two_block_fragility.xml"
+    assert done.stdout == f"written: {path} (1 function)\n"
+    params = ElementTree.parse(path).getroot().find(".//{*}params")
+    curve = dd.read_results(runs / "two_block").fragility
+    assert float(params.get("mean")) == pytest.approx(curve.theta * np.exp(curve.beta**2 / 2), rel=1e-12)
+    done = command("nrml", runs / "history")
+    assert done.returncode == 2
+    assert "single motion" in done.stderr
+
+
+def test_functions_of_a_population(people, tmp_path):
+    functions, sentences = functions_of(people)
+    expected = [f"{curve.group or 'population'}/{curve.mechanism}" for curve in people.groups]
+    assert list(functions) == expected
+    assert all(list(states) == ["edp_0p3", "collapse"] for states in functions.values())
+    for curve in people.groups:
+        collapse = functions[f"{curve.group or 'population'}/{curve.mechanism}"]["collapse"]
+        if isinstance(collapse, dd.Fragility):
+            assert collapse.theta == curve.fit.theta
+        else:
+            np.testing.assert_array_equal(collapse.probability, curve.mean_fraction)
+    discrete = [name for name, states in functions.items() if isinstance(states["collapse"], dd.DiscreteFragility)]
+    assert [sentence.split("'")[1] for sentence in sentences] == discrete
+    dd.write_nrml(tmp_path / "model.xml", functions)
+
+
+def test_functions_without_a_fit_are_fractions(records):
+    walls = [dd.OneSidedWall(0.5, 1.0, name="a"), dd.OneSidedWall(0.5, 1.2, name="b")]
+    people = dd.typology(dd.Population(walls), records[:3], [0.1, 0.2], progress=False)
+    functions, sentences = functions_of(people)
+    assert isinstance(functions["population/one_sided"]["collapse"], dd.DiscreteFragility)
+    assert sentences == [
+        "'population/one_sided': written as fractions at the levels: limit state 'collapse': has no curve (status"
+        " 'no_collapse')"
+    ]
+
+
+# --- In a browser
+
+
+@pytest.fixture(scope="module")
+def browser():
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+    found = [path for path in map(shutil.which, names) if path]
+    found += map(str, Path.home().glob(".cache/ms-playwright/chromium*/chrome-linux*/*chrome*"))
+    found = [path for path in found if os.access(path, os.X_OK) and Path(path).is_file()]
+    if not found:
+        pytest.skip("no browser: looked for chromium, chromium-browser, google-chrome and Playwright's")
+    return found[0]
+
+
+@pytest.fixture
+def served(tmp_path):
+    """A folder that is served, its address, and what is asked for."""
+    asked = []
+
+    class Handler(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            asked.append(self.path)
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=tmp_path))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield tmp_path, f"http://127.0.0.1:{server.server_port}", asked
+    server.shutdown()
+    server.server_close()
+
+
+# A phone in a frame: a window of a browser is not made as narrow
+FRAME = """<!DOCTYPE html><title>frame</title>
+<iframe id="f" src="report.html" style="width:390px;height:800px"></iframe>
+<script>onload = () => { const d = document.getElementById("f").contentDocument;
+document.title = [d.documentElement.scrollWidth, d.documentElement.scrollHeight, d.images.length,
+[...d.images].every(i => i.complete && i.naturalWidth > 100), d.body.innerText.includes("Limits of the models")]; };
+</script>"""
+
+
+def browse(browser, folder, *arguments):
+    options = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--no-first-run"]
+    options += [f"--user-data-dir={folder}/profile", "--enable-logging=stderr", "--virtual-time-budget=10000"]
+    done = subprocess.run([browser, *options, *arguments], capture_output=True, text=True, timeout=120, check=True)
+    return done.stdout, [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_in_a_browser(kind, browser, served, pages):
+    folder, address, asked = served
+    shutil.copy(pages / f"{kind}.html", folder / "report.html")
+    (folder / "frame.html").write_text(FRAME)
+    dom, console = browse(browser, folder, "--dump-dom", f"{address}/frame.html")
+    assert console == []
+    assert [path for path in asked if path not in ("/favicon.ico", "/frame.html")] == ["/report.html"]
+    width, height, images, drawn, text = re.search("<title>(.*?)</title>", dom).group(1).split(",")
+    assert int(width) <= 390
+    assert int(height) > 3000
+    assert int(images) == len(read(pages / f"{kind}.html").images)
+    assert (drawn, text) == ("true", "true")
+    browse(browser, folder, f"--print-to-pdf={folder}/report.pdf", f"{address}/report.html")
+    assert (folder / "report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_the_browser_would_see_a_request(browser, served, pages):
+    folder, address, _ = served
+    text = (pages / "stripes.html").read_text().replace("<main>", '<main><img src="more.png" alt="more">')
+    (folder / "report.html").write_text(text)
+    _, console = browse(browser, folder, "--dump-dom", f"{address}/report.html")
+    assert len(console) == 1
+    assert "Content Security Policy" in console[0]
