@@ -44,6 +44,8 @@ program test_run_population
    call test_first_error()
    call test_file()
    call test_killed()
+   call test_damaged()
+   call test_meddled()
    call test_parts()
    call finish()
 
@@ -346,6 +348,112 @@ contains
       call remove_file(path)
    end subroutine test_killed
 
+   !> Any byte that is changed is seen: in the head, which is refused, or in a block, which is left with those behind it
+   subroutine test_damaged()
+      type(case_type) :: case
+      type(counts_file_type) :: file
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: path = scratch//'/out/rows.counts'
+      integer, parameter :: head = 128, own = 40
+      character(len=:), allocatable :: whole, spoilt
+      logical :: exists
+      integer :: at, second, step, change
+
+      call suite('damaged')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      call make_part(case, path, 1, 7, [1])
+      whole = contents(path)
+      second = len(whole)
+      call make_part(case, path, 1, 7, [1, 6])
+      whole = contents(path)
+      do change = 1, 128, 127
+         at = 1
+         do while (at <= len(whole))
+            spoilt = whole
+            spoilt(at:at) = char(modulo(iachar(whole(at:at)) + change, 256))
+            call write_file('out/rows.counts', spoilt)
+            call inspect_counts(path, file, exists, error)
+            if (at <= head) then
+               call check_error(error, 'is no file of counts of dondolo', 'byte '//to_text(at))
+            else
+               call check_ok(error, 'byte '//to_text(at))
+               call check(file%done == merge(0, 1, at <= second), 'blocks before byte '//to_text(at))
+            end if
+            ! All of the head of the file and of the heads of the blocks, and some of the rest
+            step = 1
+            if (at > head + own) step = 211
+            if (at < second - 1) step = min(step, second - at)
+            if (at >= second .and. at < second + own) step = 1
+            at = at + step
+         end do
+      end do
+      call remove_file(path)
+   end subroutine test_damaged
+
+   !> A file that another run writes, or that has another name than its rows, and a table that changes during the run
+   subroutine test_meddled()
+      type(case_type) :: case, part
+      type(results_type) :: results
+      type(counts_file_type) :: file
+      type(counts_type), allocatable :: rows(:)
+      type(member_type), allocatable :: members(:)
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: whole, path
+      logical :: exists
+
+      call suite('meddled')
+      call read_case(scratch//'/a.nml', case, error)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'population')
+      if (allocated(error)) return
+      path = counts_path(case)
+
+      call make_part(case, path, 1, 7, [2])
+      call inspect_counts(path, file, exists, error)
+      whole = contents(path)
+      call run_rows(case, members(3:4), 3, rows, work, error, 1, 0)
+      call write_file('out/z.checkpoint', whole//'a block of another run')
+      call append_counts(file, rows, work, error)
+      call check_error(error, 'z.checkpoint: has changed since this run began: does another run write it?', 'two runs')
+      call check_text(contents(path), whole//'a block of another run', 'the other run is left alone')
+      call remove_file(path)
+      call append_counts(file, rows, work, error)
+      call check_error(error, 'has changed since this run began', 'another run has ended')
+      inquire (file=path, exist=exists)
+      call check(.not. exists, 'no file is left that does not begin as one')
+
+      call read_case(scratch//'/a.nml', part, error, [3, 7])
+      call run_case(part, results, error, 1)
+      call check_ok(error, 'part')
+      call write_file('out/z.checkpoint', contents(counts_path(part)))
+      call results%counts%remove()
+      call run_case(case, results, error, 1)
+      call check_error(error, 'z.checkpoint: is of rows 3 to 7; remove it', 'a part under the name of the whole')
+      call remove_file(path)
+
+      call write_file('walls.csv', replaced(population, 'b,one_sided,2,', 'b,one_sided,3,'))
+      call run_case(case, results, error, 1)
+      call check_error(error, 'walls.csv: has changed during the run', 'another table')
+      if (allocated(error)) call check(error%stat == 1, 'a failure')
+      inquire (file=path, exist=exists)
+      call check(.not. exists, 'its counts are removed')
+      call write_file('walls.csv', population)
+   end subroutine test_meddled
+
+   !> A text with a part of it replaced
+   function replaced(text, old, new)
+      character(len=*), intent(in) :: text, old, new
+      character(len=:), allocatable :: replaced
+
+      integer :: at
+
+      at = index(text, old)
+      replaced = text(:at - 1)//new//text(at + len(old):)
+   end function replaced
+
    !> Parts that are merged are the whole
    subroutine test_parts()
       type(case_type) :: case
@@ -412,7 +520,9 @@ contains
       type(results_type) :: results
       type(work_type) :: work
       type(case_type) :: own
+      type(counts_file_type) :: file
       type(error_type), allocatable :: error
+      logical :: exists
       integer :: i, from
 
       ! The key is that of a run.
@@ -422,10 +532,11 @@ contains
       call results%counts%remove()
       call read_population(scratch//'/walls.csv', members, error)
       call create_counts(path, results%counts%files(1)%key, first, last, error)
+      call inspect_counts(path, file, exists, error)
       from = first
       do i = 1, size(blocks)
          call run_rows(case, members(from:from + blocks(i) - 1), from, rows, work, error, 1, 0)
-         call append_counts(path, rows, work, error)
+         call append_counts(file, rows, work, error)
          from = from + blocks(i)
       end do
       call check_ok(error, 'blocks')

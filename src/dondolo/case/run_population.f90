@@ -18,7 +18,8 @@ module dondolo_run_population
    use dondolo_result_files, only : make_folders
    use dondolo_results, only : results_type
    use dondolo_run_rows, only : run_rows
-   use dondolo_system, only : cut_file
+   use dondolo_survey, only : check_size, fingerprint_lines
+   use dondolo_system, only : cut_file, remove_file
    use dondolo_text, only : to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_work, only : work_type
@@ -47,7 +48,8 @@ contains
 
       type(counts_file_type) :: file
 
-      call find_start(case, file, results%resumed, error)
+      call check_size(case%population_path(), case%survey%histories, error)
+      if (.not. allocated(error)) call find_start(case, file, results%resumed, error)
       if (.not. allocated(error)) call run_blocks(case, file, error, team, progress)
       if (allocated(error)) return
       allocate (results%counts%files(1))
@@ -199,6 +201,8 @@ contains
       associate (survey => case%survey)
          if (exists) then
             call check_key(file, key, error)
+            if (.not. allocated(error) .and. (file%first /= survey%first .or. file%last /= survey%last)) &
+               & call raise_input(error, file%path//': is of rows '//to_text(file%first)//' to '//to_text(file%last))
             if (allocated(error)) then
                error%message = error%message//'; remove it to begin anew'
                return
@@ -250,15 +254,33 @@ contains
             end do
             if (allocated(error)) exit
             call run_rows(case, members, file%done + 1, rows, work, error, team, int(file%work%histories), progress)
-            if (.not. allocated(error)) call append_counts(file%path, rows, work, error)
-            call file%work%add(work)
-            file%done = file%done + count
+            if (.not. allocated(error)) call append_counts(file, rows, work, error)
             deallocate (members)
          end do
          call reader%close()
-         if (present(progress) .and. .not. allocated(error)) call progress(int(file%work%histories), survey%histories)
+         if (.not. allocated(error)) call check_table(case, file, error)
+         if (present(progress) .and. .not. allocated(error)) &
+            & call progress(int(file%work%histories), int(survey%histories))
       end associate
    end subroutine run_blocks
+
+   !> Check that the table is still the one that was surveyed; if not, what was computed may be of either
+   subroutine check_table(case, file, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The file of counts
+      type(counts_file_type), intent(in) :: file
+      !> It is not; the file of counts is removed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(fingerprint_type) :: now
+
+      call fingerprint_lines(case%population_path(), now, error)
+      if (allocated(error)) return
+      if (now%text() == case%survey%fingerprint%text()) return
+      call remove_file(file%path)
+      call raise_failure(error, case%population_path()//': has changed during the run, which must begin anew')
+   end subroutine check_table
 
    !> Rows of a block, a multiple of the number of threads
    integer function block_size(case, team)
@@ -270,7 +292,7 @@ contains
       integer :: threads, of_a_row
 
       threads = team_of(team, huge(1))
-      of_a_row = max(1, case%survey%histories/(case%survey%last - case%survey%first + 1))
+      of_a_row = max(1, int(case%survey%histories/(case%survey%last - case%survey%first + 1)))
       block_size = threads*max(1, histories_of_thread/of_a_row)
    end function block_size
 
