@@ -71,6 +71,7 @@ contains
 
       type(counts_file_type), allocatable :: files(:)
       type(counts_key_type) :: key
+      logical, allocatable :: is_left(:)
       integer :: i, j, done
       logical :: exists
 
@@ -93,23 +94,26 @@ contains
          end if
       end do
       done = 0
+      is_left = spread(.true., 1, size(files))
       allocate (results%counts%files(size(files)))
       do i = 1, size(files)
-         j = minloc(files%first, dim=1, mask=files%first > done)
-         if (j == 0) exit
-         if (files(j)%first /= done + 1) exit
+         j = minloc(files%first, dim=1, mask=is_left)
+         if (files(j)%first > done + 1) exit
+         if (files(j)%first <= done) then
+            call raise_input(error, files(j)%path//': row '//to_text(files(j)%first)//' stands in another file too')
+            return
+         end if
+         is_left(j) = .false.
          results%counts%files(i) = files(j)
          done = files(j)%last
          call results%work%add(files(j)%work)
       end do
-      if (i <= size(files)) then
-         call raise_input(error, '--merge: row '//to_text(done + 1)//' stands in none of the files, or some row in '// &
-            & 'more than one')
-      else if (done < case%survey%rows) then
+      if (done < case%survey%rows) then
          call raise_input(error, '--merge: row '//to_text(done + 1)//' of '//to_text(case%survey%rows)// &
             & ' stands in none of the files')
+         return
       end if
-      if (.not. allocated(error)) call combine_rows(case, results, error)
+      call combine_rows(case, results, error)
    end subroutine merge_population
 
    !> Are only some rows of the population to be run?
