@@ -487,7 +487,7 @@ contains
       call some%add(paths%line(2)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)
-      call check_error(error, 'z_walls_1-1.counts: row 1 stands in another file too', 'a part twice')
+      call check_error(error, 'z_walls_6-7.counts: row 6 stands in another file too', 'a part twice')
       call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
       call merge_anew(case, paths, error)
       call check_error(error, 'z_walls_2-5.counts: ends with row 3, its last is 5: run it again', 'a part not complete')
