@@ -109,6 +109,19 @@ contains
       call write_file('walls.csv', 'name,mechanism,height,thickness,weight'//lf)
       call read_case(scratch//'/a.nml', case, error)
       call check_error(error, 'walls.csv: no walls under the header', 'no walls')
+      call write_file('walls.csv', 'name,mechanism,height,thickness,group'//lf//'wall 2,one_sided,3,0.25,'//lf// &
+         & ',two_block,3,0.25,'//lf//'"a'//achar(27)//'[1m",one_sided,3,0.25,'//lf//'b,one_sided,3,0.25,"c'//lf//'d"'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_error(error, 'line 3: name = ''wall 2'': another wall has this name (line 2)', &
+         & 'a wall without a name is no mechanism of the one before')
+      if (allocated(error)) then
+         call check(index(error%message, 'line 4: name = ''a [1m'': must stand on one line') > 0, 'a control character')
+         call check(index(error%message, 'line 5: group = ''c d'': must stand on one line') > 0, 'a line end in a group')
+      end if
+      call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//'one_sided,3,0.25,"  "'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'a group of blanks')
+      if (allocated(members)) call check(len(members(1)%group) == 0, 'is none')
       call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//repeat_groups(65))
       call read_case(scratch//'/a.nml', case, error)
       call check_error(error, 'walls.csv: line 66: group = ''g65'': there may be at most 64 groups', 'groups')
@@ -480,6 +493,13 @@ contains
       if (allocated(error)) return
       call write_tables(case, results, 'merged')
       call compare_tables('merged', 'merged')
+      ! More histories than one run can count
+      case%survey%histories = 3000000000_int64
+      call merge_anew(case, paths, error)
+      call check_ok(error, 'parts may have any number of histories together')
+      call run_case(case, results, error, 1)
+      call check_error(error, 'walls.csv: 3000000000 histories: run at most 2147483647 at a time', 'one run may not')
+      call read_case(scratch//'/a.nml', case, error)
       call some%add(paths%line(3)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)

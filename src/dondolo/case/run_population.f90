@@ -31,6 +31,9 @@ module dondolo_run_population
    !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
    integer, parameter :: histories_of_thread = 100000
 
+   !> Rows that it has for each thread at most: about 1 kB each
+   integer, parameter :: rows_of_thread = 4000
+
 contains
 
    !> Run the rows of a population that the case asks for, or those that an earlier run has left
@@ -297,7 +300,7 @@ contains
 
       threads = team_of(team, huge(1))
       of_a_row = max(1, int(case%survey%histories/(case%survey%last - case%survey%first + 1)))
-      block_size = threads*max(1, histories_of_thread/of_a_row)
+      block_size = threads*min(rows_of_thread, max(1, histories_of_thread/of_a_row))
    end function block_size
 
 end module dondolo_run_population
