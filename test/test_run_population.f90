@@ -197,6 +197,7 @@ contains
       call check(alone%work%histories == case%survey%histories, 'work of all rows')
       call check(case%survey%rows == 7 .and. case%survey%walls == 5, 'rows and walls')
       call check(size(alone%typologies, 2) == 2, 'a typology for each threshold')
+      call test_states(case, alone)
       call write_tables(case, alone, 'whole')
       do threads = 2, 9
          last_done = 0
@@ -214,6 +215,37 @@ contains
          call compare_tables('threads', to_text(threads)//' threads')
       end do
    end subroutine test_threads
+
+   !> The curves of each threshold are made of the counts of that threshold
+   subroutine test_states(case, results)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      real(wp) :: fraction(size(case%stripes%levels)), weight
+      integer :: i, k
+
+      call read_population(scratch//'/walls.csv', members, error)
+      call run_rows(case, members, 1, rows, work, error, 1, 0)
+      call check_ok(error, 'rows')
+      if (allocated(error)) return
+      do k = 1, 2
+         fraction = 0.0_wp
+         weight = 0.0_wp
+         do i = 1, size(rows)
+            if (members(i)%wall%input%mechanism /= results%typologies(1, k)%mechanism) cycle
+            weight = weight + rows(i)%weight*rows(i)%p_occ
+            fraction = fraction + rows(i)%weight*rows(i)%p_occ*real(rows(i)%reached(:, k), wp)/real(rows(i)%histories, wp)
+         end do
+         call check(all(abs(results%typologies(1, k)%mean_fraction - fraction/weight) < 1.0e-12_wp), &
+            & 'fractions of threshold '//to_text(k))
+      end do
+      call check(any(results%typologies(1, 1)%mean_curve > results%typologies(1, 2)%mean_curve + 0.01_wp), &
+         & 'another mean curve for each threshold')
+   end subroutine test_states
 
    !> Hear how far the work is
    subroutine hear(done, total)

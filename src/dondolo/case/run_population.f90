@@ -182,7 +182,7 @@ contains
          call raise_input(error, file%path//': was made with another value of &job: histories')
       else if (file%key%variant /= key%variant) then
          call raise_input(error, file%path//': was made by build variant '//trim(file%key%variant)//', not '// &
-            & trim(key%variant)//'; DONDOLO_VARIANT can name one for all')
+            & trim(key%variant)//' (DONDOLO_VARIANT='//trim(file%key%variant)//' asks for it)')
       end if
    end subroutine check_key
 
