@@ -46,6 +46,7 @@ program test_run_population
    call test_killed()
    call test_damaged()
    call test_meddled()
+   call test_key()
    call test_parts()
    call finish()
 
@@ -487,6 +488,61 @@ contains
       call check(.not. exists, 'its counts are removed')
       call write_file('walls.csv', population)
    end subroutine test_meddled
+
+   !> A checkpoint is of everything that results depend on
+   subroutine test_key()
+      type(case_type) :: case, other
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: elsewhere = 'is of other walls, records, levels or settings'
+
+      call suite('key')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      call make_part(case, counts_path(case), 1, 7, [2])
+      other = case
+      other%job%histories = .false.
+      call refuse(case, other, 'was made with another value of &job: histories', 'histories')
+      other%stripes%levels(1) = 0.11_wp
+      call refuse(case, other, elsewhere, 'a level')
+      other%stripes%thresholds(1) = 0.3_wp
+      call refuse(case, other, elsewhere, 'a threshold')
+      other%stripes%scaling%name = 'pgv'
+      call refuse(case, other, elsewhere, 'the intensity measure')
+      other%records_input%polarity = 'reversed'
+      call refuse(case, other, elsewhere, 'the polarity')
+      other%records(1)%acceleration(100) = 2.0_wp
+      call refuse(case, other, elsewhere, 'a sample of a record')
+      other%records(2)%dt = 0.01_wp
+      call refuse(case, other, elsewhere, 'the step of a record')
+      other%records(2)%name = 'three'
+      call refuse(case, other, elsewhere, 'the name of a record')
+      other%solver%gravity = 9.8_wp
+      call refuse(case, other, elsewhere, 'gravity')
+      other%solver%solver%rtol = 1.0e-9_wp
+      call refuse(case, other, elsewhere, 'rtol')
+      other%solver%solver%atol = 1.0e-9_wp
+      call refuse(case, other, elsewhere, 'atol')
+      other%solver%solver%edp_limit = 1.1_wp
+      call refuse(case, other, elsewhere, 'the limit')
+      other%solver%solver%engine = 'single'
+      call refuse(case, other, elsewhere, 'the engine')
+      call remove_file(counts_path(case))
+   end subroutine test_key
+
+   !> The checkpoint of a case is not taken for another one, which is made the same again
+   subroutine refuse(case, other, why, what)
+      type(case_type), intent(in) :: case
+      type(case_type), intent(inout) :: other
+      character(len=*), intent(in) :: why, what
+
+      type(results_type) :: results
+      type(error_type), allocatable :: error
+
+      call run_case(other, results, error, 1)
+      call check_error(error, 'z.checkpoint: '//why, what)
+      other = case
+   end subroutine refuse
 
    !> A text with a part of it replaced
    function replaced(text, old, new)

@@ -229,7 +229,8 @@ contains
          if (allocated(error)) return
          call set_wall_number(input, wall_numbers(i), number)
       end do
-      member%group = trim(self%table%get_text(self%table%column('group')))
+      ! Blanks alone are no name
+      member%group = self%table%get_text(given('group'))
       call read_share('weight', member%weight, largest_weight)
       if (.not. allocated(error)) call read_share('p_occ', member%p_occ, 1.0_wp)
       if (.not. allocated(error)) call check_line('name', input%name)
