@@ -17,7 +17,7 @@ program dondolo_main
    use dondolo_run_population, only : is_part, merge_population
    use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
-   use dondolo_system, only : stderr_is_terminal
+   use dondolo_system, only : outlive_file_limit, stderr_is_terminal
    use dondolo_template, only : print_template
    use dondolo_version, only : dondolo_version_text
    implicit none
@@ -25,6 +25,7 @@ program dondolo_main
    type(arguments_type) :: arguments
    type(error_type), allocatable :: error
 
+   call outlive_file_limit()
    call read_arguments(arguments, error)
    if (allocated(error)) call give_up(error)
    select case (arguments%action)

@@ -609,6 +609,17 @@ run people.nml
 check "population: everything wrong at once" equal "$(cut -c 1-40 stderr | tr '\n' ';')" \
    "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;"
 check "population: everything wrong at once: exit code" equal "$rc" 2
+people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1\n" \
+   "walls.csv: line 2: name = 'a [2Jb': must stand on one line, without control characters"
+awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3"; for (i = 1; i <= 100000; i++) print "w" i ",one_sided,3,0.3" }' \
+   >walls.csv
+seconds=$SECONDS
+refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
+awk 'BEGIN { for (i = 1; i <= 100000; i++) printf "c%d,", i; print "name" }' >walls.csv
+refused "population: 100001 columns" "walls.csv: column 'c1': no such column" people.nml
+{ printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo; } >walls.csv
+refused "population: a line of 20 MB" 'walls.csv: line 2: 20000001 cells: must be 5' people.nml
+check "population: none of these takes long: $((SECONDS - seconds)) s" test $((SECONDS - seconds)) -lt 20
 people "semicolons" 'name;mechanism\na;one_sided\n' 'walls.csv: line 1'
 people "an empty file" '' 'walls.csv: the file is empty'
 rm walls.csv
@@ -630,6 +641,37 @@ if [ -c /dev/full ]; then
    check "full disk: no file left" equal "$(find out -type f -o -type l)" ""
    rm -rf out
 fi
+
+# A limit on the size of files is met like a full disk
+awk 'BEGIN { print "name,mechanism,height,thickness"; for (i = 1; i <= 40; i++) print "w" i ",one_sided,3,0.3" }' >walls.csv
+population_case | sed "s/levels = .*/levels = 0.01 \//" >limit.nml
+(ulimit -f 4; timeout 60 "$exe" limit.nml >/dev/null 2>"$work/stderr"; echo $? >"$work/rc")
+check "file limit: exit code" equal "$(cat rc)" 1
+check "file limit: says so" contains stderr 'cannot be written whole: is the disk full?'
+check "file limit: no table left" equal "$(find . -name 'people_*')" ""
+rm -rf out walls.csv limit.nml
+
+# --- counts of parts -----------------------------------------------------------------------------------------------
+
+population >walls.csv
+run --walls 2:2 people.nml
+check "part: exit code" equal "$rc" 0
+check "part: says how to go on" contains stdout 'dondolo --merge people.nml out/people_walls_*.counts'
+run --walls 2:2 people.nml
+check "part: an earlier run had it" contains stdout '16 histories, those of rows 2 to 2 by an earlier run'
+mkfifo pipe
+for word in 0:5 5:1 1: : 1:2:3 -1:2 1.5:2 a:b 3000000000:3000000001; do
+   refused "--walls $word" "--walls $word: must be the first and the last row" --walls "$word" people.nml
+done
+refused "--walls behind the end" '--walls 7:9: the population has 2 rows' --walls 7:9 people.nml
+refused "--merge without files" '--merge: the files of counts must follow the case' --merge people.nml
+refused "--merge with --walls" '--walls: cannot go together with --merge' --walls 1:2 --merge people.nml x
+refused "--merge: a row is missing" '--merge: row 1 of 2 stands in none of the files' --merge people.nml out/people_walls_2-2.counts
+refused "--merge: the case itself" 'people.nml: is no file of counts of dondolo' --merge people.nml people.nml
+refused "--merge: a folder" 'records: is no file of counts of dondolo' --merge people.nml records
+refused "--merge: a pipe" 'pipe: no such file, or nothing in it' --merge people.nml pipe
+refused "--merge: nothing" 'none: no such file, or nothing in it' --merge people.nml none
+rm -rf out walls.csv pipe
 
 # --- warnings ------------------------------------------------------------------------------------------------------
 

@@ -44,6 +44,9 @@ program test_run_population
    call test_first_error()
    call test_file()
    call test_killed()
+   call test_damaged()
+   call test_meddled()
+   call test_key()
    call test_parts()
    call finish()
 
@@ -107,6 +110,19 @@ contains
       call write_file('walls.csv', 'name,mechanism,height,thickness,weight'//lf)
       call read_case(scratch//'/a.nml', case, error)
       call check_error(error, 'walls.csv: no walls under the header', 'no walls')
+      call write_file('walls.csv', 'name,mechanism,height,thickness,group'//lf//'wall 2,one_sided,3,0.25,'//lf// &
+         & ',two_block,3,0.25,'//lf//'"a'//achar(27)//'[1m",one_sided,3,0.25,'//lf//'b,one_sided,3,0.25,"c'//lf//'d"'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_error(error, 'line 3: name = ''wall 2'': another wall has this name (line 2)', &
+         & 'a wall without a name is no mechanism of the one before')
+      if (allocated(error)) then
+         call check(index(error%message, 'line 4: name = ''a [1m'': must stand on one line') > 0, 'a control character')
+         call check(index(error%message, 'line 5: group = ''c d'': must stand on one line') > 0, 'a line end in a group')
+      end if
+      call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//'one_sided,3,0.25,"  "'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'a group of blanks')
+      if (allocated(members)) call check(len(members(1)%group) == 0, 'is none')
       call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//repeat_groups(65))
       call read_case(scratch//'/a.nml', case, error)
       call check_error(error, 'walls.csv: line 66: group = ''g65'': there may be at most 64 groups', 'groups')
@@ -182,6 +198,7 @@ contains
       call check(alone%work%histories == case%survey%histories, 'work of all rows')
       call check(case%survey%rows == 7 .and. case%survey%walls == 5, 'rows and walls')
       call check(size(alone%typologies, 2) == 2, 'a typology for each threshold')
+      call test_states(case, alone)
       call write_tables(case, alone, 'whole')
       do threads = 2, 9
          last_done = 0
@@ -199,6 +216,37 @@ contains
          call compare_tables('threads', to_text(threads)//' threads')
       end do
    end subroutine test_threads
+
+   !> The curves of each threshold are made of the counts of that threshold
+   subroutine test_states(case, results)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+
+      type(member_type), allocatable :: members(:)
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      real(wp) :: fraction(size(case%stripes%levels)), weight
+      integer :: i, k
+
+      call read_population(scratch//'/walls.csv', members, error)
+      call run_rows(case, members, 1, rows, work, error, 1, 0)
+      call check_ok(error, 'rows')
+      if (allocated(error)) return
+      do k = 1, 2
+         fraction = 0.0_wp
+         weight = 0.0_wp
+         do i = 1, size(rows)
+            if (members(i)%wall%input%mechanism /= results%typologies(1, k)%mechanism) cycle
+            weight = weight + rows(i)%weight*rows(i)%p_occ
+            fraction = fraction + rows(i)%weight*rows(i)%p_occ*real(rows(i)%reached(:, k), wp)/real(rows(i)%histories, wp)
+         end do
+         call check(all(abs(results%typologies(1, k)%mean_fraction - fraction/weight) < 1.0e-12_wp), &
+            & 'fractions of threshold '//to_text(k))
+      end do
+      call check(any(results%typologies(1, 1)%mean_curve > results%typologies(1, 2)%mean_curve + 0.01_wp), &
+         & 'another mean curve for each threshold')
+   end subroutine test_states
 
    !> Hear how far the work is
    subroutine hear(done, total)
@@ -346,6 +394,167 @@ contains
       call remove_file(path)
    end subroutine test_killed
 
+   !> Any byte that is changed is seen: in the head, which is refused, or in a block, which is left with those behind it
+   subroutine test_damaged()
+      type(case_type) :: case
+      type(counts_file_type) :: file
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: path = scratch//'/out/rows.counts'
+      integer, parameter :: head = 128, own = 40
+      character(len=:), allocatable :: whole, spoilt
+      logical :: exists
+      integer :: at, second, step, change
+
+      call suite('damaged')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      call make_part(case, path, 1, 7, [1])
+      whole = contents(path)
+      second = len(whole)
+      call make_part(case, path, 1, 7, [1, 6])
+      whole = contents(path)
+      do change = 1, 128, 127
+         at = 1
+         do while (at <= len(whole))
+            spoilt = whole
+            spoilt(at:at) = char(modulo(iachar(whole(at:at)) + change, 256))
+            call write_file('out/rows.counts', spoilt)
+            call inspect_counts(path, file, exists, error)
+            if (at <= head) then
+               call check_error(error, 'is no file of counts of dondolo', 'byte '//to_text(at))
+            else
+               call check_ok(error, 'byte '//to_text(at))
+               call check(file%done == merge(0, 1, at <= second), 'blocks before byte '//to_text(at))
+            end if
+            ! All of the head of the file and of the heads of the blocks, and some of the rest
+            step = 1
+            if (at > head + own) step = 211
+            if (at < second - 1) step = min(step, second - at)
+            if (at >= second .and. at < second + own) step = 1
+            at = at + step
+         end do
+      end do
+      call remove_file(path)
+   end subroutine test_damaged
+
+   !> A file that another run writes, or that has another name than its rows, and a table that changes during the run
+   subroutine test_meddled()
+      type(case_type) :: case, part
+      type(results_type) :: results
+      type(counts_file_type) :: file
+      type(counts_type), allocatable :: rows(:)
+      type(member_type), allocatable :: members(:)
+      type(work_type) :: work
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: whole, path
+      logical :: exists
+
+      call suite('meddled')
+      call read_case(scratch//'/a.nml', case, error)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'population')
+      if (allocated(error)) return
+      path = counts_path(case)
+
+      call make_part(case, path, 1, 7, [2])
+      call inspect_counts(path, file, exists, error)
+      whole = contents(path)
+      call run_rows(case, members(3:4), 3, rows, work, error, 1, 0)
+      call write_file('out/z.checkpoint', whole//'a block of another run')
+      call append_counts(file, rows, work, error)
+      call check_error(error, 'z.checkpoint: has changed since this run began: does another run write it?', 'two runs')
+      call check_text(contents(path), whole//'a block of another run', 'the other run is left alone')
+      call remove_file(path)
+      call append_counts(file, rows, work, error)
+      call check_error(error, 'has changed since this run began', 'another run has ended')
+      inquire (file=path, exist=exists)
+      call check(.not. exists, 'no file is left that does not begin as one')
+
+      call read_case(scratch//'/a.nml', part, error, [3, 7])
+      call run_case(part, results, error, 1)
+      call check_ok(error, 'part')
+      call write_file('out/z.checkpoint', contents(counts_path(part)))
+      call results%counts%remove()
+      call run_case(case, results, error, 1)
+      call check_error(error, 'z.checkpoint: is of rows 3 to 7; remove it', 'a part under the name of the whole')
+      call remove_file(path)
+
+      call write_file('walls.csv', replaced(population, 'b,one_sided,2,', 'b,one_sided,3,'))
+      call run_case(case, results, error, 1)
+      call check_error(error, 'walls.csv: has changed during the run', 'another table')
+      if (allocated(error)) call check(error%stat == 1, 'a failure')
+      inquire (file=path, exist=exists)
+      call check(.not. exists, 'its counts are removed')
+      call write_file('walls.csv', population)
+   end subroutine test_meddled
+
+   !> A checkpoint is of everything that results depend on
+   subroutine test_key()
+      type(case_type) :: case, other
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: elsewhere = 'is of other walls, records, levels or settings'
+
+      call suite('key')
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'case')
+      if (allocated(error)) return
+      call make_part(case, counts_path(case), 1, 7, [2])
+      other = case
+      other%job%histories = .false.
+      call refuse(case, other, 'was made with another value of &job: histories', 'histories')
+      other%stripes%levels(1) = 0.11_wp
+      call refuse(case, other, elsewhere, 'a level')
+      other%stripes%thresholds(1) = 0.3_wp
+      call refuse(case, other, elsewhere, 'a threshold')
+      other%stripes%scaling%name = 'pgv'
+      call refuse(case, other, elsewhere, 'the intensity measure')
+      other%records_input%polarity = 'reversed'
+      call refuse(case, other, elsewhere, 'the polarity')
+      other%records(1)%acceleration(100) = 2.0_wp
+      call refuse(case, other, elsewhere, 'a sample of a record')
+      other%records(2)%dt = 0.01_wp
+      call refuse(case, other, elsewhere, 'the step of a record')
+      other%records(2)%name = 'three'
+      call refuse(case, other, elsewhere, 'the name of a record')
+      other%solver%gravity = 9.8_wp
+      call refuse(case, other, elsewhere, 'gravity')
+      other%solver%solver%rtol = 1.0e-9_wp
+      call refuse(case, other, elsewhere, 'rtol')
+      other%solver%solver%atol = 1.0e-9_wp
+      call refuse(case, other, elsewhere, 'atol')
+      other%solver%solver%edp_limit = 1.1_wp
+      call refuse(case, other, elsewhere, 'the limit')
+      other%solver%solver%engine = 'single'
+      call refuse(case, other, elsewhere, 'the engine')
+      call remove_file(counts_path(case))
+   end subroutine test_key
+
+   !> The checkpoint of a case is not taken for another one, which is made the same again
+   subroutine refuse(case, other, why, what)
+      type(case_type), intent(in) :: case
+      type(case_type), intent(inout) :: other
+      character(len=*), intent(in) :: why, what
+
+      type(results_type) :: results
+      type(error_type), allocatable :: error
+
+      call run_case(other, results, error, 1)
+      call check_error(error, 'z.checkpoint: '//why, what)
+      other = case
+   end subroutine refuse
+
+   !> A text with a part of it replaced
+   function replaced(text, old, new)
+      character(len=*), intent(in) :: text, old, new
+      character(len=:), allocatable :: replaced
+
+      integer :: at
+
+      at = index(text, old)
+      replaced = text(:at - 1)//new//text(at + len(old):)
+   end function replaced
+
    !> Parts that are merged are the whole
    subroutine test_parts()
       type(case_type) :: case
@@ -372,14 +581,21 @@ contains
       if (allocated(error)) return
       call write_tables(case, results, 'merged')
       call compare_tables('merged', 'merged')
+      ! More histories than one run can count
+      case%survey%histories = 3000000000_int64
+      call merge_anew(case, paths, error)
+      call check_ok(error, 'parts may have any number of histories together')
+      call run_case(case, results, error, 1)
+      call check_error(error, 'walls.csv: 3000000000 histories: run at most 2147483647 at a time', 'one run may not')
+      call read_case(scratch//'/a.nml', case, error)
       call some%add(paths%line(3)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)
-      call check_error(error, '--merge: row 2 stands in none of the files, or some row in more than one', 'a part missing')
+      call check_error(error, '--merge: row 2 of 7 stands in none of the files', 'a part missing')
       call some%add(paths%line(2)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)
-      call check_error(error, 'some row in more than one', 'a part twice')
+      call check_error(error, 'z_walls_6-7.counts: row 6 stands in another file too', 'a part twice')
       call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
       call merge_anew(case, paths, error)
       call check_error(error, 'z_walls_2-5.counts: ends with row 3, its last is 5: run it again', 'a part not complete')
@@ -412,7 +628,9 @@ contains
       type(results_type) :: results
       type(work_type) :: work
       type(case_type) :: own
+      type(counts_file_type) :: file
       type(error_type), allocatable :: error
+      logical :: exists
       integer :: i, from
 
       ! The key is that of a run.
@@ -422,10 +640,11 @@ contains
       call results%counts%remove()
       call read_population(scratch//'/walls.csv', members, error)
       call create_counts(path, results%counts%files(1)%key, first, last, error)
+      call inspect_counts(path, file, exists, error)
       from = first
       do i = 1, size(blocks)
          call run_rows(case, members(from:from + blocks(i) - 1), from, rows, work, error, 1, 0)
-         call append_counts(path, rows, work, error)
+         call append_counts(file, rows, work, error)
          from = from + blocks(i)
       end do
       call check_ok(error, 'blocks')

@@ -6,6 +6,7 @@ module dondolo_csv_reader
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type
+   use dondolo_name_index, only : name_index_type
    use dondolo_numbers, only : parse_real
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : padding
@@ -99,7 +100,8 @@ contains
       !> A name is empty or stands there twice
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, j
+      type(name_index_type) :: names
+      integer :: i, before
 
       associate (row => self%cells)
          if (size(row) == 1 .and. index(row(1)%text, ';') > 0) then
@@ -112,11 +114,11 @@ contains
                call raise_input(error, self%place()//': column '//to_text(i)//' has no name')
                return
             end if
-            do j = 1, i - 1
-               if (lower(row(i)%text) /= lower(row(j)%text)) cycle
+            call names%note(lower(row(i)%text), i, before)
+            if (before > 0) then
                call raise_input(error, self%place()//': column '''//row(i)%text//''' stands there twice')
                return
-            end do
+            end if
          end do
       end associate
       self%columns = self%cells
@@ -130,7 +132,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: line, more, problem
-      integer :: at, cells, quotes
+      integer :: at, cells, length, quotes
       logical :: found
 
       self%line = 0
@@ -142,6 +144,7 @@ contains
       end do
       self%line = self%lines%number
       quotes = occurrences(line, '"')
+      length = len(line)
       ! An odd number of quotes: the last one opens a cell that goes on in the next line
       do while (modulo(quotes, 2) == 1)
          call self%lines%next(more, found, error)
@@ -151,8 +154,9 @@ contains
             return
          end if
          quotes = quotes + occurrences(more, '"')
-         line = line//new_line('a')//more
+         call append(line, length, new_line('a')//more)
       end do
+      line = line(:length)
       if (allocated(self%cells)) deallocate (self%cells)
       allocate (self%cells(occurrences(line, ',') + 1))
       at = 1
@@ -166,6 +170,20 @@ contains
       end do
       self%cells = self%cells(:cells)
    end subroutine read_cells
+
+   !> Append a text; the room for it is doubled, so that not all is copied each time
+   pure subroutine append(line, length, more)
+      !> Room, at least as long as what is in it
+      character(len=:), allocatable, intent(inout) :: line
+      !> Length of what is in it
+      integer, intent(inout) :: length
+      !> What comes behind it
+      character(len=*), intent(in) :: more
+
+      if (length + len(more) > len(line)) line = line(:length)//repeat(' ', max(length, len(more)))
+      line(length + 1:length + len(more)) = more
+      length = length + len(more)
+   end subroutine append
 
    !> Read one cell
    pure subroutine take_cell(line, at, cell, problem)
@@ -186,19 +204,28 @@ contains
       if (first >= at) then
          if (line(first:first) == '"') then
             call take_quoted(line, first, mark, cell)
-            length = index(line(mark:)//',', ',') - 1
+            length = length_to_comma(line(mark:))
             if (verify(line(mark:mark + length - 1), blanks) > 0) problem = 'text after the closing double quote'
             at = mark + length + 1
             return
          end if
       end if
-      length = index(line(at:)//',', ',') - 1
+      length = length_to_comma(line(at:))
       if (index(line(at:at + length - 1), '"') > 0) then
          problem = 'a double quote inside: put the cell in double quotes and double the ones inside'
       end if
       if (length > 0) cell = stripped(line(at:at + length - 1))
       at = at + length + 1
    end subroutine take_cell
+
+   !> Length of a text up to its first comma, or its end
+   pure integer function length_to_comma(text) result(length)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      length = index(text, ',') - 1
+      if (length < 0) length = len(text)
+   end function length_to_comma
 
    !> Read a cell in double quotes
    pure subroutine take_quoted(line, first, mark, cell)
@@ -211,19 +238,24 @@ contains
       !> Text between them, doubled quotes made single
       character(len=:), allocatable, intent(out) :: cell
 
-      integer :: length
+      integer :: i, at, doubled
 
-      cell = ''
+      doubled = 0
       mark = first + 1
       do
-         ! The quotes of a line are even in number, so one is found, or the cell ends the line
-         length = index(line(mark:), '"') - 1
-         cell = cell//line(mark:mark + length - 1)
-         mark = mark + length + 1
-         if (mark > len(line)) return
-         if (line(mark:mark) /= '"') return
-         cell = cell//'"'
+         ! The quotes of a line are even in number, so one is found
+         mark = mark + index(line(mark:), '"')
+         if (mark > len(line)) exit
+         if (line(mark:mark) /= '"') exit
+         doubled = doubled + 1
          mark = mark + 1
+      end do
+      allocate (character(len=mark - first - 2 - doubled) :: cell)
+      at = first
+      do i = 1, len(cell)
+         at = at + 1
+         cell(i:i) = line(at:at)
+         if (line(at:at) == '"') at = at + 1
       end do
    end subroutine take_quoted
 

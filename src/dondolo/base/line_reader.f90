@@ -8,7 +8,7 @@ module dondolo_line_reader
 
    public :: line_reader_type
 
-   !> Bytes that are read at once
+   !> Bytes that are read at once, unless a line is longer
    integer, parameter :: chunk = 65536
 
    !> A file that is being read
@@ -106,7 +106,8 @@ contains
       character(len=:), allocatable :: more
       integer :: stat
 
-      allocate (character(len=int(min(self%left, int(chunk, int64)))) :: more)
+      ! As much again as is there: a long line is not copied chunk by chunk.
+      allocate (character(len=int(min(self%left, int(max(chunk, len(self%text) - self%at + 1), int64)))) :: more)
       read (self%unit, iostat=stat) more
       if (stat /= 0) then
          call raise_input(error, self%file//': cannot be read')

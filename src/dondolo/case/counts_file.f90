@@ -20,8 +20,9 @@ module dondolo_counts_file
    !> What the file begins with
    character(len=*), parameter :: magic = 'dondolo counts 1'
 
-   !> Bytes of the head of the file, and of a block before its contents: their length and fingerprint
-   integer, parameter :: head_bytes = 128, block_head_bytes = 28
+   !> Bytes of the head of the file, of its part that the fingerprint at its end is of, and of a block before its
+   !> contents: the number of rows, the length of the contents, and a fingerprint of all of them
+   integer, parameter :: head_bytes = 128, print_at = head_bytes - 16, block_head_bytes = 28
 
    !> What must be the same in files of one study
    type :: counts_key_type
@@ -81,21 +82,32 @@ contains
    end subroutine create_counts
 
    !> Append a block of rows
-   subroutine append_counts(path, rows, work, error)
-      !> Path
-      character(len=*), intent(in) :: path
+   subroutine append_counts(file, rows, work, error)
+      !> The file, which was inspected: what it has is kept up to date
+      type(counts_file_type), intent(inout) :: file
       !> The rows
       type(counts_type), intent(in) :: rows(:)
       !> What was computed for them
       type(work_type), intent(in) :: work
-      !> It cannot be written whole
+      !> It cannot be written whole, or another run writes it too
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: contents
+      character(len=12) :: head
+      integer(int64) :: bytes
 
+      inquire (file=file%path, size=bytes)
+      if (bytes /= file%bytes) then
+         call raise_failure(error, file%path//': has changed since this run began: does another run write it?')
+         return
+      end if
       contents = pack_counts(rows, work)
-      call write_bytes(path, bytes_of_integers([int(size(rows), int32), transfer(len(contents, int64), &
-         & [0_int32, 0_int32])])//print_of(contents)//contents, .true., error)
+      head = bytes_of_integers([int(size(rows), int32), transfer(len(contents, int64), [0_int32, 0_int32])])
+      call write_bytes(file%path, head//print_of(head//contents)//contents, .true., error)
+      if (allocated(error)) return
+      file%bytes = file%bytes + block_head_bytes + len(contents, int64)
+      file%done = file%done + size(rows)
+      call file%work%add(work)
    end subroutine append_counts
 
    !> Look into a file: what it belongs to and how far it is
@@ -119,9 +131,10 @@ contains
       file%path = path
       inquire (file=path, exist=exists, size=bytes)
       if (.not. exists) return
-      ! A run was killed when it had hardly begun
+      ! A run was killed when it had hardly begun. A pipe has no size either, and would be waited for.
       exists = bytes >= head_bytes
-      if (.not. exists .and. bytes >= 0 .and. bytes < head_bytes) then
+      if (bytes == 0) return
+      if (bytes > 0 .and. bytes < head_bytes) then
          if (starts_like_head(path, int(bytes))) return
       end if
       if (exists) then
@@ -129,15 +142,20 @@ contains
             & iostat=stat)
          if (stat == 0) read (file%unit, iostat=stat) head
          if (stat == 0 .and. index(head, magic) /= 1) stat = 1
+         if (stat == 0 .and. head(print_at + 1:) /= print_of(head(:print_at))) stat = 1
       else
          stat = 1
       end if
       if (stat /= 0) then
          call file%close()
-         call raise_input(error, path//': is no file of counts of dondolo')
+         call raise_input(error, path//': is no file of counts of dondolo, or its head is damaged')
          return
       end if
-      call read_head(head, file)
+      call read_head(head, file, error)
+      if (allocated(error)) then
+         call file%close()
+         return
+      end if
       file%done = file%first - 1
       file%bytes = head_bytes
       do
@@ -162,8 +180,10 @@ contains
       integer :: unit, stat, length
 
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat == 0 .and. bytes > 0) read (unit, iostat=stat) begin
-      if (stat == 0) close (unit)
+      if (stat == 0) then
+         read (unit, iostat=stat) begin
+         close (unit)
+      end if
       length = min(bytes, len(magic))
       starts_like_head = stat == 0
       if (starts_like_head) starts_like_head = begin(:length) == magic(:length)
@@ -247,7 +267,8 @@ contains
       !> Was there a whole one?
       logical, intent(out) :: found
 
-      integer(int32) :: head(3)
+      character(len=12) :: head
+      integer(int32) :: numbers(3)
       integer(int64) :: length, room
       character(len=16) :: print
       character(len=:), allocatable :: contents
@@ -257,14 +278,15 @@ contains
       bytes = 0
       read (file%unit, iostat=stat) head, print
       if (stat /= 0) return
-      length = transfer(head(2:3), length)
+      numbers = transfer(head, numbers)
+      length = transfer(numbers(2:3), length)
       inquire (unit=file%unit, size=room)
-      if (head(1) < 1 .or. length < 1 .or. length > room) return
+      if (numbers(1) < 1 .or. length < 1 .or. length > room) return
       allocate (character(len=length) :: contents)
       read (file%unit, iostat=stat) contents
       if (stat /= 0) return
-      if (print_of(contents) /= print) return
-      call unpack_counts(contents, int(head(1)), file%key%shape, rows, work)
+      if (print_of(head//contents) /= print) return
+      call unpack_counts(contents, int(numbers(1)), file%key%shape, rows, work)
       bytes = length + block_head_bytes
       found = .true.
    end subroutine read_block
@@ -280,17 +302,20 @@ contains
       !> Head
       character(len=head_bytes) :: head
 
-      head = magic//key%input//key%variant//bytes_of_integers([int(first, int32), int(last, int32), &
+      head(:print_at) = magic//key%input//key%variant//bytes_of_integers([int(first, int32), int(last, int32), &
          & int(storage_size(1.0_wp), int32), int(key%shape%levels, int32), int(key%shape%thresholds, int32), &
          & merge(1_int32, 0_int32, key%shape%keeps_histories)])
+      head(print_at + 1:) = print_of(head(:print_at))
    end function head_of
 
    !> Read the head of a file
-   subroutine read_head(head, file)
+   subroutine read_head(head, file, error)
       !> Head
       character(len=*), intent(in) :: head
       !> The file: its key and rows are set
       type(counts_file_type), intent(inout) :: file
+      !> It is of another precision
+      type(error_type), allocatable, intent(out) :: error
 
       integer(int32) :: numbers(6)
       integer :: at
@@ -302,13 +327,13 @@ contains
       file%first = numbers(1)
       file%last = numbers(2)
       file%key%shape = shape_type(numbers(4), numbers(5), numbers(6) == 1)
-      ! Another precision is another build variant
-      if (numbers(3) /= storage_size(1.0_wp)) file%key%variant = 'real'//to_text(int(numbers(3)))
+      if (numbers(3) /= storage_size(1.0_wp)) call raise_input(error, file%path//': was made in real'// &
+         & to_text(int(numbers(3)))//', not in real'//to_text(storage_size(1.0_wp)))
    end subroutine read_head
 
-   !> Fingerprint of the contents of a block
+   !> Fingerprint of bytes
    function print_of(contents) result(text)
-      !> Contents
+      !> The bytes
       character(len=*), intent(in) :: contents
       !> Fingerprint
       character(len=16) :: text

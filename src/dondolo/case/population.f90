@@ -32,6 +32,8 @@ module dondolo_population
       character(len=:), allocatable :: group
       !> Is it a further mechanism of the wall in the row before?
       logical :: continues = .false.
+      !> Was its name given? A wall without one has one row
+      logical :: has_name = .false.
    end type member_type
 
    !> A population that is being read
@@ -216,7 +218,9 @@ contains
       input%name = 'wall '//to_text(self%row)
       do i = 1, size(wall_texts)
          column = given(wall_texts(i))
-         if (column > 0) call set_wall_text(input, wall_texts(i), self%table%get_text(column))
+         if (column == 0) cycle
+         call set_wall_text(input, wall_texts(i), self%table%get_text(column))
+         member%has_name = member%has_name .or. wall_texts(i) == 'name'
       end do
       do i = 1, size(wall_numbers)
          column = given(wall_numbers(i))
@@ -225,7 +229,8 @@ contains
          if (allocated(error)) return
          call set_wall_number(input, wall_numbers(i), number)
       end do
-      member%group = self%table%get_text(self%table%column('group'))
+      ! Blanks alone are no name
+      member%group = self%table%get_text(given('group'))
       call read_share('weight', member%weight, largest_weight)
       if (.not. allocated(error)) call read_share('p_occ', member%p_occ, 1.0_wp)
       if (.not. allocated(error)) call check_line('name', input%name)
@@ -262,14 +267,20 @@ contains
             & ': must lie between 0 and '//to_text(largest))
       end subroutine read_share
 
-      !> Check that a text stands on one line
+      !> Check that a text stands on one line and can be printed
       subroutine check_line(name, text)
          !> Name of its column
          character(len=*), intent(in) :: name
          !> The text
          character(len=*), intent(in) :: text
 
-         if (scan(text, new_line('a')//achar(13)) > 0) call raise_input(error, name//': must stand on one line')
+         integer :: i
+
+         do i = 1, len(text)
+            if (iachar(text(i:i)) >= 32 .and. iachar(text(i:i)) /= 127) cycle
+            call raise_input(error, name//' = '''//text//''': must stand on one line, without control characters')
+            return
+         end do
       end subroutine check_line
 
    end subroutine read_row
@@ -286,7 +297,7 @@ contains
       integer :: line
 
       associate (name => member%wall%input%name, mechanism => member%wall%input%mechanism)
-         if (len(self%mechanisms) > 0) member%continues = self%wall%wall%input%name == name
+         if (len(self%mechanisms) > 0 .and. member%has_name) member%continues = self%wall%wall%input%name == name
          if (.not. member%continues) then
             line = 0
             if (self%checks_names) call self%names%note(name, self%table%line, line)

@@ -11,6 +11,7 @@ module dondolo_run_case
    use dondolo_run_population, only : run_population
    use dondolo_simulate, only : simulate
    use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
+   use dondolo_survey, only : check_size
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
@@ -70,7 +71,9 @@ contains
          call plan_wall(case%wall)
          return
       end if
-      call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+      call check_size(case%population_path(), case%survey%histories, error)
+      if (.not. allocated(error)) &
+         & call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
          call reader%next(member, found, error)

@@ -18,7 +18,8 @@ module dondolo_run_population
    use dondolo_result_files, only : make_folders
    use dondolo_results, only : results_type
    use dondolo_run_rows, only : run_rows
-   use dondolo_system, only : cut_file
+   use dondolo_survey, only : check_size, fingerprint_lines
+   use dondolo_system, only : cut_file, remove_file
    use dondolo_text, only : to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_work, only : work_type
@@ -29,6 +30,9 @@ module dondolo_run_population
 
    !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
    integer, parameter :: histories_of_thread = 100000
+
+   !> Rows that it has for each thread at most: about 1 kB each
+   integer, parameter :: rows_of_thread = 4000
 
 contains
 
@@ -47,7 +51,8 @@ contains
 
       type(counts_file_type) :: file
 
-      call find_start(case, file, results%resumed, error)
+      call check_size(case%population_path(), case%survey%histories, error)
+      if (.not. allocated(error)) call find_start(case, file, results%resumed, error)
       if (.not. allocated(error)) call run_blocks(case, file, error, team, progress)
       if (allocated(error)) return
       allocate (results%counts%files(1))
@@ -69,6 +74,7 @@ contains
 
       type(counts_file_type), allocatable :: files(:)
       type(counts_key_type) :: key
+      logical, allocatable :: is_left(:)
       integer :: i, j, done
       logical :: exists
 
@@ -91,23 +97,26 @@ contains
          end if
       end do
       done = 0
+      is_left = spread(.true., 1, size(files))
       allocate (results%counts%files(size(files)))
       do i = 1, size(files)
-         j = minloc(files%first, dim=1, mask=files%first > done)
-         if (j == 0) exit
-         if (files(j)%first /= done + 1) exit
+         j = minloc(files%first, dim=1, mask=is_left)
+         if (files(j)%first > done + 1) exit
+         if (files(j)%first <= done) then
+            call raise_input(error, files(j)%path//': row '//to_text(files(j)%first)//' stands in another file too')
+            return
+         end if
+         is_left(j) = .false.
          results%counts%files(i) = files(j)
          done = files(j)%last
          call results%work%add(files(j)%work)
       end do
-      if (i <= size(files)) then
-         call raise_input(error, '--merge: row '//to_text(done + 1)//' stands in none of the files, or some row in '// &
-            & 'more than one')
-      else if (done < case%survey%rows) then
+      if (done < case%survey%rows) then
          call raise_input(error, '--merge: row '//to_text(done + 1)//' of '//to_text(case%survey%rows)// &
             & ' stands in none of the files')
+         return
       end if
-      if (.not. allocated(error)) call combine_rows(case, results, error)
+      call combine_rows(case, results, error)
    end subroutine merge_population
 
    !> Are only some rows of the population to be run?
@@ -173,7 +182,7 @@ contains
          call raise_input(error, file%path//': was made with another value of &job: histories')
       else if (file%key%variant /= key%variant) then
          call raise_input(error, file%path//': was made by build variant '//trim(file%key%variant)//', not '// &
-            & trim(key%variant)//'; DONDOLO_VARIANT can name one for all')
+            & trim(key%variant)//' (DONDOLO_VARIANT='//trim(file%key%variant)//' asks for it)')
       end if
    end subroutine check_key
 
@@ -199,6 +208,8 @@ contains
       associate (survey => case%survey)
          if (exists) then
             call check_key(file, key, error)
+            if (.not. allocated(error) .and. (file%first /= survey%first .or. file%last /= survey%last)) &
+               & call raise_input(error, file%path//': is of rows '//to_text(file%first)//' to '//to_text(file%last))
             if (allocated(error)) then
                error%message = error%message//'; remove it to begin anew'
                return
@@ -250,15 +261,33 @@ contains
             end do
             if (allocated(error)) exit
             call run_rows(case, members, file%done + 1, rows, work, error, team, int(file%work%histories), progress)
-            if (.not. allocated(error)) call append_counts(file%path, rows, work, error)
-            call file%work%add(work)
-            file%done = file%done + count
+            if (.not. allocated(error)) call append_counts(file, rows, work, error)
             deallocate (members)
          end do
          call reader%close()
-         if (present(progress) .and. .not. allocated(error)) call progress(int(file%work%histories), survey%histories)
+         if (.not. allocated(error)) call check_table(case, file, error)
+         if (present(progress) .and. .not. allocated(error)) &
+            & call progress(int(file%work%histories), int(survey%histories))
       end associate
    end subroutine run_blocks
+
+   !> Check that the table is still the one that was surveyed; if not, what was computed may be of either
+   subroutine check_table(case, file, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The file of counts
+      type(counts_file_type), intent(in) :: file
+      !> It is not; the file of counts is removed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(fingerprint_type) :: now
+
+      call fingerprint_lines(case%population_path(), now, error)
+      if (allocated(error)) return
+      if (now%text() == case%survey%fingerprint%text()) return
+      call remove_file(file%path)
+      call raise_failure(error, case%population_path()//': has changed during the run, which must begin anew')
+   end subroutine check_table
 
    !> Rows of a block, a multiple of the number of threads
    integer function block_size(case, team)
@@ -270,8 +299,8 @@ contains
       integer :: threads, of_a_row
 
       threads = team_of(team, huge(1))
-      of_a_row = max(1, case%survey%histories/(case%survey%last - case%survey%first + 1))
-      block_size = threads*max(1, histories_of_thread/of_a_row)
+      of_a_row = max(1, int(case%survey%histories/(case%survey%last - case%survey%first + 1)))
+      block_size = threads*min(rows_of_thread, max(1, histories_of_thread/of_a_row))
    end function block_size
 
 end module dondolo_run_population

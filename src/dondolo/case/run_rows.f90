@@ -89,7 +89,7 @@ contains
          now = done + int(work%histories)
          !$omp end critical (gather_row)
          if (present(progress)) then
-            if (omp_get_thread_num() == 0) call progress(now, case%survey%histories)
+            if (omp_get_thread_num() == 0) call progress(now, int(case%survey%histories))
          end if
       end subroutine one_row
 

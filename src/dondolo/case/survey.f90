@@ -21,7 +21,7 @@ module dondolo_survey
    implicit none
    private
 
-   public :: survey_type, survey_population, number_of_group
+   public :: survey_type, survey_population, check_size, fingerprint_lines, number_of_group
 
    !> What a survey has found
    type :: survey_type
@@ -32,7 +32,7 @@ module dondolo_survey
       !> Rows that are to be run
       integer :: first = 1, last = 0
       !> Histories of these rows, all levels
-      integer :: histories = 0
+      integer(int64) :: histories = 0
       !> Names of the groups, in the order in which they appear
       type(lines_type) :: groups
       !> What there is to say of scale factors
@@ -71,13 +71,11 @@ contains
       type(member_type) :: member
       type(stripes_type) :: plan
       type(problems_type) :: problems
-      integer(int64) :: histories
       logical :: found, has_weight
 
       call reader%open(file, error, solver_input%gravity)
       if (allocated(error)) return
       survey%first = rows(1)
-      histories = 0
       has_weight = .false.
       do
          call reader%next(member, found, error)
@@ -100,18 +98,16 @@ contains
                return
             end if
             call survey%scales%look(plan, records, reader%row)
-            if (reader%row >= rows(1) .and. reader%row <= rows(2)) histories = histories + size(plan%scale)
+            if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
+               & survey%histories = survey%histories + size(plan%scale)
          end if
          call problems%take(error)
       end do
       survey%last = min(rows(2), survey%rows)
       if (.not. allocated(error) .and. problems%count == 0) call check_weight(file, has_weight, error)
-      if (.not. allocated(error) .and. problems%count == 0) call check_size(file, histories, error)
       call problems%take(error)
       call problems%raise(error)
-      if (allocated(error)) return
-      survey%histories = int(histories)
-      call add_lines(file, survey%fingerprint, error)
+      if (.not. allocated(error)) call fingerprint_lines(file, survey%fingerprint, error)
    end subroutine survey_population
 
    !> Note a group, if it is new
@@ -143,7 +139,7 @@ contains
       end do
    end function number_of_group
 
-   !> Check that the histories can be counted
+   !> Check that the histories of a run can be counted; those of parts that are merged may be more
    subroutine check_size(file, histories, error)
       !> Path of the table
       character(len=*), intent(in) :: file
@@ -156,12 +152,12 @@ contains
          & to_text(huge(1))//' at a time, parts of the population with --walls FIRST:LAST')
    end subroutine check_size
 
-   !> Add the lines of a file to a fingerprint
-   subroutine add_lines(file, fingerprint, error)
+   !> Fingerprint of the lines of a file
+   subroutine fingerprint_lines(file, fingerprint, error)
       !> Path of the file
       character(len=*), intent(in) :: file
       !> Fingerprint
-      type(fingerprint_type), intent(inout) :: fingerprint
+      type(fingerprint_type), intent(out) :: fingerprint
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error
 
@@ -176,6 +172,6 @@ contains
          if (allocated(error) .or. .not. found) return
          call fingerprint%add_text(line)
       end do
-   end subroutine add_lines
+   end subroutine fingerprint_lines
 
 end module dondolo_survey

@@ -1,14 +1,14 @@
 !> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
 !> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions.
 module dondolo_system
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_null_char, c_long, &
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_intptr_t, c_null_char, c_long, &
       & c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
 
    public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file
-   public :: writer_type, stderr_is_terminal
+   public :: writer_type, stderr_is_terminal, outlive_file_limit
 
    !> A file being written
    type :: writer_type
@@ -81,6 +81,15 @@ module dondolo_system
          !> File descriptor
          integer(c_int), value :: descriptor
       end function c_isatty
+
+      !> Say what a signal is to do
+      type(c_ptr) function c_signal(number, handler) bind(c, name='signal')
+         import :: c_int, c_intptr_t, c_ptr
+         !> Number of the signal
+         integer(c_int), value :: number
+         !> A handler; 1: none, the signal is ignored
+         integer(c_intptr_t), value :: handler
+      end function c_signal
 
       !> Open a file
       type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
@@ -211,6 +220,17 @@ contains
 
       stderr_is_terminal = c_isatty(standard_error) == 1
    end function stderr_is_terminal
+
+   !> Go on where a file would grow beyond the limit of the process (ulimit -f): writing then fails as on a full disk
+   subroutine outlive_file_limit()
+
+      ! SIGXFSZ has this number on Linux and macOS; SIG_IGN is 1 there.
+      integer(c_int), parameter :: file_limit = 25_c_int
+      integer(c_intptr_t), parameter :: ignore = 1_c_intptr_t
+      type(c_ptr) :: before
+
+      before = c_signal(file_limit, ignore)
+   end subroutine outlive_file_limit
 
    !> Open a file
    subroutine open_writer(self, path, ok, append)
