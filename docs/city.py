@@ -220,7 +220,7 @@ def polarity(study):
     )
 
 
-def fitted(fraction, histories, saturation=1.0, top=len(LEVELS)):
+def fitted(fraction, histories, saturation=1.0, top=None):
     """The lognormal fitted to a mean fraction / what it tends to, at the lowest `top` levels."""
     n = float(histories)
     return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / saturation * n, 0.0, n), n)
@@ -340,6 +340,10 @@ def mixture(study):
             for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
         print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
+    for edp in typology.edp_thresholds:
+        state = typology.at(edp)
+        gap = state.group().curve(x) - state.mean(x)
+        print(f"EDP >= {edp:g}, all: curve - mean {gap.min():+.3f} to {gap.max():+.3f}")
     for mechanism in ("one_sided", "all"):
         one = typology.group(mechanism)
         for top in (6, 10, 15, 20):
@@ -463,10 +467,10 @@ def draw_mixture(ax, typology):
     x = np.linspace(0.0, 4.0, 201)
     ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology.group()
-    label = f"saturation {whole.saturation:.2f} × lognormal"
+    label = f"lognormal times saturation {whole.saturation:.2f}"
     ax.plot(x, whole.curve(x), color=style.BLACK, linestyle="--", label=label)
     raw = fitted(typology.mean_fraction, 44)
-    ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal without saturation")
+    ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
     ax.set_ylim(0.0, 1.02)
     ax.set_xlabel(style.im_label("pga"))
     ax.set_ylabel("probability of collapse")
