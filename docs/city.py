@@ -5,6 +5,7 @@ those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not se
 computed; remove the folder to compute everything again.
 """
 
+import functools
 import os
 import warnings
 from dataclasses import replace
@@ -62,12 +63,15 @@ class Study:
 
     Attributes
     ----------
+    events : list of int
+        The recording of each record: its two components stand next to each other.
     collapsed : list of ndarray, each of shape (levels, histories)
         Who collapses, row by row; the histories of a one-sided wall are those of all records, and again reversed.
     """
 
     def __init__(self, name, records):
         self.name, self.records = name, records
+        self.events = [i // 2 for i in range(len(records))]
         self.typology = self.run("centre", centre, LEVELS, edp_thresholds=[0.1, 0.4], progress=True)
         flags = self.typology.flags
         self.collapsed = [flags.of([row])[0, -1] for row in range(len(centre))]
@@ -115,16 +119,19 @@ def curves(study):
     for one in study.typology.groups:
         print(
             f"{one.group or 'population'}, {one.mechanism}: {one.walls} walls, {text(one.fit)}, beta_walls"
-            f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}"
+            f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}, saturation"
+            f" {one.saturation:.4f}"
         )
     for mechanism in (*MECHANISMS, "all"):
         fit = study.typology.fit(mechanism)
-        errors = [
-            f"{' and '.join(over)} {study.typology.bootstrap(SAMPLES, over=over, mechanism=mechanism).se_ln_theta:.4f}"
-            for over in (("records",), ("walls",), ("records", "walls"))
-        ]
-        print(f"standard error of ln theta, {mechanism}: fit {fit.se_ln_theta:.4f}, bootstrap over", ", ".join(errors))
-    low, high = study.typology.bootstrap(SAMPLES).mean_interval()
+        print(f"standard error of ln theta, {mechanism}: fit {fit.se_ln_theta:.4f}")
+        for what, events in (("one by one", None), ("in pairs of components", study.events)):
+            errors = []
+            for over in (("records",), ("walls",), ("records", "walls")):
+                samples = study.typology.bootstrap(SAMPLES, over=over, mechanism=mechanism, events=events)
+                errors.append(f"{' and '.join(over)} {samples.se_ln_theta:.4f}")
+            print(f"   bootstrap, records drawn {what}, over", ", ".join(errors))
+    low, high = study.typology.bootstrap(SAMPLES, events=study.events).mean_interval()
     shares = study.typology.group().fractiles
     for level in (0.3, 0.5, 1.0):
         j = int(np.argmin(abs(LEVELS - level)))
@@ -184,7 +191,13 @@ def sizes(study):
 def occurrence(study):
     """What the probabilities of occurrence do."""
     certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
-    print(f"p_occ as assumed: {text(study.typology.fit())}; 1 everywhere: {text(certain.fit())}")
+    for what, typology in (("as assumed", study.typology), ("1 everywhere", certain)):
+        means = ", ".join(f"{typology.mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
+        frequency = dd.mean_annual_frequency(typology.mean, HAZARD).frequency
+        print(
+            f"p_occ {what}: {text(typology.fit())}, saturation {typology.group().saturation:.3f}; mean {means};"
+            f" {frequency:.3g} a year; the mean is 0.5 at {level_of(typology.mean, 0.5):.3f} g"
+        )
 
 
 def polarity(study):
@@ -207,10 +220,16 @@ def polarity(study):
     )
 
 
-def fitted(fraction, histories):
-    """The lognormal fitted to a mean fraction."""
+def fitted(fraction, histories, saturation=1.0, top=None):
+    """The lognormal fitted to a mean fraction / what it tends to, at the lowest `top` levels."""
     n = float(histories)
-    return dd.fit_fragility(LEVELS, np.clip(fraction * n, 0.0, n), n)
+    return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / saturation * n, 0.0, n), n)
+
+
+def level_of(curve, probability):
+    """Where a curve reaches a probability, to 0.001 g."""
+    x = np.arange(0.001, 5.0, 0.001)
+    return float(x[np.argmax(curve(x) >= probability)])
 
 
 def restitution(study):
@@ -252,12 +271,19 @@ def dependence(study):
     """Mechanisms of a wall: independent, under the same record, and never both."""
     for what, p_occ in (("p_occ as assumed", centre.p_occ), ("p_occ = 1", np.ones(len(centre)))):
         independent, same, sums, weights = combined(study, p_occ)
-        ways = {"independent": independent, "same record": same}
+        i, j = np.transpose(pairs())
+        series = np.average(1.0 - (1.0 - p_occ[i]) * (1.0 - p_occ[j]), weights=weights)
+        ways = {"independent": (independent, series), "same record": (same, series)}
         if what == "p_occ as assumed":
-            ways["never both"] = sums
-        for way, values in ways.items():
+            ways["never both"] = (sums, np.average(p_occ[i] + p_occ[j], weights=weights))
+        for way, (values, saturation) in ways.items():
             fraction = np.average(values, axis=0, weights=weights)
-            print(f"walls with two mechanisms, {what}, {way}: {text(fitted(fraction, 44))}; at 2 g {fraction[-1]:.3f}")
+            fit = fitted(fraction, 44, saturation)
+            means = ", ".join(f"{np.interp(level, LEVELS, fraction):.3f} at {level} g" for level in (0.5, 1.0, 2.0))
+            print(
+                f"walls with two mechanisms, {what}, {way}: {text(fit)}, saturation {saturation:.3f}; mean fraction"
+                f" {means}"
+            )
         off = independent - same
         j = int(np.argmax(np.average(off, axis=0, weights=weights)))
         print(
@@ -266,7 +292,8 @@ def dependence(study):
         )
     independent, same, _, _ = combined(study, centre.p_occ)
     check = np.abs(study.typology.mean_fraction - centre_mean(study, independent)).max()
-    print(f"population, same record: {text(fitted(centre_mean(study, same), 44))}; check of the sums {check:.1e}")
+    fit = fitted(centre_mean(study, same), 44, study.typology.group().saturation)
+    print(f"population, same record: {text(fit)}; check of the sums {check:.1e}")
 
 
 def pairs():
@@ -299,51 +326,57 @@ def centre_mean(study, of_pairs):
 
 
 def mixture(study):
-    """The mean curve against the lognormal fitted to it, and how that depends on the highest level."""
+    """The mean curve against saturation x lognormal, and how that depends on the highest level."""
     typology = study.typology
-    most = np.average(
-        1.0 - np.prod(np.array([[1 - centre.p_occ[i], 1 - centre.p_occ[j]] for i, j in pairs()]), axis=1),
-        weights=centre.weights[[i for i, _ in pairs()]],
-    )
-    print(
-        f"a wall with two mechanisms collapses with {most:.3f} at most; mean at 2 g {typology.mean(2.0):.3f},"
-        f" lognormal {typology.fit()(2.0):.3f}; at 5 g {typology.mean(5.0):.3f} and {typology.fit()(5.0):.3f}"
-    )
-    x = np.linspace(0.02, 2.0, 100)
+    x = np.linspace(0.01, 20.0, 2000)
     for mechanism in (*MECHANISMS, "all"):
-        gap = typology.mean(x, mechanism) - typology.fit(mechanism)(x)
-        j = int(np.argmax(abs(gap)))
-        print(
-            f"{mechanism}: mean curve - lognormal at most {gap[j]:+.3f} at {x[j]:.2f} g; at 0.1 g"
-            f" {typology.mean(0.1, mechanism):.4f} and {typology.fit(mechanism)(0.1):.4f}"
+        one = typology.group(mechanism)
+        mean = typology.mean(x, mechanism)
+        gap = one.curve(x) - mean
+        places = [int(np.argmax(gap)), int(np.argmin(gap))]
+        gaps = ", ".join(f"{gap[j]:+.3f} at {x[j]:.2f} g" for j in places)
+        levels = ", ".join(
+            f"{level} g {typology.mean(level, mechanism):.4f} {one.curve(level):.4f}"
+            for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
+        print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
+    for edp in typology.edp_thresholds:
+        state = typology.at(edp)
+        gap = state.group().curve(x) - state.mean(x)
+        print(f"EDP >= {edp:g}, all: curve - mean {gap.min():+.3f} to {gap.max():+.3f}")
     for mechanism in ("one_sided", "all"):
+        one = typology.group(mechanism)
         for top in (6, 10, 15, 20):
-            one = typology.group(mechanism)
-            fit = dd.fit_fragility(LEVELS[:top], one.mean_fraction[:top] * 44.0, 44.0)
-            print(f"{mechanism}, levels up to {LEVELS[top - 1]:.1f} g: {text(fit)}")
+            fit, raw = (fitted(one.mean_fraction, 44, share, top) for share in (one.saturation, 1.0))
+            print(
+                f"{mechanism}, levels up to {LEVELS[top - 1]:.1f} g: {text(fit)}; not divided by the saturation:"
+                f" {text(raw)}"
+            )
 
 
 def enough(study):
-    """Standard error of ln theta with so many records and walls, all drawn with replacement."""
+    """Standard error of ln theta with so many recordings and walls, all drawn with replacement."""
     generator = np.random.default_rng(0)
     names = list(dict.fromkeys(wall.name for wall in centre))
     owner = np.array([names.index(wall.name) for wall in centre])
     weight = np.zeros(len(names))
     weight[owner] = centre.weights
+    never = np.ones(len(names))
+    np.multiply.at(never, owner, 1.0 - centre.p_occ)
     by_record = np.array([flags.reshape(len(LEVELS), -1, 44).mean(axis=1) for flags in study.collapsed])
 
     def theta(records, times):
         survival = np.ones((len(names), len(LEVELS)))
         np.multiply.at(survival, owner, 1.0 - centre.p_occ[:, None] * by_record[:, :, records].mean(axis=2))
-        return fitted(np.average(1.0 - survival, axis=0, weights=times * weight), 44).theta
+        weights = times * weight
+        saturation = np.average(1.0 - never, weights=weights)
+        return fitted(np.average(1.0 - survival, axis=0, weights=weights), 44, saturation).theta
 
-    def error(records, walls, together=1):
+    def error(records, walls):
         medians = []
         for _ in range(SAMPLES // 2):
-            # Components of a recording stand next to each other
-            groups = generator.integers(44 // together, size=records // together)
-            drawn = (together * groups[:, None] + np.arange(together)).ravel()
+            # The two components of a recording, which stand next to each other
+            drawn = (2 * generator.integers(22, size=records // 2)[:, None] + np.arange(2)).ravel()
             times = np.ones(len(names))
             if walls:
                 times = np.bincount(generator.integers(len(names), size=walls), minlength=len(names))
@@ -351,9 +384,8 @@ def enough(study):
         return np.std(np.log(medians), ddof=1)
 
     for walls in (30, 120, 240, 0):
-        errors = (f"{records} records {error(records, walls):.3f}" for records in (11, 22, 44))
+        errors = (f"{records // 2} recordings {error(records, walls):.3f}" for records in (12, 22, 44))
         print(f"standard error of ln theta, {walls or 'the same'} walls:", ", ".join(errors))
-    print(f"   the same walls, 44 records drawn as 22 pairs of components: {error(44, 0, 2):.3f}")
     quarters = (f"{theta(np.arange(first, 44, 4), 1.0):.3f}" for first in range(4))
     print("median under every fourth record:", ", ".join(quarters))
 
@@ -366,10 +398,12 @@ def risk(study):
     """Frequencies of collapse under the hazard of an imagined site."""
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
-        mean, fit = (dd.mean_annual_frequency(curve, HAZARD) for curve in (state.mean, state.fit()))
-        print(f"EDP >= {edp:g}: mean curve {mean.frequency:.3g} a year, lognormal {fit.frequency:.3g}")
-    for mechanism in MECHANISMS:
-        print(f"{mechanism}: lognormal {dd.mean_annual_frequency(study.typology.fit(mechanism), HAZARD).frequency:.3g}")
+        for mechanism in (*MECHANISMS, "all"):
+            curves = (functools.partial(state.mean, mechanism=mechanism), state.group(mechanism).curve)
+            mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
+            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} a year, saturation x lognormal {curve:.4g}")
+    alone = dd.mean_annual_frequency(study.typology.fit(), HAZARD).frequency
+    print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.2f}")
@@ -429,12 +463,14 @@ def draw_sizes(ax, typology):
 
 
 def draw_mixture(ax, typology):
-    """The mean curve of all, and lognormals fitted to it up to two levels."""
+    """The mean curve of all, saturation x lognormal, and a lognormal fitted without the saturation."""
     x = np.linspace(0.0, 4.0, 201)
     ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
-    for top, line in ((20, "--"), (10, ":")):
-        fit = dd.fit_fragility(LEVELS[:top], typology.mean_fraction[:top] * 44.0, 44.0)
-        ax.plot(x, fit(x), color=style.BLACK, linestyle=line, label=f"lognormal, levels up to {LEVELS[top - 1]:g} g")
+    whole = typology.group()
+    label = f"lognormal times saturation {whole.saturation:.2f}"
+    ax.plot(x, whole.curve(x), color=style.BLACK, linestyle="--", label=label)
+    raw = fitted(typology.mean_fraction, 44)
+    ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
     ax.set_ylim(0.0, 1.02)
     ax.set_xlabel(style.im_label("pga"))
     ax.set_ylabel("probability of collapse")
