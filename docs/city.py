@@ -332,17 +332,17 @@ def mixture(study):
     for mechanism in (*MECHANISMS, "all"):
         one = typology.group(mechanism)
         mean = typology.mean(x, mechanism)
-        gap = one.curve(x) - mean
+        gap = one.fit(x) - mean
         places = [int(np.argmax(gap)), int(np.argmin(gap))]
         gaps = ", ".join(f"{gap[j]:+.3f} at {x[j]:.2f} g" for j in places)
         levels = ", ".join(
-            f"{level} g {typology.mean(level, mechanism):.4f} {one.curve(level):.4f}"
+            f"{level} g {typology.mean(level, mechanism):.4f} {one.fit(level):.4f}"
             for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
         print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
     for edp in typology.edp_thresholds:
         state = typology.at(edp)
-        gap = state.group().curve(x) - state.mean(x)
+        gap = state.fit()(x) - state.mean(x)
         print(f"EDP >= {edp:g}, all: curve - mean {gap.min():+.3f} to {gap.max():+.3f}")
     for mechanism in ("one_sided", "all"):
         one = typology.group(mechanism)
@@ -399,10 +399,10 @@ def risk(study):
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
-            curves = (functools.partial(state.mean, mechanism=mechanism), state.group(mechanism).curve)
+            curves = (functools.partial(state.mean, mechanism=mechanism), state.fit(mechanism))
             mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
             print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} a year, saturation x lognormal {curve:.4g}")
-    alone = dd.mean_annual_frequency(study.typology.fit(), HAZARD).frequency
+    alone = dd.mean_annual_frequency(replace(study.typology.fit(), saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
@@ -468,7 +468,7 @@ def draw_mixture(ax, typology):
     ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology.group()
     label = f"lognormal times saturation {whole.saturation:.2f}"
-    ax.plot(x, whole.curve(x), color=style.BLACK, linestyle="--", label=label)
+    ax.plot(x, whole.fit(x), color=style.BLACK, linestyle="--", label=label)
     raw = fitted(typology.mean_fraction, 44)
     ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
     ax.set_ylim(0.0, 1.02)

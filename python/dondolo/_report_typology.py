@@ -46,9 +46,10 @@ def typology_cards(people: Typology) -> Markup:
     curve = people.group()
     entries: list[tuple[Any, Any, Any]] = []
     if curve.fit.has_fit:
-        entries.append(
-            (joined("median ", THETA), with_unit(curve.fit.theta, people.im), "of collapse, whole population")
-        )
+        whose = "of collapse, whole population"
+        if curve.saturation < 1.0:
+            whose = f"of collapse, the {curve.saturation:.0%} of the population that can collapse"
+        entries.append((joined("median ", THETA), with_unit(curve.fit.theta, people.im), whose))
         entries.append((joined("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
     else:
         entries.append(("lognormal fit", "none", curve.fit.status.replace("_", " ")))

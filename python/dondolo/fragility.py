@@ -43,6 +43,9 @@ class Fragility:
         Intensity measure.
     edp : float or None
         Rotation / capacity of the damage state; None where only counts were given.
+    saturation : float
+        What the probability tends to: 1, but for populations in which no mechanism may occur (`Group`); theta and beta
+        are then those of the walls in which one can, and the probability is that of all.
     stripes : Stripes or None
         The analysis behind it, which `bootstrap` needs.
     """
@@ -59,6 +62,7 @@ class Fragility:
     im: str = ""
     wall: Wall | None = None
     edp: float | None = None
+    saturation: float = 1.0
     stripes: Stripes | None = field(default=None, repr=False)
 
     @property
@@ -97,7 +101,7 @@ class Fragility:
         """
         self._need_fit()
         values = _levels_of(x)
-        return shaped(_binding.probability(self.theta, self.beta, values.ravel()), values)
+        return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
 
     def interval(self, x: ArrayLike, level: float = 0.95, method: str = "delta") -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
@@ -134,7 +138,7 @@ class Fragility:
             raise InputError(f"method = {method!r}: must be one of 'delta', 'profile'")
         from scipy.special import ndtr
 
-        return shaped(ndtr(low), values), shaped(ndtr(high), values)
+        return shaped(self.saturation * ndtr(low), values), shaped(self.saturation * ndtr(high), values)
 
     def parameter_interval(self, level: float = 0.95, method: str = "delta") -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
@@ -217,9 +221,11 @@ class Fragility:
         if not self.has_fit:
             low, high = self.bracket
             return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
+        ends = [("saturation", f"{self.saturation:.6g}")] if self.saturation < 1.0 else []
         return [
             ("theta", f"{self.theta:.6g}{unit} (standard error of ln theta {self.se_ln_theta:.3g})"),
             ("beta", f"{self.beta:.6g} (standard error {self.se_beta:.3g})"),
+            *ends,
             ("log likelihood", f"{self.log_likelihood:.6g}"),
             ("status", self.status),
         ]
@@ -254,12 +260,17 @@ class Bootstrap:
 
     def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
         """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
+        return self._interval(x, level, np.ones_like(self.theta))
+
+    def _interval(self, x: ArrayLike, level: float, saturation: FloatArray) -> tuple[Any, Any]:
+        """The interval of curves that tend to a saturation."""
         from scipy.special import ndtr
 
         values = _levels_of(x)
         theta, beta = self._fitted()
         with np.errstate(divide="ignore"):
             curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
+        curves *= saturation[~np.isnan(self.theta), None]
         low, high = np.quantile(curves, tails(level), axis=0)
         return shaped(low, values), shaped(high, values)
 

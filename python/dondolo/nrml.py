@@ -309,6 +309,11 @@ def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
                 f"taxonomy '{taxonomy}', limit state '{state}': has no curve (status '{curve.status}'); its fractions"
                 " can be written as DiscreteFragility"
             )
+        if isinstance(curve, Fragility) and curve.saturation < 1.0:
+            raise InputError(
+                f"taxonomy '{taxonomy}', limit state '{state}': tends to {curve.saturation:.3g}, and a lognormal of the"
+                " format tends to 1; its fractions can be written as DiscreteFragility"
+            )
 
 
 def _measure(taxonomy: str, im: str) -> tuple[str, float]:

@@ -198,6 +198,8 @@ def plot_fragility(
     fraction = z / n
     low = np.where(z > 0.0, beta_distribution.ppf(tail, z, n - z + 1.0), 0.0)
     high = np.where(z < n, beta_distribution.ppf(1.0 - tail, z + 1.0, n - z), 1.0)
+    # Counts are those of the walls that can collapse, the curve is that of all.
+    fraction, low, high = (fragility.saturation * part for part in (fraction, low, high))
     ax.errorbar(
         x,
         fraction,

@@ -64,9 +64,8 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     mean = typology.mean(grid, mechanism, group)
     ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
     if curve.fit.has_fit:
-        times = f", times {curve.saturation:.2g}" if curve.saturation < 1.0 else ""
-        fitted = f"lognormal, {_parameters(curve.fit)}{times}"
-        ax.plot(grid, curve.curve(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
+        fitted = f"lognormal, {_parameters(curve.fit)}"
+        ax.plot(grid, curve.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
     ax.plot(
         typology.levels,
         curve.mean_fraction,
@@ -266,4 +265,5 @@ def _parameters(fit: Fragility) -> str:
     if not fit.has_fit:
         return f"no fit ({fit.status.replace('_', ' ')})"
     unit = f" {_binding.unit_of(fit.im)}".rstrip()
-    return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}"
+    times = f", times {fit.saturation:.2g}" if fit.saturation < 1.0 else ""
+    return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}{times}"

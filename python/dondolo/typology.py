@@ -56,7 +56,8 @@ class Group:
         What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
     fit : Fragility
         The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
-        its standard errors take the walls' histories for independent. `curve` gives it with the saturation.
+        its standard errors take the walls' histories for independent. Its values are those for all walls: they tend to
+        the saturation, as the mean curve does.
     """
 
     group: str
@@ -71,20 +72,6 @@ class Group:
     fitted: float
     saturation: float
     fit: Fragility
-
-    def curve(self, x: ArrayLike) -> Any:
-        """The lognormal in place of the mean curve: saturation times fit.
-
-        Parameters
-        ----------
-        x : array_like
-            Levels of intensity, not negative.
-
-        Returns
-        -------
-        float or ndarray, shape of x
-        """
-        return self.saturation * self.fit(x)
 
     @property
     def beta_total(self) -> float:
@@ -183,7 +170,7 @@ class Typology:
         return of_group[mechanism]
 
     def fit(self, mechanism: str | None = None, group: str = "") -> Fragility:
-        """The lognormal curve fitted to the mean fractions; arguments as those of `group`."""
+        """The lognormal curve of the walls that can collapse, see `Group`; arguments as those of `group`."""
         return self.group(mechanism, group).fit
 
     def at(self, edp: float) -> Typology:
@@ -473,14 +460,14 @@ def _combine(
             combined[walls[i].name] = own[i]
             continue
         n = np.full(len(levels), float(histories[i : i + number].min()))
-        occurrence = 1.0 - np.prod(1.0 - people.p_occ[i : i + number])
+        occurrence = float(1.0 - np.prod(1.0 - people.p_occ[i : i + number]))
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
-        combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin)
+        combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin, saturation=occurrence)
     together = []
     for group in data.groups:
         n = np.full(len(levels), group.histories)
         z = n * group.mean_fraction / group.saturation if group.saturation > 0.0 else 0.0 * n
-        fit = curve_of(group.curve, levels, np.minimum(z, n), n, **origin)
+        fit = curve_of(group.curve, levels, np.minimum(z, n), n, **origin, saturation=group.saturation)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
         means = (group.mean_fraction, group.mean_curve, group.fractiles)
         together.append(

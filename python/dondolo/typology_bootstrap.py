@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _binding
 from dondolo._flags import Flags
@@ -58,6 +58,10 @@ class TypologyBootstrap(Bootstrap):
     def se_beta(self) -> float:
         """Standard error of beta: standard deviation of the samples with a fit."""
         return float(np.std(self._fitted()[1], ddof=1))
+
+    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
+        """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
+        return self._interval(x, level, self.saturation)
 
     def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
         """Percentile interval of the mean fraction at each of the levels.

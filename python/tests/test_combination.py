@@ -150,7 +150,7 @@ def test_saturation(people):
         error = np.sqrt(curve.saturation * (1.0 - curve.saturation) / len(capacity))
         assert abs(curve.saturation - finite.mean()) < 4.0 * error
         assert people.mean(1e3, group=group) == pytest.approx(curve.saturation, rel=1e-6)
-        assert curve.curve(1e3) == pytest.approx(curve.saturation, rel=1e-6)
+        assert curve.fit(1e3) == pytest.approx(curve.saturation, rel=1e-6)
         assert curve.fit.theta == pytest.approx(np.median(capacity[finite]), rel=0.1)
     assert all(curve.saturation == 1.0 for curve in people.groups if curve.mechanism != "all")
 

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -111,3 +112,26 @@ def test_the_engines_that_ran_are_told(executable, root, tmp_path, walls, engine
     done = subprocess.run([executable, "case.nml"], cwd=tmp_path, check=True, capture_output=True, text=True)
     assert f", engine {expected}\n" in done.stdout
     assert f"\n# engine and build variant: {expected}\n" in (tmp_path / "result_stripes.csv").read_text()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_wall_on_the_edge_of_its_trigger_ends(name, root):
+    """A peak that equals the trigger to the bit: squat walls turned for ever, by steps too short to move the ground."""
+    if name not in available():
+        pytest.skip(f"this build or this processor has no variant {name}")
+    program = (
+        "import sys, warnings, dondolo as dd; warnings.simplefilter('ignore'); records = dd.read_catalogue(sys.argv[1]);"
+        "walls = [dd.OneSidedWall(0.5, 0.5), dd.OneSidedWall(1.0, 0.8), dd.FreeStandingWall(0.5, 0.5)];"
+        "levels = [1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52];"
+        "print(sum(dd.multiple_stripe(w, records, levels, im='pga/a0', polarity='both', engine='lanes', threads=1,"
+        " progress=False).edp.max() for w in walls))"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", program, root / "data/records/synthetic44.csv"],
+        env={**os.environ, "DONDOLO_VARIANT": name},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert float(run.stdout) < 1e-6

@@ -129,7 +129,7 @@ contains
          if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
             call next_sample(set, lanes, i)
          else
-            call stop_between(stage, lanes, i, h, event /= no_event)
+            call stop_between(stage, set, lanes, i, h, event /= no_event)
          end if
          select case (event)
          case (impact)
@@ -169,9 +169,11 @@ contains
    end subroutine next_sample
 
    !> The lane is between two samples
-   pure subroutine stop_between(stage, lanes, i, h, at_event)
+   pure subroutine stop_between(stage, set, lanes, i, h, at_event)
       !> The wall
       type(stage_type), intent(in) :: stage
+      !> All records
+      type(record_set_type), intent(in) :: set
       !> Lanes
       type(lanes_type), intent(inout) :: lanes
       !> The lane
@@ -182,7 +184,9 @@ contains
       logical, intent(in) :: at_event
 
       lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
-      lanes%u(i) = lanes%u(i) + lanes%slope(i)*h
+      ! Of the time in the interval, not of the step: a sum of steps below the rounding of u would never move it, and a
+      ! wall on the edge of its trigger would turn for ever.
+      lanes%u(i) = lanes%factor(i)*set%samples(lanes%next(i) - 1) + lanes%slope(i)*lanes%time(i)
       if (at_event) call limit_span(stage, lanes, i)
    end subroutine stop_between
 
