@@ -120,7 +120,8 @@ def test_a_wall_on_the_edge_of_its_trigger_ends(name, root):
     if name not in available():
         pytest.skip(f"this build or this processor has no variant {name}")
     program = (
-        "import sys, warnings, dondolo as dd; warnings.simplefilter('ignore'); records = dd.read_catalogue(sys.argv[1]);"
+        "import sys, warnings, dondolo as dd; warnings.simplefilter('ignore');"
+        " records = dd.read_catalogue(sys.argv[1]);"
         "walls = [dd.OneSidedWall(0.5, 0.5), dd.OneSidedWall(1.0, 0.8), dd.FreeStandingWall(0.5, 0.5)];"
         "levels = [1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52];"
         "print(sum(dd.multiple_stripe(w, records, levels, im='pga/a0', polarity='both', engine='lanes', threads=1,"
