@@ -60,19 +60,25 @@ contains
       end do
    end subroutine add_reals
 
-   !> Add a text
+   !> Add a text, four characters at a time
    pure subroutine add_text(self, text)
       !> Fingerprint
       class(fingerprint_type), intent(inout) :: self
       !> The text
       character(len=*), intent(in) :: text
 
-      integer :: i
+      integer, parameter :: bytes = 4
+      character(len=bytes) :: rest
+      integer :: i, whole
 
       call self%add_integer(len(text, kind=int32))
-      do i = 1, len(text)
-         call self%add_integer(iachar(text(i:i), kind=int32))
+      whole = len(text) - modulo(len(text), bytes)
+      do i = 1, whole, bytes
+         call self%add_integer(transfer(text(i:i + bytes - 1), 0_int32))
       end do
+      if (whole == len(text)) return
+      rest = text(whole + 1:)
+      call self%add_integer(transfer(rest, 0_int32))
    end subroutine add_text
 
    !> The fingerprint as a text of 16 hexadecimal digits
