@@ -12,19 +12,7 @@ root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/..")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
-passed=0 failed=0
-
-# check WHAT COMMAND...: the command must succeed
-check() {
-   local what=$1
-   shift
-   if "$@" >/dev/null 2>&1; then
-      passed=$((passed + 1))
-   else
-      failed=$((failed + 1))
-      echo "FAILED  $what"
-   fi
-}
+. "$root/test/shell_checks.sh"
 
 equal() { [ "$1" = "$2" ] || { echo "'$1' should be '$2'"; return 1; }; }
 contains() { grep -qF -- "$2" "$1"; }

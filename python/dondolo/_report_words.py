@@ -27,7 +27,8 @@ STATUSES = {
 }
 LOGNORMAL = (
     "The curve is P(C | IM = x) = Φ(ln(x/θ)/β), Φ the standard normal distribution: θ is the median, the level at which"
-    " the probability is one half, and β the dispersion, the standard deviation of ln IM at collapse."
+    " the probability is one half, and β the dispersion, the standard deviation of ln IM at collapse. Where"
+    " mechanisms may not occur it is that of the walls that can collapse, times their share."
 )
 
 

@@ -1,0 +1,14 @@
+# What the tests in shell share: a count of checks that passed and that failed.
+passed=0 failed=0
+
+# check WHAT COMMAND...: the command must succeed
+check() {
+   local what=$1
+   shift
+   if "$@" >/dev/null 2>&1; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1))
+      echo "FAILED  $what"
+   fi
+}
