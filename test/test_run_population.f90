@@ -123,6 +123,16 @@ contains
       call read_population(scratch//'/walls.csv', members, error)
       call check_ok(error, 'a group of blanks')
       if (allocated(members)) call check(len(members(1)%group) == 0, 'is none')
+      call write_file('walls.csv', 'name,mechanism,height,thickness,hinge,weight,p_occ,eccentricity'//lf// &
+         & 'a,one_sided,-3,0,0.5,-1,2,'//lf//'b,two_block,3,0.3,1.5,y,1,4'//lf//'c,two_bloc,x,,,,,'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_row(error, 2, [character(len=60) :: 'height = -3: must be positive', &
+         & 'thickness = 0: must be positive', 'hinge = 0.5: only for mechanism = ''two_block''', &
+         & 'weight = -1: must lie between 0 and', 'p_occ = 2: must lie between 0 and 1'])
+      call check_row(error, 3, [character(len=60) :: 'hinge = 1.5: must lie between 0.01 and 0.99', &
+         & 'eccentricity = 4: must lie between -0.15 and 0.15', 'weight = ''y'': must be a number'])
+      call check_row(error, 4, [character(len=60) :: 'height = ''x'': must be a number'])
+      if (allocated(error)) call check(lines_of(error%message) == 9, 'everything in a row is said, each once')
       call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//repeat_groups(65))
       call read_case(scratch//'/a.nml', case, error)
       call check_error(error, 'walls.csv: line 66: group = ''g65'': there may be at most 64 groups', 'groups')
@@ -170,6 +180,20 @@ contains
       call check_error(error, 'line 14: mechanism = ''o n'': must be', 'a line end in a cell')
       if (allocated(error)) call check(lines_of(error%message) == 10, 'no more problems than there are')
    end subroutine check_problems
+
+   !> What is wrong with one row
+   subroutine check_row(error, line, problems)
+      type(error_type), allocatable, intent(in) :: error
+      integer, intent(in) :: line
+      character(len=*), intent(in) :: problems(:)
+
+      integer :: i
+
+      do i = 1, size(problems)
+         call check_error(error, scratch//'/walls.csv: line '//to_text(line)//': '//trim(problems(i)), &
+            & 'line '//to_text(line)//', problem '//to_text(i))
+      end do
+   end subroutine check_row
 
    !> Number of lines of a text
    pure integer function lines_of(text)

@@ -307,6 +307,11 @@ contains
       call refuse(input, 'eccentricity = 0.2: must lie between -0.125 and 0.125')
       input%overburden = -1.0_wp
       call refuse(input, 'overburden = -1: must lie between 0 and')
+      call refuse(input, new_line('a')//'eccentricity = 0.2: must lie between -0.125 and 0.125')
+      input%thickness = -0.25_wp
+      deallocate (input%height)
+      call refuse(input, 'height: must be given'//new_line('a')//'thickness = -0.25: must be positive'// &
+         & new_line('a')//'overburden = -1: must lie between 0 and')
    end subroutine test_wrong_input
 
    !> Input that must be refused with a sentence

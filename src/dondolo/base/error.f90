@@ -2,8 +2,8 @@
 !>
 !> An `error_type` that is not allocated means success. The message is one sentence without a final
 !> full stop; callers put the place before it (file, namelist group), so that a user reads
-!> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the rows of
-!> a table, their sentences stand on lines of their own (problems_type).
+!> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the
+!> variables of a wall or the rows of a table, their sentences stand on lines of their own (problems_type).
 module dondolo_error
    implicit none
    private
@@ -21,7 +21,7 @@ module dondolo_error
    type :: error_type
       !> `status_failure` or `status_input`
       integer :: stat = status_failure
-      !> One sentence: where, what, and what is allowed
+      !> One sentence: where, what, and what is allowed; or several, one a line
       character(len=:), allocatable :: message
    end type error_type
 
@@ -32,6 +32,8 @@ module dondolo_error
       !> Sentences of the first, one a line
       character(len=:), allocatable :: text
    contains
+      !> Note something that is wrong in what the user gave
+      procedure :: note
       !> Take an error, if there is one
       procedure :: take
       !> Report them, if there are any
@@ -64,14 +66,26 @@ contains
       error%message = on_one_line(message)
    end subroutine raise_failure
 
-   !> Put the place (a file, a group) before the sentence of an error, if there is one
+   !> Put the place (a file, a group) before every sentence of an error, if there is one
    pure subroutine add_place(error, place)
       !> Error to extend; left alone when not allocated
       type(error_type), allocatable, intent(inout) :: error
       !> Where it happened
       character(len=*), intent(in) :: place
 
-      if (allocated(error)) error%message = place//': '//error%message
+      character(len=:), allocatable :: message
+      integer :: first, length
+
+      if (.not. allocated(error)) return
+      message = ''
+      first = 1
+      do
+         length = index(error%message(first:), new_line('a'))
+         if (length == 0) exit
+         message = message//place//': '//error%message(first:first + length - 1)
+         first = first + length
+      end do
+      error%message = message//place//': '//error%message(first:)
    end subroutine add_place
 
    !> A text without control characters, which can come out of a file that is read
@@ -89,6 +103,19 @@ contains
       end do
    end function on_one_line
 
+   !> Note something that is wrong in what the user gave
+   subroutine note(self, message)
+      !> The problems
+      class(problems_type), intent(inout) :: self
+      !> Sentence for the user
+      character(len=*), intent(in) :: message
+
+      type(error_type), allocatable :: error
+
+      call raise_input(error, message)
+      call self%take(error)
+   end subroutine note
+
    !> Take an error, if there is one
    subroutine take(self, error)
       !> The problems
@@ -100,9 +127,8 @@ contains
       integer, parameter :: room = 1500
 
       if (.not. allocated(error)) return
-      if (.not. allocated(self%text)) self%text = ''
-      self%count = self%count + 1
-      if (self%count == 1) then
+      self%count = self%count + lines_of(error%message)
+      if (.not. allocated(self%text)) then
          self%text = error%message
       else if (len(self%text) + len(error%message) < room) then
          self%text = self%text//new_line('a')//error%message
@@ -118,19 +144,29 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=12) :: number
-      integer :: i, shown
+      integer :: hidden
 
       if (self%count == 0) return
       allocate (error)
       error%stat = status_input
       error%message = self%text
-      shown = 1
-      do i = 1, len(self%text)
-         if (self%text(i:i) == new_line('a')) shown = shown + 1
-      end do
-      if (shown == self%count) return
-      write (number, '(i0)') self%count - shown
+      hidden = self%count - lines_of(self%text)
+      if (hidden == 0) return
+      write (number, '(i0)') hidden
       error%message = self%text//new_line('a')//'and '//trim(number)//' more'
    end subroutine raise
+
+   !> How many lines a text has
+   pure integer function lines_of(text)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      integer :: i
+
+      lines_of = 1
+      do i = 1, len(text)
+         if (text(i:i) == new_line('a')) lines_of = lines_of + 1
+      end do
+   end function lines_of
 
 end module dondolo_error

@@ -159,10 +159,8 @@ contains
       type(member_type), intent(out) :: member
       !> Was there a row, right or wrong?
       logical, intent(out) :: found
-      !> What is wrong with it
+      !> Everything that is wrong with it
       type(error_type), allocatable, intent(out) :: error
-
-      type(wall_input_type) :: input
 
       call self%table%next(found, error)
       if (.not. found) then
@@ -172,8 +170,7 @@ contains
       end if
       self%row = self%row + 1
       if (allocated(error)) return
-      call read_row(self, input, member, error)
-      if (.not. allocated(error)) call new_wall(member%wall, input, error, self%gravity)
+      call read_row(self, member, error)
       if (.not. allocated(error)) call place_row(self, member, error)
       call add_place(error, self%table%place())
    end subroutine next
@@ -201,17 +198,17 @@ contains
    end subroutine skip
 
    !> Read what a row says
-   subroutine read_row(self, input, member, error)
+   subroutine read_row(self, member, error)
       !> The reader, with a row
       type(population_reader_type), intent(in) :: self
-      !> What is said of the wall
-      type(wall_input_type), intent(out) :: input
-      !> The row: its weight, group and probability are set
+      !> The row: all but whether it continues the wall before
       type(member_type), intent(inout) :: member
-      !> A cell that is not a number, or a number out of range
+      !> Every cell that is not a number or out of range
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: largest_weight = 1.0e12_wp
+      type(wall_input_type) :: input
+      type(problems_type) :: problems
       real(wp) :: number
       integer :: i, column
 
@@ -226,15 +223,19 @@ contains
          column = given(wall_numbers(i))
          if (column == 0) cycle
          call self%table%get_real(column, number, error)
-         if (allocated(error)) return
-         call set_wall_number(input, wall_numbers(i), number)
+         if (.not. allocated(error)) call set_wall_number(input, wall_numbers(i), number)
+         call problems%take(error)
       end do
+      ! A number that cannot be read would be told of once more as one that is missing
+      if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
+      call problems%take(error)
       ! Blanks alone are no name
       member%group = self%table%get_text(given('group'))
       call read_share('weight', member%weight, largest_weight)
-      if (.not. allocated(error)) call read_share('p_occ', member%p_occ, 1.0_wp)
-      if (.not. allocated(error)) call check_line('name', input%name)
-      if (.not. allocated(error)) call check_line('group', member%group)
+      call read_share('p_occ', member%p_occ, 1.0_wp)
+      call check_line('name', input%name)
+      call check_line('group', member%group)
+      call problems%raise(error)
 
    contains
 
@@ -262,9 +263,9 @@ contains
          column = given(name)
          if (column == 0) return
          call self%table%get_real(column, share, error)
-         if (allocated(error)) return
-         if (.not. (share >= 0.0_wp .and. share <= largest)) call raise_input(error, name//' = '//to_text(share)// &
-            & ': must lie between 0 and '//to_text(largest))
+         if (.not. allocated(error) .and. .not. (share >= 0.0_wp .and. share <= largest)) &
+            & call problems%note(name//' = '//to_text(share)//': must lie between 0 and '//to_text(largest))
+         call problems%take(error)
       end subroutine read_share
 
       !> Check that a text stands on one line and can be printed
@@ -278,7 +279,7 @@ contains
 
          do i = 1, len(text)
             if (iachar(text(i:i)) >= 32 .and. iachar(text(i:i)) /= 127) cycle
-            call raise_input(error, name//' = '''//text//''': must stand on one line, without control characters')
+            call problems%note(name//' = '''//text//''': must stand on one line, without control characters')
             return
          end do
       end subroutine check_line

@@ -1,7 +1,7 @@
 !> A wall: what the user says of it, and the mechanism that follows. Here names become types.
 module dondolo_wall
    use dondolo_block, only : block_type, new_block
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -70,7 +70,7 @@ contains
       type(wall_type), intent(out) :: wall
       !> What is said of it
       type(wall_input_type), intent(in) :: input
-      !> What is wrong with it: `variable = value: what is allowed`
+      !> Everything that is wrong with it, one thing a line: `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2]
       real(wp), intent(in), optional :: gravity
@@ -78,11 +78,8 @@ contains
       if (present(gravity)) wall%gravity = gravity
       wall%input = input
       call fill_defaults(wall%input)
-      call check_input(wall%input, error)
-      if (allocated(error)) return
-      call check_positive(error, 'gravity', wall%gravity, 1.0e3_wp)
-      if (allocated(error)) return
-      call build_mechanism(wall, error)
+      call check_input(wall%input, wall%gravity, error)
+      if (.not. allocated(error)) call build_mechanism(wall, error)
    end subroutine new_wall
 
    !> Names become types: the one place that knows all mechanisms
@@ -152,101 +149,87 @@ contains
    end subroutine set_default
 
    !> Check names and ranges
-   subroutine check_input(input, error)
+   subroutine check_input(input, gravity, error)
       !> What is said of the wall, defaults filled in
       type(wall_input_type), intent(in) :: input
-      !> The first thing that is wrong
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Everything that is wrong
       type(error_type), allocatable, intent(out) :: error
 
+      type(problems_type) :: problems
+
+      call check_positive(problems, 'height', input%height, 1.0e3_wp)
+      call check_positive(problems, 'thickness', input%thickness, 1.0e3_wp)
+      call check_positive(problems, 'density', input%density, 1.0e5_wp)
+      call check_positive(problems, 'gravity', gravity, 1.0e3_wp)
       if (.not. allocated(input%mechanism)) then
-         call raise_input(error, 'mechanism: must be given, one of '//join(mechanism_names))
-         return
-      end if
-      if (.not. any(input%mechanism == mechanism_names)) then
-         call raise_input(error, 'mechanism = '''//input%mechanism//''': must be one of '//join(mechanism_names))
-         return
-      end if
-      call check_required(error, 'height', input%height)
-      if (.not. allocated(error)) call check_required(error, 'thickness', input%thickness)
-      if (.not. allocated(error)) call check_positive(error, 'height', input%height, 1.0e3_wp)
-      if (.not. allocated(error)) call check_positive(error, 'thickness', input%thickness, 1.0e3_wp)
-      if (.not. allocated(error)) call check_positive(error, 'density', input%density, 1.0e5_wp)
-      if (allocated(error)) return
-      if (input%mechanism == 'two_block') then
-         call check_two_block(input, error)
+         call problems%note('mechanism: must be given, one of '//join(mechanism_names))
+      else if (.not. any(input%mechanism == mechanism_names)) then
+         call problems%note('mechanism = '''//input%mechanism//''': must be one of '//join(mechanism_names))
+      else if (input%mechanism == 'two_block') then
+         call check_two_block(problems, input)
       else
-         call check_absent(error, 'hinge', input%hinge)
-         if (.not. allocated(error)) call check_absent(error, 'overburden', input%overburden)
-         if (.not. allocated(error)) call check_absent(error, 'eccentricity', input%eccentricity)
+         call check_absent(problems, 'hinge', input%hinge)
+         call check_absent(problems, 'overburden', input%overburden)
+         call check_absent(problems, 'eccentricity', input%eccentricity)
       end if
+      call problems%raise(error)
    end subroutine check_input
 
    !> Check what only a two-block wall has
-   subroutine check_two_block(input, error)
+   subroutine check_two_block(problems, input)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
       !> What is said of the wall, defaults filled in
       type(wall_input_type), intent(in) :: input
-      !> The first thing that is wrong
-      type(error_type), allocatable, intent(out) :: error
 
       real(wp) :: half
 
-      if (.not. (input%hinge >= 0.01_wp .and. input%hinge <= 0.99_wp)) then
-         call raise_input(error, 'hinge = '//to_text(input%hinge)//': must lie between 0.01 and 0.99')
-         return
-      end if
-      if (.not. (input%overburden >= 0.0_wp .and. input%overburden <= 1.0e9_wp)) then
-         call raise_input(error, 'overburden = '//to_text(input%overburden)// &
-            & ': must lie between 0 and 1e9 N per metre of wall')
-         return
-      end if
+      if (.not. (input%hinge >= 0.01_wp .and. input%hinge <= 0.99_wp)) &
+         & call problems%note('hinge = '//to_text(input%hinge)//': must lie between 0.01 and 0.99')
+      if (.not. (input%overburden >= 0.0_wp .and. input%overburden <= 1.0e9_wp)) &
+         & call problems%note('overburden = '//to_text(input%overburden)// &
+         & ': must lie between 0 and 1e9 N per metre of wall')
+      if (.not. allocated(input%thickness)) return
       half = 0.5_wp*input%thickness
-      if (.not. abs(input%eccentricity) <= half) &
-         & call raise_input(error, 'eccentricity = '//to_text(input%eccentricity)// &
-         & ': must lie between -'//to_text(half)//' and '//to_text(half)//' (half the thickness)')
+      if (half > 0.0_wp .and. .not. abs(input%eccentricity) <= half) &
+         & call problems%note('eccentricity = '//to_text(input%eccentricity)//': must lie between -'// &
+         & to_text(half)//' and '//to_text(half)//' (half the thickness)')
    end subroutine check_two_block
 
-   !> A number that must be given
-   subroutine check_required(error, name, value)
-      !> Raised when it was not
-      type(error_type), allocatable, intent(out) :: error
-      !> Name of the variable
-      character(len=*), intent(in) :: name
-      !> Its value
-      real(wp), allocatable, intent(in) :: value
-
-      if (.not. allocated(value)) call raise_input(error, name//': must be given')
-   end subroutine check_required
-
    !> A number that belongs to two-block walls only
-   subroutine check_absent(error, name, value)
-      !> Raised when it was given
-      type(error_type), allocatable, intent(out) :: error
+   subroutine check_absent(problems, name, value)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
       !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its value
-      real(wp), allocatable, intent(in) :: value
+      !> Its value, absent where it was not given
+      real(wp), intent(in), optional :: value
 
-      if (allocated(value)) call raise_input(error, name//' = '//to_text(value)// &
-         & ': only for mechanism = ''two_block''')
+      if (present(value)) &
+         & call problems%note(name//' = '//to_text(value)//': only for mechanism = ''two_block''')
    end subroutine check_absent
 
-   !> A number that must be positive and not beyond reason
-   subroutine check_positive(error, name, value, largest)
-      !> Raised when it is not
-      type(error_type), allocatable, intent(out) :: error
+   !> A number that must be given, positive and not beyond reason
+   subroutine check_positive(problems, name, value, largest)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
       !> Name of the variable
       character(len=*), intent(in) :: name
-      !> Its value
-      real(wp), intent(in) :: value
+      !> Its value, absent where it was not given
+      real(wp), intent(in), optional :: value
       !> The largest value that makes sense
       real(wp), intent(in) :: largest
 
       real(wp), parameter :: smallest = 1.0e-3_wp
 
-      if (.not. value > 0.0_wp) then
-         call raise_input(error, name//' = '//to_text(value)//': must be positive')
+      if (.not. present(value)) then
+         call problems%note(name//': must be given')
+      else if (.not. value > 0.0_wp) then
+         call problems%note(name//' = '//to_text(value)//': must be positive')
       else if (.not. (value >= smallest .and. value <= largest)) then
-         call raise_input(error, name//' = '//to_text(value)//': must lie between '//to_text(smallest)//' and '// &
+         call problems%note(name//' = '//to_text(value)//': must lie between '//to_text(smallest)//' and '// &
             & to_text(largest))
       end if
    end subroutine check_positive
