@@ -9,13 +9,14 @@
 
 from dondolo._binding import build_variant
 from dondolo._binding import constants as _constants
+from dondolo.bootstrap import Bootstrap
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.cloud import Cloud, cloud
 from dondolo.comparison import Comparison, compare
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
-from dondolo.fragility import Bootstrap, Fragility, fit_fragility
+from dondolo.fragility import Fragility, fit_fragility
 from dondolo.hazard import HazardCurve
 from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.intensity import Spectrum, intensity_table, response_spectrum

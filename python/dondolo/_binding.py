@@ -18,9 +18,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _core
+from dondolo._arguments import FloatArray, as_array, as_number, as_path, as_text
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-
-FloatArray = NDArray[np.float64]
 
 _PACKAGE = Path(__file__).parent
 
@@ -198,59 +197,6 @@ def warn(sentences: Iterable[str]) -> None:
         frame, depth = frame.f_back, depth + 1
     for sentence in sentences:
         warnings.warn(sentence, DondoloWarning, stacklevel=depth)
-
-
-def as_number(name: str, value: Any) -> float:
-    """Turn what a user gives for a number into one."""
-    if isinstance(value, (str, bytes)):
-        raise InputError(f"{name} = {value!r}: must be a number")
-    try:
-        return float(value)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} = {value!r}: must be a number") from None
-
-
-def as_array(name: str, values: ArrayLike) -> FloatArray:
-    """Turn what a user gives for a row of numbers into one."""
-    try:
-        given = np.asarray(values)
-        if given.dtype.kind not in "biufO" or np.ma.isMaskedArray(values):
-            raise TypeError
-        array = np.ascontiguousarray(given, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name}: must be numbers") from None
-    if array.ndim != 1:
-        raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
-    if not array.size:
-        # f2py takes no empty arrays
-        raise InputError(f"{name}: must be given")
-    return array
-
-
-def as_text(name: str, value: Any) -> bytes:
-    """Turn what a user gives for a word into the bytes Fortran takes."""
-    if not isinstance(value, str):
-        raise InputError(f"{name} = {value!r}: must be a text")
-    if any(character in value for character in "\n\r\0"):
-        raise InputError(f"{name}: must stand on one line")
-    try:
-        return value.encode()
-    except UnicodeEncodeError:
-        raise InputError(f"{name} = {value!r}: must be a text") from None
-
-
-def as_measures(ims: str | Iterable[str]) -> list[str]:
-    """Turn what a user gives for the names of measures into a list of them; a text is one."""
-    if isinstance(ims, str):
-        return [ims]
-    if not isinstance(ims, Iterable):
-        raise InputError(f"ims = {ims!r}: must be names of intensity measures")
-    return list(ims)
-
-
-def as_path(path: str | os.PathLike[str]) -> bytes:
-    """Turn a path into the bytes Fortran takes."""
-    return os.fsencode(path)
 
 
 def settings(

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo import _binding
+from dondolo._arguments import FloatArray, as_count
 from dondolo._checkpoint import Checkpoint, digest
 from dondolo._crew import Crew, CrewError
 from dondolo._flags import Flags
@@ -60,7 +61,7 @@ class Run:
 def run_walls(
     request: Request,
     histories: IntArray,
-    states: _binding.FloatArray,
+    states: FloatArray,
     executor: Executor | None,
     checkpoint: str | os.PathLike[str] | None,
     block: int | None,
@@ -97,7 +98,7 @@ def run_walls(
 def _run_rest(
     run: Run,
     request: Request,
-    states: _binding.FloatArray,
+    states: FloatArray,
     executor: Executor | None,
     file: Checkpoint | None,
     block: int | None,
@@ -141,7 +142,7 @@ def _all_threads() -> int:
     return int(asked) if asked.isdigit() and int(asked) else os.cpu_count() or 1
 
 
-def _study(request: Request, states: _binding.FloatArray) -> dict[str, str]:
+def _study(request: Request, states: FloatArray) -> dict[str, str]:
     """All that the flags depend on, for a checkpoint: weights, groups, threads and blocks are not among it."""
     rtol, atol, *_ = (repr(float(value)) for value in request.settings)
     flat = _binding.join_walls([wall._flat for wall in request.walls])
@@ -166,5 +167,5 @@ def _study(request: Request, states: _binding.FloatArray) -> dict[str, str]:
 def _check(executor: Executor | None, block: int | None) -> None:
     if executor is not None and not isinstance(executor, Executor):
         raise InputError(f"executor: {type(executor).__name__} is no executor of concurrent.futures")
-    if block is not None and (isinstance(block, bool) or not isinstance(block, (int, np.integer)) or block < 1):
-        raise InputError(f"block = {block!r}: must be a whole number, at least 1")
+    if block is not None:
+        as_count("block", block, 1)

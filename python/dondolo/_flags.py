@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo import _binding
+from dondolo._arguments import FloatArray, as_array
 from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
@@ -108,9 +108,7 @@ class Flags:
         return replace(self, histories=self.histories[walls], bits=np.concatenate(bits))
 
 
-def pack(
-    edp: _binding.FloatArray, collapsed: NDArray[np.bool_], states: _binding.FloatArray, sizes: Iterable[int]
-) -> Bits:
+def pack(edp: FloatArray, collapsed: NDArray[np.bool_], states: FloatArray, sizes: Iterable[int]) -> Bits:
     """The bits of consecutive walls, which have so many histories each; the last state is collapse."""
     packed, start = [], 0
     for size in sizes:
@@ -120,9 +118,9 @@ def pack(
     return np.concatenate(packed) if packed else np.zeros(0, dtype=np.uint8)
 
 
-def states_of(edp_thresholds: ArrayLike | None, edp_limit: float) -> _binding.FloatArray:
+def states_of(edp_thresholds: ArrayLike | None, edp_limit: float) -> FloatArray:
     """EDP from which on a history is in each state: what a user gives, checked, and collapse as the last."""
-    given = np.empty(0) if edp_thresholds is None else _binding.as_array("edp_thresholds", edp_thresholds)
+    given = np.empty(0) if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)
     for one, other in zip(np.append(0.0, given), given, strict=False):
         if not other > 0.0:
             raise InputError(f"edp_thresholds = {other:g}: must be positive")

@@ -15,7 +15,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from dondolo._binding import FloatArray
+from dondolo._arguments import FloatArray
 
 _MOST_STEPS = 100
 _SEARCHES = 60

@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding
+from dondolo._arguments import FloatArray
 from dondolo.fragility import Fragility
-
-FloatArray = _binding.FloatArray
 
 # Numbers that curves of many walls are computed at together: a few tens of MB
 _NUMBERS = 2_000_000

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo import _binding
+from dondolo._arguments import FloatArray
 from dondolo._flags import pack
 from dondolo._request import Pace, Request
 from dondolo.walls import Wall
@@ -62,7 +62,7 @@ class Shared:
         EDP from which on a history is in each state; the last is collapse.
     """
 
-    def __init__(self, request: Request, states: _binding.FloatArray) -> None:
+    def __init__(self, request: Request, states: FloatArray) -> None:
         self.request = replace(request, walls=())
         self.states = states
         self._pace = Pace(float(request.records.lengths.mean()))

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core
-from dondolo.errors import InputError
+from dondolo._arguments import FloatArray, as_array, as_count, as_text
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
 from dondolo.work import Work
@@ -42,18 +42,18 @@ class Plan(NamedTuple):
     histories: Any
     record: Any
     polarity: Any
-    scale: _binding.FloatArray
+    scale: FloatArray
     warnings: list[str]
 
 
 class Outcome(NamedTuple):
     """Flat results, wall by wall and level by level."""
 
-    edp: _binding.FloatArray
+    edp: FloatArray
     collapsed: Any
     impacts: Any
-    time_of_peak: _binding.FloatArray
-    edp_error: _binding.FloatArray
+    time_of_peak: FloatArray
+    edp_error: FloatArray
     work: Work
     done: int
 
@@ -64,16 +64,16 @@ class Request:
 
     walls: tuple[Wall, ...]
     records: _binding.FlatRecords
-    values: _binding.FloatArray
-    levels: _binding.FloatArray
+    values: FloatArray
+    levels: FloatArray
     im: str
     polarity: str
     engine: str
-    settings: _binding.FloatArray
+    settings: FloatArray
     threads: int
 
     def _arguments(self) -> tuple[Any, ...]:
-        words = (_binding.as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
+        words = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
         return (*self.records, self.values, self.levels, *words, self.settings, self.threads)
 
     def plan(self) -> Plan:
@@ -175,7 +175,7 @@ def new_request(
 ) -> Request:
     """A request out of what a user gives."""
     team = check_threads(threads)
-    levels = _binding.as_array("levels", levels).copy()
+    levels = as_array("levels", levels).copy()
     levels.flags.writeable = False
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error, collapses_only)
     flat = flatten(tuple(records))
@@ -186,12 +186,8 @@ def new_request(
 
 
 def check_threads(threads: int) -> int:
-    """A number of threads as Fortran takes it, which checks the rest."""
-    if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
-        raise InputError(f"threads = {threads!r}: must be a whole number")
-    if not -(2**31) <= threads < 2**31:
-        raise InputError(f"threads = {threads}: must lie between 0 (all) and 4096")
-    return int(threads)
+    """A number of threads; 0 stands for all."""
+    return as_count("threads", threads, 0, 4096)
 
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:

@@ -6,6 +6,7 @@ import os
 from dataclasses import dataclass
 
 from dondolo import _binding, _core
+from dondolo._arguments import FloatArray, as_path
 from dondolo.fragility import Fragility
 from dondolo.motion import Response, simulate
 from dondolo.population import Population
@@ -50,8 +51,8 @@ class Case:
     im: str
     polarity: str
     engine: str
-    levels: _binding.FloatArray
-    edp_thresholds: _binding.FloatArray
+    levels: FloatArray
+    edp_thresholds: FloatArray
     rtol: float
     atol: float
     edp_limit: float
@@ -115,7 +116,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         The first thing that is wrong, with the sentence of the executable.
     """
-    parcel = _binding.receive(*_core.read_case(_binding.as_path(path)))
+    parcel = _binding.receive(*_core.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]

@@ -54,15 +54,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._request import Request, check_threads, new_request
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.fragility import _levels_of, shaped
 from dondolo.records import Record, as_records, flatten
 from dondolo.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.walls import Wall
 from dondolo.work import Work
 
-FloatArray = _binding.FloatArray
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
 # A level of any measure that takes no record beyond all bounds
@@ -178,7 +177,7 @@ class Cloud:
         DondoloError
             Too few histories rock without collapse, so that there is no regression.
         """
-        values = _levels_of(x)
+        values = as_levels(x)
         return shaped(self._curve(values.ravel(), self._threshold(edp)), values)
 
     def lognormal(self, edp: float | None = None) -> tuple[float, float]:
@@ -204,7 +203,7 @@ class Cloud:
         return median, 0.5 * float(np.log(high / low))
 
     def _threshold(self, edp: float | None) -> float:
-        threshold = self.edp_limit if edp is None else _binding.as_number("edp", edp)
+        threshold = self.edp_limit if edp is None else as_number("edp", edp)
         if not 0.0 < threshold <= self.edp_limit:
             raise InputError(f"edp = {threshold:g}: must be positive and at most {self.edp_limit:g}, the edp_limit")
         return threshold
@@ -339,7 +338,7 @@ def cloud(
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     several = as_records(records)
-    factor = _binding.as_number("scale", scale)
+    factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:
         raise InputError(f"scale = {factor:g}: must be positive")
     intensity, name = _intensities(wall, several, im, factor, threads)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from dondolo import _binding, fragility
+from dondolo._arguments import as_generator, tails
+from dondolo.bootstrap import draw_records, resample_stripes
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 
@@ -45,6 +49,7 @@ def compare(
     level: float = 0.95,
     n: int = 2000,
     seed: int | np.random.Generator | None = 0,
+    events: Sequence[Any] | None = None,
 ) -> Comparison:
     """Compare two fragility curves of the same intensity measure.
 
@@ -60,6 +65,9 @@ def compare(
         Confidence of the interval of the ratio.
     n, seed
         Number of samples of the bootstrap, and seed of its random numbers.
+    events : sequence, optional
+        A label for each record of the first curve, for the bootstrap of curves from the same records: those with the
+        same label are drawn together, as in `Fragility.bootstrap`.
 
     Returns
     -------
@@ -77,7 +85,7 @@ def compare(
     if method == "likelihood":
         return _by_likelihood(first, second, level)
     if method == "bootstrap":
-        return _by_bootstrap(first, second, level, n, seed)
+        return _by_bootstrap(first, second, level, n, seed, events)
     raise InputError(f"method = {method!r}: must be one of 'likelihood', 'bootstrap'")
 
 
@@ -105,27 +113,29 @@ def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Compari
 
 
 def _by_bootstrap(
-    first: Fragility, second: Fragility, level: float, n: int, seed: int | np.random.Generator | None
+    first: Fragility, second: Fragility, level: float, n: int, seed: Any, events: Sequence[Any] | None
 ) -> Comparison:
     if first.stripes is None or second.stripes is None:
         raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-    random = np.random.default_rng(seed)
-    times = fragility.draw(first.stripes, n, random)
+    random = as_generator(seed)
+    count = first.stripes.records
+    times = draw_records(count, n, random, events)
     # The same records, by position or, where names are unique, by name
-    count = times.shape[1]
-    names = [stripes.record_names[: stripes.record_index.max() + 1] for stripes in (first.stripes, second.stripes)]
+    names = [stripes.record_names[: stripes.records] for stripes in (first.stripes, second.stripes)]
     if names[0] == names[1]:
         others = times
     elif sorted(names[0]) == sorted(names[1]) and len(set(names[0])) == count:
         others = times[:, [names[0].index(name) for name in names[1]]]
+    elif events is not None:
+        raise InputError("events: is for curves from the same records")
     else:
-        others = fragility.draw(second.stripes, n, random)
-    difference = np.log(fragility.resample(first.stripes, times).theta)
-    difference = difference - np.log(fragility.resample(second.stripes, others).theta)
+        others = draw_records(second.stripes.records, n, random)
+    difference = np.log(resample_stripes(first.stripes, times).theta)
+    difference = difference - np.log(resample_stripes(second.stripes, others).theta)
     difference = difference[~np.isnan(difference)]
     if not len(difference):
         raise DondoloError("none of the samples of the bootstrap has a fit")
-    low, high = np.exp(np.quantile(difference, fragility.tails(level)))
+    low, high = np.exp(np.quantile(difference, tails(level)))
     below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)
     above = (np.sum(difference >= 0.0) + 1.0) / (len(difference) + 1.0)
     p_value = float(min(1.0, 2.0 * min(below, above)))

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding, fragility, tables
+from dondolo._arguments import FloatArray, as_count, as_measures
 from dondolo._request import new_request
+from dondolo.bootstrap import draw_records, resample_stripes
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.fragility import Fragility
 from dondolo.records import Record, as_records
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.walls import Wall
-
-FloatArray = _binding.FloatArray
 
 # Levels of an analysis reach so many dispersions from the median, where 0.6 % and 99.4 % collapse
 _REACH = 2.5
@@ -112,7 +112,8 @@ def compare_intensities(
     levels: int = 15,
     polarity: str = "as_recorded",
     samples: int = 1000,
-    seed: int = 0,
+    seed: int | np.random.Generator | None = 0,
+    events: Sequence[Any] | None = None,
     threads: int = 0,
     progress: bool = True,
 ) -> IntensityComparison:
@@ -136,8 +137,10 @@ def compare_intensities(
         As for `multiple_stripe`.
     samples : int
         Samples of records for the intervals of the ratios.
-    seed : int
+    seed : int, Generator or None
         Of these samples.
+    events : sequence, optional
+        A label for each record; those with the same label are drawn together, as in `Fragility.bootstrap`.
     threads, progress
         As for `multiple_stripe`.
 
@@ -151,14 +154,13 @@ def compare_intensities(
         A measure without a curve: too few records, say.
     """
     several = as_records(records)
-    names = [_binding.describe_measure(im).name for im in _binding.as_measures(ims)]
+    names = [_binding.describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
-    if isinstance(levels, bool) or not isinstance(levels, (int, np.integer)) or levels < 2:
-        raise InputError(f"levels = {levels!r}: must be a whole number, at least 2")
+    count = as_count("levels", levels, 2)
     analyses, curves = [], []
     for im in names:
-        grid = _levels(wall, several, im, levels, polarity, threads)
+        grid = _levels(wall, several, im, count, polarity, threads)
         analyses.append(multiple_stripe(wall, several, grid, im, polarity, threads=threads, progress=progress))
         curves.append(analyses[-1].fit())
         if not curves[-1].has_fit:
@@ -167,8 +169,8 @@ def compare_intensities(
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    times = fragility.draw(analyses[0], samples, seed)
-    drawn = np.array([fragility.resample(stripes, times).beta for stripes in analyses]) / power[:, None]
+    times = draw_records(len(several), samples, seed, events)
+    drawn = np.array([resample_stripes(stripes, times).beta for stripes in analyses]) / power[:, None]
     interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
     ratio = dispersion / dispersion.min()
     return IntensityComparison(tuple(analyses), tuple(curves), dispersion, error, ratio, interval)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -10,13 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
+from dondolo.bootstrap import Bootstrap, draw_records, resample_stripes
 from dondolo.errors import DondoloError, InputError
 
 if TYPE_CHECKING:
     from dondolo.stripes import Stripes
     from dondolo.walls import Wall
 
-FloatArray = _binding.FloatArray
 Interval = tuple[float, float]
 
 
@@ -100,7 +102,7 @@ class Fragility:
             A level that is negative or no number.
         """
         self._need_fit()
-        values = _levels_of(x)
+        values = as_levels(x)
         return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
 
     def interval(self, x: ArrayLike, level: float = 0.95, method: str = "delta") -> tuple[Any, Any]:
@@ -122,7 +124,7 @@ class Fragility:
         """
         self._need_fit()
         quantile = _quantile(level)
-        values = _levels_of(x)
+        values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError(f"x = {values.min():g}: must be positive")
         at = np.log(values.ravel() / self.theta)
@@ -171,7 +173,12 @@ class Fragility:
             theta = (self.theta * float(np.exp(low)), self.theta * float(np.exp(high)))
         return {"theta": theta, "beta": (1.0 / steep, 1.0 / flat if flat > 0.0 else np.inf)}
 
-    def bootstrap(self, n: int = 2000, seed: int | np.random.Generator | None = 0) -> Bootstrap:
+    def bootstrap(
+        self,
+        n: int = 2000,
+        seed: int | np.random.Generator | None = 0,
+        events: Sequence[Any] | None = None,
+    ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
 
         A record stays whole: it brings its histories at all levels and of both polarities, so that their dependence is
@@ -183,17 +190,26 @@ class Fragility:
             Number of samples.
         seed : int, Generator or None
             Of the random numbers; None: different every time.
+        events : sequence, optional
+            A label for each record, such as its recording or its earthquake: records with the same label are drawn
+            together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
+            much evidence as they are.
 
         Returns
         -------
         Bootstrap
+
+        Raises
+        ------
+        InputError
+            As many labels as records are needed.
+        DondoloError
+            The curve does not come from stripes.
         """
         self._need_fit()
         if self.stripes is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-        if not isinstance(n, (int, np.integer)) or n < 1:
-            raise InputError(f"n = {n!r}: must be a whole number, at least 1")
-        return resample(self.stripes, draw(self.stripes, n, seed))
+        return resample_stripes(self.stripes, draw_records(self.stripes.records, n, seed, events))
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""
@@ -235,61 +251,6 @@ class Fragility:
 
     def _repr_html_(self) -> str:
         return tables.html_of("Fragility", self._facts())
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Bootstrap:
-    """Curves fitted to records drawn with replacement.
-
-    Attributes
-    ----------
-    theta, beta : ndarray, shape (samples,)
-        Parameters of each; NaN where a sample has no fit.
-    status : ndarray of str, shape (samples,)
-        What came of each fit; '' where it failed.
-    """
-
-    theta: FloatArray
-    beta: FloatArray
-    status: np.ndarray[Any, Any]
-
-    @property
-    def without_fit(self) -> float:
-        """Share of the samples without a fit; they take no part in the intervals."""
-        return float(np.mean(np.isnan(self.theta)))
-
-    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
-        """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
-        return self._interval(x, level, np.ones_like(self.theta))
-
-    def _interval(self, x: ArrayLike, level: float, saturation: FloatArray) -> tuple[Any, Any]:
-        """The interval of curves that tend to a saturation."""
-        from scipy.special import ndtr
-
-        values = _levels_of(x)
-        theta, beta = self._fitted()
-        with np.errstate(divide="ignore"):
-            curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
-        curves *= saturation[~np.isnan(self.theta), None]
-        low, high = np.quantile(curves, tails(level), axis=0)
-        return shaped(low, values), shaped(high, values)
-
-    def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
-        """Percentile intervals of theta and beta."""
-        ends = tails(level)
-        return {
-            name: tuple(float(end) for end in np.quantile(values, ends))
-            for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
-        }  # type: ignore[return-value]
-
-    def _fitted(self) -> tuple[FloatArray, FloatArray]:
-        fitted = ~np.isnan(self.theta)
-        if not fitted.any():
-            raise DondoloError("none of the samples of the bootstrap has a fit")
-        return self.theta[fitted], self.beta[fitted]
-
-    def __repr__(self) -> str:
-        return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
 
 
 def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, im: str = "") -> Fragility:
@@ -365,62 +326,22 @@ def curve_of(
     )
 
 
-def draw(stripes: Stripes, n: int, seed: int | np.random.Generator | None) -> np.ndarray[Any, Any]:
-    """How often each record comes in each of n samples drawn with replacement: (samples, records)."""
-    records = int(stripes.record_index.max()) + 1
-    return np.random.default_rng(seed).multinomial(records, np.full(records, 1.0 / records), size=n)
-
-
-def resample(stripes: Stripes, times: np.ndarray[Any, Any]) -> Bootstrap:
-    """Fit the stripes again with each record taken so many times."""
-    place = stripes.record_index
-    collapses = times[:, place] @ stripes.collapsed.T.astype(np.float64)
-    histories = np.repeat(times[:, place].sum(axis=1, keepdims=True), len(stripes.levels), axis=1)
-    curves, statuses = _binding.fit_curves(stripes.levels, collapses, histories.astype(np.float64))
-    status = np.array(statuses)
-    fitted = np.isin(status, ("ok", "extrapolated"))
-    return Bootstrap(np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status)
-
-
-def shaped(values: FloatArray, like: FloatArray) -> Any:
-    """Values in the shape of the argument: a float for a scalar."""
-    return float(values[0]) if like.ndim == 0 else values.reshape(like.shape)
-
-
 def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
     # Copies: the curve keeps them, and what the caller does with theirs must not change it.
-    x, z = _binding.as_array("levels", levels).copy(), _binding.as_array("collapses", collapses).copy()
+    x, z = as_array("levels", levels).copy(), as_array("collapses", collapses).copy()
     if np.ndim(histories) == 0:
-        n = np.full(len(x), _binding.as_number("histories", histories))
+        n = np.full(len(x), as_number("histories", histories))
     else:
-        n = _binding.as_array("histories", histories).copy()
+        n = as_array("histories", histories).copy()
     if not len(x) == len(z) == len(n):
         raise InputError(f"{len(x)} levels, {len(z)} collapses, {len(n)} histories: must be as many")
     return x, z, n
-
-
-def _levels_of(x: ArrayLike) -> FloatArray:
-    try:
-        values = np.asarray(x, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError("x: must be numbers") from None
-    if not np.all(values >= 0.0):
-        raise InputError("x: must be levels of intensity, not negative")
-    return values
 
 
 def _quantile(level: float) -> float:
     from scipy.special import ndtri
 
     return float(ndtri(tails(level)[1]))
-
-
-def tails(level: float) -> tuple[float, float]:
-    """Probabilities at the ends of an interval of a confidence."""
-    level = _binding.as_number("level", level)
-    if not 0.0 < level < 1.0:
-        raise InputError(f"level = {level}: must lie between 0 and 1")
-    return 0.5 - 0.5 * level, 0.5 + 0.5 * level
 
 
 def _spread(value: float, log_width: float) -> Interval:

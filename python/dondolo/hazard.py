@@ -19,10 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped
 from dondolo.errors import InputError
-from dondolo.fragility import _levels_of, shaped
-
-FloatArray = _binding.FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -58,8 +56,8 @@ class HazardCurve:
     endless: bool
 
     def __init__(self, im_levels: ArrayLike, annual_frequency: ArrayLike, im: str = "pga") -> None:
-        x = _binding.as_array("im_levels", im_levels).copy()
-        h = _binding.as_array("annual_frequency", annual_frequency).copy()
+        x = as_array("im_levels", im_levels).copy()
+        h = as_array("annual_frequency", annual_frequency).copy()
         if len(x) != len(h):
             raise InputError(f"{len(x)} im_levels, {len(h)} annual_frequency: must be as many")
         if len(x) < 2:
@@ -104,7 +102,7 @@ class HazardCurve:
         HazardCurve
         """
         for what, value in (("k0", k0), ("k", k)):
-            if not 0.0 < _binding.as_number(what, value) < np.inf:
+            if not 0.0 < as_number(what, value) < np.inf:
                 raise InputError(f"{what} = {value:g}: must be positive")
         levels = np.array([0.5, 2.0])
         curve = cls(levels, k0 * levels**-k, im)
@@ -167,7 +165,7 @@ class HazardCurve:
         float or ndarray, shape of x
             [1/year]; NaN beyond the levels, where nothing is known.
         """
-        values = _levels_of(x)
+        values = as_levels(x)
         flat = values.ravel()
         with np.errstate(divide="ignore", over="ignore"):
             h, _ = self._continued(np.log(flat))

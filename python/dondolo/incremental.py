@@ -46,11 +46,10 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.stripes import Stripes
-
-FloatArray = _binding.FloatArray
 
 # Shares of the histories that fractiles are given for
 SHARES = (0.16, 0.50, 0.84)

@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core, tables
+from dondolo._arguments import FloatArray, as_array, as_measures, as_number
 from dondolo.errors import InputError
 from dondolo.records import Record, as_records, intensities
-
-FloatArray = _binding.FloatArray
 
 # What a table of records shows unless told otherwise
 _COLUMNS = ("pga", "pgv", "pgd", "arias", "cav", "d5-75", "d5-95", "hi", "sa(0.5)", "sa(1)", "saavg(0.2:2)")
@@ -77,10 +76,10 @@ def response_spectrum(record: Record, periods: ArrayLike, damping: float = 0.05)
     """
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__} is no record")
-    several = _binding.as_array("periods", periods).copy()
+    several = as_array("periods", periods).copy()
     if not len(several):
         raise InputError("periods: must be given")
-    ratio = _binding.as_number("damping", damping)
+    ratio = as_number("damping", damping)
     displacement, stat, message = _core.spectrum(record.acceleration, record.dt, several, ratio)
     _binding.check(stat, message)
     for array in (several, displacement):
@@ -110,7 +109,7 @@ def intensity_table(
     """
     several = as_records(records)
     table: dict[str, Any] = {"record": [record.name for record in several]}
-    for im in _binding.as_measures(ims):
+    for im in as_measures(ims):
         measure = _binding.describe_measure(im, of_record=True)
         table[f"{measure.name} [{measure.unit}]"] = intensities(several, im, gravity)
     return tables.frame(table)

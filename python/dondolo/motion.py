@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding, _core, tables
+from dondolo._arguments import FloatArray, as_number, as_text
 from dondolo.errors import DondoloError, InputError
 from dondolo.records import Record
 from dondolo.walls import Wall
-
-FloatArray = _binding.FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -163,7 +162,7 @@ def simulate(
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__} is no record")
-    factor = _binding.as_number("scale", scale)
+    factor = as_number("scale", scale)
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
     edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
         *wall._flat,
@@ -171,7 +170,7 @@ def simulate(
         record.dt,
         record.name.encode(),
         factor,
-        _binding.as_text("engine", engine),
+        as_text("engine", engine),
         settings,
         int(history),
     )

@@ -57,13 +57,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding
+from dondolo._arguments import FloatArray, as_array, as_number
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.fragility import Fragility
 
 if TYPE_CHECKING:
     from dondolo.typology import Typology
-
-FloatArray = _binding.FloatArray
 
 _NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 _LOSS_CATEGORIES = ("structural", "nonstructural", "contents", "business_interruption")
@@ -101,8 +100,8 @@ class DiscreteFragility:
     im: str
 
     def __init__(self, levels: ArrayLike, probability: ArrayLike, im: str = "pga") -> None:
-        x = _binding.as_array("levels", levels).copy()
-        p = _binding.as_array("probability", probability).copy()
+        x = as_array("levels", levels).copy()
+        p = as_array("probability", probability).copy()
         if len(x) != len(p):
             raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
         if len(x) < 2 or not x[0] > 0.0 or not np.all(np.diff(x) > 0.0) or not np.isfinite(x[-1]):
@@ -178,7 +177,7 @@ def write_nrml(
         raise InputError(f"loss_category = {loss_category!r}: must be one of {allowed}")
     limits = {"no_damage_limit": no_damage_limit, "min_iml": min_iml, "max_iml": max_iml}
     for what, value in limits.items():
-        if value is not None and not 0.0 < _binding.as_number(what, value) < np.inf:
+        if value is not None and not 0.0 < as_number(what, value) < np.inf:
             raise InputError(f"{what} = {value:g}: must be positive")
     states = _states(functions)
     root = ElementTree.Element("nrml", {"xmlns": _NAMESPACE})

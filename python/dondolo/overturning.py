@@ -12,12 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core, tables
+from dondolo._arguments import FloatArray, as_array, as_number, as_text
 from dondolo._request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.errors import InputError, Interrupted
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
-
-FloatArray = _binding.FloatArray
 
 # A wall that overturns after its impact has had energy for the way over the top before it, and more by 1/e^2: with
 # x = e/sqrt(1 - e^2) the fall of a slender block from 5 alpha takes at most (asinh(x) + asinh(4 x))/p: 9/p for 0.999.
@@ -262,7 +261,7 @@ def overturning_spectrum(
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):
         raise InputError(f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.one_sine")
-    width = _binding.as_number("tolerance", tolerance)
+    width = as_number("tolerance", tolerance)
     if not 1e-12 <= width <= 1.0:
         raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")
     settings = _binding.settings(rtol, atol, edp_limit)
@@ -270,7 +269,7 @@ def overturning_spectrum(
         wall,
         tuple(_pulse(pulse, value) for value in frequency),
         -1.0 if polarity == "reversed" else 1.0,
-        _binding.as_text("engine", engine),
+        as_text("engine", engine),
         settings,
         check_threads(threads),
         progress,
@@ -425,7 +424,7 @@ def _pulse(pulse: Callable[[float, float], Record], frequency: float) -> Record:
 
 def _increasing(name: str, values: ArrayLike) -> FloatArray:
     """Positive, increasing numbers."""
-    array = _binding.as_array(name, values).copy()
+    array = as_array(name, values).copy()
     if not np.all((array > 0.0) & (array < np.inf)):
         raise InputError(f"{name}: must be positive")
     if not np.all(np.diff(array) > 0.0):

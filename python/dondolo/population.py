@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_array, as_text
 from dondolo.errors import InputError
 from dondolo.walls import Wall, wall_from
 
@@ -59,9 +60,9 @@ class Population:
     """
 
     walls: tuple[Wall, ...]
-    weights: _binding.FloatArray = None  # type: ignore[assignment]
+    weights: FloatArray = None  # type: ignore[assignment]
     groups: tuple[str, ...] = None  # type: ignore[assignment]
-    p_occ: _binding.FloatArray = None  # type: ignore[assignment]
+    p_occ: FloatArray = None  # type: ignore[assignment]
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -85,7 +86,7 @@ class Population:
         for wall, group in zip(walls, groups, strict=True):
             _on_one_line("group", group, wall)
         for line in self.origin:
-            _binding.as_text("origin", line)
+            as_text("origin", line)
         _check_names(walls, weights, groups)
         filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": tuple(self.origin)}
         for name, value in filled.items():
@@ -234,14 +235,14 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
 def _on_one_line(what: str, text: str, wall: Wall) -> None:
     """Check a text of a wall."""
     try:
-        _binding.as_text(what, text)
+        as_text(what, text)
     except InputError as error:
         raise InputError(f"wall {wall.name!r}: {error}") from None
 
 
-def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> _binding.FloatArray:
+def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> FloatArray:
     """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
-    shares = np.ones(len(walls)) if values is None else _binding.as_array(name, values).copy()
+    shares = np.ones(len(walls)) if values is None else as_array(name, values).copy()
     if len(shares) != len(walls):
         raise InputError(f"{len(walls)} walls, {len(shares)} values of {name}: must be as many")
     wrong = ~((shares >= 0.0) & (shares <= largest) & (shares < math.inf))
@@ -253,7 +254,7 @@ def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest:
     return shares
 
 
-def _check_names(walls: Sequence[Wall], weights: _binding.FloatArray, groups: Sequence[str]) -> None:
+def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[str]) -> None:
     """Walls with one name must be mechanisms of one wall."""
     first: dict[str, int] = {}
     for i, wall in enumerate(walls):

@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dondolo import _binding, _core
+from dondolo._arguments import FloatArray, as_count, as_number
 from dondolo.errors import InputError
 from dondolo.records import Record
-
-FloatArray = _binding.FloatArray
 
 # Two time steps, or their ratio to a whole number, are the same within this: steps in files have few digits.
 _SAME = 1e-9
@@ -90,7 +89,7 @@ def correct_baseline(record: Record, kind: str = "constant", order: int | None =
         return record.processed(values - values.mean() - slope * x, line)
     if kind != "velocity":
         raise InputError(f"kind = {kind!r}: must be one of 'constant', 'linear', 'velocity'")
-    degree = _whole("order", 2 if order is None else order, 1, 8)
+    degree = as_count("order", 2 if order is None else order, 1, 8)
     if count <= degree:
         raise InputError(f"order = {degree}: must be less than the number of samples, {count}")
     powers = np.arange(1, degree + 1)
@@ -147,7 +146,7 @@ def band_pass(
     from scipy import signal
 
     values, nyquist = _of(record), 0.5 / record.dt
-    corners = [_binding.as_number(what, value) for what, value in (("low", low), ("high", high)) if value is not None]
+    corners = [as_number(what, value) for what, value in (("low", low), ("high", high)) if value is not None]
     if not corners:
         raise InputError("low, high: one of them must be given")
     for what, value in (("low", low), ("high", high)):
@@ -164,8 +163,8 @@ def band_pass(
         )
     if not isinstance(keep_padding, (bool, np.bool_)):
         raise InputError(f"keep_padding = {keep_padding!r}: must be True or False")
-    degree = _whole("order", order, 1, 10)
-    part = _binding.as_number("taper", taper)
+    degree = as_count("order", order, 1, 10)
+    part = as_number("taper", taper)
     if not 0.0 <= part <= 0.5:
         raise InputError(f"taper = {taper:g}: must lie between 0 and 0.5")
     kind = "low" if low is None else "high" if high is None else "band"
@@ -213,7 +212,7 @@ def resample(record: Record, dt: float) -> Record:
     band-limited signal: frequencies above half the lower of the two sampling rates are taken out, which keeps them from
     coming back as lower ones, and the straight lines between samples are others than before.
     """
-    values, step = _of(record), _binding.as_number("dt", dt)
+    values, step = _of(record), as_number("dt", dt)
     if not 0.0 < step < np.inf:
         raise InputError(f"dt = {dt:g} s: must be positive")
     if record.duration < step:
@@ -276,7 +275,7 @@ def trim(record: Record, low: float = 0.05, high: float = 0.95, before: float = 
     """
     values = _of(record)
     low, high, before, after = (
-        _binding.as_number(*pair) for pair in (("low", low), ("high", high), ("before", before), ("after", after))
+        as_number(*pair) for pair in (("low", low), ("high", high), ("before", before), ("after", after))
     )
     if not 0.0 <= low < high <= 1.0:
         raise InputError(f"low = {low:g}, high = {high:g}: must increase, between 0 and 1")
@@ -330,7 +329,7 @@ def rotate(first: Record, second: Record, angle: float) -> Record:
         that is none.
     """
     _pair(first, second)
-    direction = _binding.as_number("angle", angle)
+    direction = as_number("angle", angle)
     if not np.isfinite(direction):
         raise InputError(f"angle = {direction}: must be a number")
     values = _component(first.acceleration, second.acceleration, direction)
@@ -374,7 +373,7 @@ def rotd(
     degrees): 4e-5 of it for 180.
     """
     _pair(first, second)
-    count = _whole("angles", angles, 1, 36000)
+    count = as_count("angles", angles, 1, 36000)
     directions = 180.0 * np.arange(count) / count
     if isinstance(measure, str):
         measure = partial(Record.intensity, im=_binding.describe_measure(measure, of_record=True).name)
@@ -385,7 +384,7 @@ def rotd(
         if measure is None:
             values[i] = np.abs(_component(first.acceleration, second.acceleration, direction)).max()
         else:
-            values[i] = _binding.as_number("measure", measure(rotate(first, second, direction)))
+            values[i] = as_number("measure", measure(rotate(first, second, direction)))
     if np.isnan(values).any():
         raise InputError("measure: must be a number in every direction")
     largest = int(values.argmax())
@@ -440,10 +439,3 @@ def _pair(first: Any, second: Any) -> None:
         component = record.metadata.get("component", "").strip()
         if _VERTICAL.fullmatch(component):
             raise InputError(f"record '{record.name}': component = '{component}': is vertical, must be horizontal")
-
-
-def _whole(name: str, value: Any, least: int, most: int) -> int:
-    """A whole number within limits."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
-        raise InputError(f"{name} = {value!r}: must be a whole number between {least} and {most}")
-    return int(value)

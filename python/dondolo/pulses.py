@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding
+from dondolo._arguments import as_number
 from dondolo.errors import InputError
 from dondolo.records import Record
 
@@ -140,7 +140,7 @@ def mavroeidis_papageorgiou(
     three cosines its third derivative is at most A (2 pi f_p)^3 (1 + 3/(2 gamma^2)).
     """
     amplitude, frequency, error = _numbers(amplitude=amplitude, frequency=frequency, error=error)
-    nu, gamma = np.radians(_binding.as_number("phase", phase)), _binding.as_number("gamma", gamma)
+    nu, gamma = np.radians(as_number("phase", phase)), as_number("gamma", gamma)
     if not np.isfinite(nu):
         raise InputError(f"phase = {phase}: must be a number")
     if not 1.0 < gamma <= 100.0:
@@ -171,7 +171,7 @@ def _name(kind: str, frequency: float) -> str:
 
 def _numbers(**values: Any) -> tuple[float, ...]:
     """Positive numbers; the error within its limits."""
-    numbers = {what: _binding.as_number(what, value) for what, value in values.items()}
+    numbers = {what: as_number(what, value) for what, value in values.items()}
     for what, value in numbers.items():
         if not 0.0 < value < np.inf:
             raise InputError(f"{what} = {value:g}: must be positive")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core, tables
+from dondolo._arguments import FloatArray, as_array, as_number, as_text
 from dondolo.errors import InputError
 
 
@@ -50,7 +51,7 @@ class Record:
         A step that is not positive, a sample that is no acceleration, too few samples.
     """
 
-    acceleration: _binding.FloatArray
+    acceleration: FloatArray
     dt: float
     name: str = "record"
     processing: tuple[str, ...] = ()
@@ -66,12 +67,12 @@ class Record:
         *,
         metadata: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
-        values = _binding.as_array("acceleration", acceleration).copy()
-        step = _binding.as_number("dt", dt)
-        _binding.as_text("name", name)
+        values = as_array("acceleration", acceleration).copy()
+        step = as_number("dt", dt)
+        as_text("name", name)
         steps = (processing,) if isinstance(processing, str) else tuple(processing)
         for text in steps:
-            _binding.as_text("processing", text)
+            as_text("processing", text)
         pga, stat, message = _core.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
@@ -114,7 +115,7 @@ class Record:
         return (len(self.acceleration) - 1) * self.dt
 
     @property
-    def time(self) -> _binding.FloatArray:
+    def time(self) -> FloatArray:
         """Times of the samples [s]."""
         return self.dt * np.arange(len(self.acceleration))
 
@@ -263,9 +264,9 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     return several
 
 
-def intensities(records: Iterable[Record], im: str, gravity: float | None = None) -> _binding.FloatArray:
+def intensities(records: Iterable[Record], im: str, gravity: float | None = None) -> FloatArray:
     """An intensity measure of several records, in the unit of its levels."""
-    pull = _binding.constants().gravity if gravity is None else _binding.as_number("gravity", gravity)
+    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
     return _binding.intensities(im, flatten(as_records(records)), pull)

@@ -14,8 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._binding import FloatArray
-from dondolo.fragility import _levels_of, shaped
+from dondolo._arguments import FloatArray, as_levels, shaped
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -74,7 +73,7 @@ class Logistic:
 
     def __call__(self, x: ArrayLike) -> Any:
         """Probability at intensities, not negative: a float or an ndarray of the shape of x."""
-        values = _levels_of(x)
+        values = as_levels(x)
         return shaped(self.at(values.ravel()), values)
 
     def at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:

@@ -45,11 +45,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped
 from dondolo.errors import DondoloError, InputError
-from dondolo.fragility import Fragility, _levels_of, shaped
+from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
 
-FloatArray = _binding.FloatArray
 Curve = Fragility | Callable[[Any], Any]
 
 # Relative error that an integral aims at
@@ -117,7 +117,7 @@ class Risk:
         -------
         float
         """
-        time = _binding.as_number("years", years)
+        time = as_number("years", years)
         if not time >= 0.0:
             raise InputError(f"years = {time:g}: must not be negative")
         return float(-np.expm1(-self.frequency * time))
@@ -135,7 +135,7 @@ class Risk:
         float or ndarray, shape of x
             [1/year] a unit of ln x; 0 beyond the levels of the hazard curve.
         """
-        values = _levels_of(x)
+        values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError("x: must be positive")
         flat = values.ravel()
@@ -154,7 +154,7 @@ class Risk:
         ndarray, shape (bins,)
             [1/year]. Without the part beyond the levels of the hazard curve.
         """
-        x = _binding.as_array("edges", edges)
+        x = as_array("edges", edges)
         if len(x) < 2 or not np.all(x > 0.0) or not np.all(np.diff(x) > 0.0) or not np.isfinite(x[-1]):
             raise InputError("edges: must be two at least, positive and increasing")
         levels = self.hazard.im_levels

@@ -17,11 +17,10 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding
+from dondolo._arguments import FloatArray, as_array, as_count, as_number
 from dondolo.errors import InputError
 from dondolo.population import Population
 from dondolo.walls import MECHANISMS, Wall, wall_from
-
-FloatArray = _binding.FloatArray
 
 _PROPERTIES = (*_binding.WALL_NUMBERS, "restitution", "weight", "p_occ")
 
@@ -163,10 +162,10 @@ class Choice(Distribution):
     probabilities: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        values = _binding.as_array("values", self.values)
+        values = as_array("values", self.values)
         shares = np.full(len(values), 1.0 / len(values))
         if len(self.probabilities):
-            shares = _binding.as_array("probabilities", self.probabilities)
+            shares = as_array("probabilities", self.probabilities)
         if len(shares) != len(values):
             raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
         if not (np.diff(values) > 0.0).all():
@@ -266,7 +265,7 @@ def sample_population(
     'facades 0001'
     """
     own = _as_mechanisms(mechanisms)
-    n, seed = _whole("n", n, 1), _whole("seed", seed, 0)
+    n, seed = as_count("n", n, 1), as_count("seed", seed, 0)
     variables, correlation = dict(variables or {}), dict(correlation or {})
     _check_variables(variables)
     _check_properties(own, properties)
@@ -368,7 +367,7 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
             if what not in names:
                 known = ", ".join(map(repr, names)) or "none"
                 raise InputError(f"correlation: {what!r} is not sampled; these are: {known}")
-        value = _binding.as_number("correlation", given)
+        value = as_number("correlation", given)
         if not -1.0 < value < 1.0:
             raise InputError(f"correlation of {pair[0]} and {pair[1]} = {value:g}: must lie between -1 and 1")
         if pair[::-1] in correlation:
@@ -415,7 +414,7 @@ def _evaluate(
         elif isinstance(value, str):
             values[what] = value
         elif not callable(value):
-            values[what] = np.full(n, _binding.as_number(what, value))
+            values[what] = np.full(n, as_number(what, value))
     for what, value in properties.items():
         if callable(value):
             answer = np.asarray(value({**known, **values}))
@@ -427,7 +426,7 @@ def _evaluate(
 
 def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
     """Walls of one mechanism."""
-    pull = _binding.constants().gravity if gravity is None else _binding.as_number("gravity", gravity)
+    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
     numbers = {what: value for what, value in values.items() if what in _binding.WALL_NUMBERS}
     restitutions = [values.get("restitution")] * n
@@ -469,7 +468,7 @@ def _check_numbers(distribution: Any) -> None:
         value = getattr(distribution, field.name)
         if value is None:
             continue
-        number = _binding.as_number(field.name, value)
+        number = as_number(field.name, value)
         if not math.isfinite(number):
             raise InputError(f"{field.name} = {number}: must be finite")
         object.__setattr__(distribution, field.name, number)
@@ -479,10 +478,3 @@ def _check_ends(low: float | None, high: float | None) -> None:
     """The ends of a distribution must leave something between them."""
     if low is not None and high is not None and not low < high:
         raise InputError(f"high = {high:g}: must be greater than low = {low:g}")
-
-
-def _whole(name: str, value: Any, smallest: int) -> int:
-    """A whole number that is not too small."""
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < smallest:
-        raise InputError(f"{name} = {value!r}: must be a whole number of at least {smallest}")
-    return int(value)

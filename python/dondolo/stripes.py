@@ -12,14 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_number
 from dondolo._request import Outcome, Plan, Request, new_request
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, fit
 from dondolo.records import Record, as_records
 from dondolo.walls import Wall
 from dondolo.work import Work
-
-FloatArray = _binding.FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,11 +71,15 @@ class Stripes:
     edp_error: FloatArray | None = None
 
     @property
+    def records(self) -> int:
+        """Number of records."""
+        return len(self.record_names) // len(np.unique(self.polarity))
+
+    @property
     def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
         # All records come in one polarity, and again in the other if there are two.
-        count = len(self.record_names) // len(np.unique(self.polarity))
-        return np.arange(len(self.record_names)) % count
+        return np.arange(len(self.record_names)) % self.records
 
     @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -101,7 +104,7 @@ class Stripes:
         edp : float
             Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
         """
-        threshold = _binding.as_number("edp", edp)
+        threshold = as_number("edp", edp)
         if not 0.0 < threshold <= self.edp_limit:
             raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
         return (self.edp >= threshold).sum(axis=1)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from dondolo import _binding, _core
+from dondolo._arguments import as_count, as_number, as_text
 from dondolo.errors import InputError
 from dondolo.records import Record
 
@@ -59,15 +58,14 @@ def synthetic_records(
     docs/processing.md shows what the model gives and how it differs from recordings.
     """
     numbers = [
-        _binding.as_number(what, value)
+        as_number(what, value)
         for what, value in (("magnitude", magnitude), ("distance", distance), ("deviations", deviations))
     ]
     for what, value, least in (("count", count, 1), ("seed", seed, 1), ("first", first, 0)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value < 2**31:
-            raise InputError(f"{what} = {value!r}: must be a whole number, at least {least}")
+        as_count(what, value, least, 2**31 - 1)
     if int(first) + int(count) > 2**31:
         raise InputError(f"first = {first}, count = {count}: realisations must have numbers below 2147483648")
-    place = _binding.as_text("site", site)
+    place = as_text("site", site)
     return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(count)]
 
 

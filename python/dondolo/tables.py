@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo import _binding
+from dondolo._arguments import FloatArray
 from dondolo.errors import DondoloError, InputError
 
 if TYPE_CHECKING:
@@ -180,7 +181,7 @@ def histories_table(stripes: Stripes) -> Table:
 def stripes_table(
     walls: Sequence[Wall],
     im: str,
-    levels: _binding.FloatArray,
+    levels: FloatArray,
     edp_thresholds: Sequence[float],
     exceedances: np.ndarray[Any, Any],
     histories: Sequence[int],

@@ -13,16 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray, as_levels, as_number, as_text, shaped
 from dondolo._flags import Flags
 from dondolo._members import Members, first_rows
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.fragility import Fragility, _levels_of, curve_of, shaped
+from dondolo.fragility import Fragility, curve_of
 from dondolo.population import Population
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
 from dondolo.walls import Wall
 from dondolo.work import Work
 
-FloatArray = _binding.FloatArray
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 
@@ -191,7 +191,7 @@ class Typology:
         DondoloWarning
             Walls that have no fit in this state, a fit that extrapolates.
         """
-        value = _binding.as_number("edp", edp)
+        value = as_number("edp", edp)
         place = np.flatnonzero(self.edp_thresholds == value)
         if len(place) == 0:
             raise InputError(f"edp = {value:g}: must be one of {', '.join(f'{one:g}' for one in self.edp_thresholds)}")
@@ -226,7 +226,7 @@ class Typology:
         ndarray, shape (walls,) and that of x
             Walls of no weight left out.
         """
-        values = _levels_of(x)
+        values = as_levels(x)
         probabilities, _ = self._members(mechanism, group).at(values.ravel())
         return probabilities.reshape((-1, *values.shape))
 
@@ -237,7 +237,7 @@ class Typology:
         -------
         float or ndarray, shape of x
         """
-        values = _levels_of(x)
+        values = as_levels(x)
         members = self._members(mechanism, group)
         parts = (members.at(part) for part in members.parts(values.ravel()))
         mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
@@ -262,7 +262,7 @@ class Typology:
         ndarray, shape of q and that of x
             At each level the smallest probability such that the walls up to it have at least the share.
         """
-        values, shares = _levels_of(x), np.asarray(q, dtype=np.float64)
+        values, shares = as_levels(x), np.asarray(q, dtype=np.float64)
         if not np.all((shares > 0.0) & (shares <= 1.0)):
             raise InputError("q: must be shares of the weight, above 0 and up to 1")
         members = self._members(mechanism, group)
@@ -443,7 +443,7 @@ def _combine(
     first = first_rows([wall.name for wall in walls])
     rows = np.diff(np.append(first, len(walls))).astype(np.int32)
     words = (
-        _binding.as_text("name", word)
+        as_text("name", word)
         for wall, group in zip(walls, people.groups, strict=True)
         for word in (wall.name, wall.mechanism, group)
     )

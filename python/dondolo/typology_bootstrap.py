@@ -9,13 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo import _binding
+from dondolo._arguments import FloatArray, as_count, as_generator, tails
 from dondolo._flags import Flags
+from dondolo.bootstrap import Bootstrap, draw_records, fit_samples
 from dondolo.errors import InputError
-from dondolo.fragility import Bootstrap, tails
 from dondolo.population import Population
-
-FloatArray = _binding.FloatArray
 
 # Numbers that are held at a time: samples x walls, and samples x rows of a chunk x levels
 _DRAWS = 4_000_000
@@ -126,13 +124,11 @@ def resample_population(
     kinds = (over,) if isinstance(over, str) else tuple(over)
     if not kinds or not set(kinds) <= set(_KINDS):
         raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
-    if isinstance(n, bool) or not isinstance(n, (int, np.integer)) or n < 1:
-        raise InputError(f"n = {n!r}: must be a whole number, at least 1")
+    n, generator = as_count("n", n, 1), as_generator(seed)
     rows = _rows_of(population, mechanism, group)
-    generator = np.random.default_rng(seed)
     records = np.ones((n, flags.records))
     if "records" in kinds:
-        records = _draw_records(flags.records, events, n, generator)
+        records = draw_records(flags.records, n, generator, events)
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
@@ -144,30 +140,16 @@ def resample_population(
     histories = np.full_like(fraction, _histories_behind(rows, flags))
     occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
     share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
-    curves, statuses = _binding.fit_curves(levels, share * histories, histories)
-    status = np.where(counted, np.array(statuses), "")
-    fitted = np.isin(status, ("ok", "extrapolated"))
+    theta, beta, status = fit_samples(levels, share * histories, histories)
     return TypologyBootstrap(
-        np.where(fitted, curves[:, 0], np.nan),
-        np.where(fitted, curves[:, 1], np.nan),
-        status,
+        np.where(counted, theta, np.nan),
+        np.where(counted, beta, np.nan),
+        np.where(counted, status, ""),
         levels,
         fraction,
         saturation,
         tuple(kind for kind in _KINDS if kind in kinds),
     )
-
-
-def _draw_records(number: int, events: Sequence[Any] | None, n: int, generator: np.random.Generator) -> FloatArray:
-    """How often each record is in each sample (samples, records); as many in all as there are records."""
-    labels = range(number) if events is None else list(events)
-    if len(labels) != number:
-        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
-    places: dict[Any, int] = {}
-    place = [places.setdefault(label, len(places)) for label in labels]
-    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
-    # Events with many records must not make a sample count for more histories than there are.
-    return drawn * (number / drawn.sum(axis=1, keepdims=True))
 
 
 def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
+from dondolo._arguments import FloatArray
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
@@ -31,11 +32,11 @@ class Terms(NamedTuple):
         Q, the generalised force of carried loads [N m]; 0 without an overburden.
     """
 
-    inertia: _binding.FloatArray
-    inertia_rate: _binding.FloatArray
-    restoring_moment: _binding.FloatArray
-    excitation_lever: _binding.FloatArray
-    load_force: _binding.FloatArray
+    inertia: FloatArray
+    inertia_rate: FloatArray
+    restoring_moment: FloatArray
+    excitation_lever: FloatArray
+    load_force: FloatArray
 
 
 @dataclass(frozen=True, repr=False)
@@ -152,7 +153,7 @@ class Wall:
         """
         return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
 
-    def potential(self, rotation: ArrayLike) -> _binding.FloatArray:
+    def potential(self, rotation: ArrayLike) -> FloatArray:
         """Potential energy of gravity and of carried loads at given rotations.
 
         Parameters

@@ -273,6 +273,52 @@ def test_bootstrap_goes_by_records_and_not_by_names(wall, few):
     assert np.nanstd(unnamed.theta) > 0.0
 
 
+@pytest.mark.parametrize("polarity", ["as_recorded", "both"])
+def test_events_are_drawn_together(wall, few, polarity):
+    """Records told twice are no more evidence than told once, if it is said that they belong together."""
+    levels = [0.4, 0.6, 0.8, 1.0, 1.2]
+    twice = [record for record in few for _ in range(2)]
+    once, doubled = (
+        dd.multiple_stripe(wall, records, levels, polarity=polarity, progress=False).fit() for records in (few, twice)
+    )
+    plain, alone = once.bootstrap(300, seed=3), doubled.bootstrap(300, seed=3)
+    together = doubled.bootstrap(300, seed=3, events=[i // 2 for i in range(len(twice))])
+    np.testing.assert_allclose(together.theta, plain.theta, rtol=1e-12)
+    assert np.nanstd(np.log(alone.theta)) < 0.8 * np.nanstd(np.log(plain.theta))
+    own_names = once.bootstrap(300, seed=3, events=[f"event {i}" for i in range(len(few))])
+    np.testing.assert_array_equal(own_names.theta, plain.theta)
+    with pytest.raises(dd.InputError, match=f"events: 1 labels for {len(few)} records: must be as many"):
+        once.bootstrap(5, events=["a"])
+
+
+def test_comparison_draws_events_together(wall, few):
+    levels = [0.4, 0.6, 0.8, 1.0, 1.2]
+    thicker = dd.OneSidedWall(height=3.0, thickness=0.3)
+    twice = [dd.Record(record.acceleration, record.dt, name=f"{record.name} {i}") for record in few for i in "ab"]
+    pairs = [i // 2 for i in range(len(twice))]
+
+    def compared(records, **arguments):
+        curves = [dd.multiple_stripe(one, records, levels, progress=False).fit() for one in (wall, thicker)]
+        return dd.compare(*curves, method="bootstrap", n=300, seed=3, **arguments)
+
+    assert compared(twice, events=pairs).interval == pytest.approx(compared(few).interval, rel=1e-12)
+    ways = [dd.multiple_stripe(wall, records, levels, progress=False).fit() for records in (twice, twice[::-1])]
+    # In another order the records are found by their names.
+    turned = dd.compare(*ways, method="bootstrap", n=50, events=pairs)
+    assert turned.interval == pytest.approx((1.0, 1.0), abs=1e-12)
+    other = dd.multiple_stripe(wall, few, levels, progress=False).fit()
+    with pytest.raises(dd.InputError, match="events: is for curves from the same records"):
+        dd.compare(ways[0], other, method="bootstrap", n=5, events=pairs)
+
+
+@pytest.mark.parametrize("seed", [-1, "lucky", 1.5])
+def test_wrong_seeds(stripes, seed):
+    with pytest.raises(dd.InputError, match=r"seed = .*: must be a whole number, at least 0, a Generator or None"):
+        stripes.fit().bootstrap(5, seed=seed)
+    with pytest.raises(dd.InputError, match=r"n = 0: must be a whole number, at least 1"):
+        stripes.fit().bootstrap(0)
+
+
 def test_a_curve_keeps_its_counts():
     levels, collapses = np.array([0.1, 0.2, 0.3]), np.array([1.0, 4.0, 8.0])
     curve = dd.fit_fragility(levels, collapses, 10, im="pga")

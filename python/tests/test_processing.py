@@ -83,7 +83,7 @@ def test_velocity_is_that_of_the_chords():
     [
         (("cubic",), "kind = 'cubic': must be one of"),
         (("linear", 2), "order = 2: only with kind 'velocity'"),
-        (("velocity", 0), "order = 0: must be a whole number between 1 and 8"),
+        (("velocity", 0), "order = 0: must be a whole number, between 1 and 8"),
     ],
 )
 def test_baseline_errors(arguments, words):
@@ -153,7 +153,7 @@ def test_padding():
         ((5.0, 1.0), "low = 5, high = 1 Hz: must increase"),
         ((None, None), "one of them must be given"),
         ((0.001, 20.0), "low = 0.001 Hz: its period must not exceed ten times"),
-        ((0.5, 20.0, 0), "order = 0: must be a whole number between 1 and 10"),
+        ((0.5, 20.0, 0), "order = 0: must be a whole number, between 1 and 10"),
         ((0.5, 20.0, 4, 0.6), "taper = 0.6: must lie between 0 and 0.5"),
         (("a", 20.0), "low = 'a': must be a number"),
         ((0.5, 20.0, 4, 0.05, "no"), "keep_padding = 'no': must be True or False"),

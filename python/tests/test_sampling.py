@@ -239,9 +239,9 @@ def test_origin(tmp_path):
     [
         ({"mechanisms": "sliding"}, "mechanism = 'sliding': must be one of 'one_sided', 'free_standing', 'two_block'"),
         ({"mechanisms": []}, "mechanisms: must be given"),
-        ({"n": 0}, "n = 0: must be a whole number of at least 1"),
-        ({"n": 1.5}, "n = 1.5: must be a whole number of at least 1"),
-        ({"seed": -1}, "seed = -1: must be a whole number of at least 0"),
+        ({"n": 0}, "n = 0: must be a whole number, at least 1"),
+        ({"n": 1.5}, "n = 1.5: must be a whole number, at least 1"),
+        ({"seed": -1}, "seed = -1: must be a whole number, at least 0"),
         ({"hinge": 0.6}, "hinge: one_sided walls have none; give it to the mechanism that has it"),
         ({"mechanisms": {"one_sided": {"weight": 2.0}}}, "weight: belongs to the wall, not to one of its mechanisms"),
         ({"height": "tall"}, "height = 'tall': must be a number"),

@@ -1,0 +1,108 @@
+"""What users give, checked and turned into what is computed with; one clear line where it cannot be."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo.errors import InputError
+
+FloatArray = NDArray[np.float64]
+
+
+def as_number(name: str, value: Any) -> float:
+    """Turn what a user gives for a number into one."""
+    if isinstance(value, (str, bytes)):
+        raise InputError(f"{name} = {value!r}: must be a number")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name} = {value!r}: must be a number") from None
+
+
+def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
+    """Turn what a user gives for a whole number into one."""
+    allowed = f"at least {least}" if most is None else f"between {least} and {most}"
+    whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not whole or value < least or (most is not None and value > most):
+        raise InputError(f"{name} = {value!r}: must be a whole number, {allowed}")
+    return int(value)
+
+
+def as_array(name: str, values: ArrayLike) -> FloatArray:
+    """Turn what a user gives for a row of numbers into one."""
+    try:
+        given = np.asarray(values)
+        if given.dtype.kind not in "biufO" or np.ma.isMaskedArray(values):
+            raise TypeError
+        array = np.ascontiguousarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name}: must be numbers") from None
+    if array.ndim != 1:
+        raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
+    if not array.size:
+        # f2py takes no empty arrays
+        raise InputError(f"{name}: must be given")
+    return array
+
+
+def as_text(name: str, value: Any) -> bytes:
+    """Turn what a user gives for a word into the bytes Fortran takes."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} = {value!r}: must be a text")
+    if any(character in value for character in "\n\r\0"):
+        raise InputError(f"{name}: must stand on one line")
+    try:
+        return value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} = {value!r}: must be a text") from None
+
+
+def as_measures(ims: str | Iterable[str]) -> list[str]:
+    """Turn what a user gives for the names of measures into a list of them; a text is one."""
+    if isinstance(ims, str):
+        return [ims]
+    if not isinstance(ims, Iterable):
+        raise InputError(f"ims = {ims!r}: must be names of intensity measures")
+    return list(ims)
+
+
+def as_path(path: str | os.PathLike[str]) -> bytes:
+    """Turn a path into the bytes Fortran takes."""
+    return os.fsencode(path)
+
+
+def as_generator(seed: Any) -> np.random.Generator:
+    """Turn what a user gives for a seed into a generator of random numbers; None: a different one every time."""
+    try:
+        return np.random.default_rng(seed)
+    except (TypeError, ValueError):
+        raise InputError(f"seed = {seed!r}: must be a whole number, at least 0, a Generator or None") from None
+
+
+def as_levels(x: ArrayLike) -> FloatArray:
+    """Turn what a user gives for levels of intensity into an array; its shape is kept."""
+    try:
+        values = np.asarray(x, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError("x: must be numbers") from None
+    if not np.all(values >= 0.0):
+        raise InputError("x: must be levels of intensity, not negative")
+    return values
+
+
+def shaped(values: FloatArray, like: FloatArray) -> Any:
+    """Values in the shape of the argument: a float for a scalar."""
+    return float(values[0]) if like.ndim == 0 else values.reshape(like.shape)
+
+
+def tails(level: float) -> tuple[float, float]:
+    """Probabilities at the ends of an interval of a confidence."""
+    level = as_number("level", level)
+    if not 0.0 < level < 1.0:
+        raise InputError(f"level = {level}: must lie between 0 and 1")
+    return 0.5 - 0.5 * level, 0.5 + 0.5 * level

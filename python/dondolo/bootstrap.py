@@ -1,0 +1,108 @@
+"""Records drawn with replacement, and the curves fitted to them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo import _binding
+from dondolo._arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
+from dondolo.errors import DondoloError, InputError
+
+if TYPE_CHECKING:
+    from dondolo.stripes import Stripes
+
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Bootstrap:
+    """Curves fitted to records drawn with replacement.
+
+    Attributes
+    ----------
+    theta, beta : ndarray, shape (samples,)
+        Parameters of each; NaN where a sample has no fit.
+    status : ndarray of str, shape (samples,)
+        What came of each fit; '' where it failed.
+    """
+
+    theta: FloatArray
+    beta: FloatArray
+    status: np.ndarray[Any, Any]
+
+    @property
+    def without_fit(self) -> float:
+        """Share of the samples without a fit; they take no part in the intervals."""
+        return float(np.mean(np.isnan(self.theta)))
+
+    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
+        """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
+        return self._interval(x, level, np.ones_like(self.theta))
+
+    def _interval(self, x: ArrayLike, level: float, saturation: FloatArray) -> tuple[Any, Any]:
+        """The interval of curves that tend to a saturation."""
+        from scipy.special import ndtr
+
+        values = as_levels(x)
+        theta, beta = self._fitted()
+        with np.errstate(divide="ignore"):
+            curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
+        curves *= saturation[~np.isnan(self.theta), None]
+        low, high = np.quantile(curves, tails(level), axis=0)
+        return shaped(low, values), shaped(high, values)
+
+    def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
+        """Percentile intervals of theta and beta."""
+        ends = tails(level)
+        return {
+            name: tuple(float(end) for end in np.quantile(values, ends))
+            for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
+        }  # type: ignore[return-value]
+
+    def _fitted(self) -> tuple[FloatArray, FloatArray]:
+        fitted = ~np.isnan(self.theta)
+        if not fitted.any():
+            raise DondoloError("none of the samples of the bootstrap has a fit")
+        return self.theta[fitted], self.beta[fitted]
+
+    def __repr__(self) -> str:
+        return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
+
+
+def draw_records(number: int, n: int, seed: Any, events: Sequence[Any] | None = None) -> FloatArray:
+    """How often each record comes in each of n samples drawn with replacement: (samples, records).
+
+    Records with the same label in `events` are drawn together. Each sample has as many records as there are.
+    """
+    n, generator = as_count("n", n, 1), as_generator(seed)
+    labels = range(number) if events is None else list(events)
+    if len(labels) != number:
+        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
+    places: dict[Any, int] = {}
+    place = [places.setdefault(label, len(places)) for label in labels]
+    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
+    # Events with many records must not make a sample count for more histories than there are.
+    return drawn * (number / drawn.sum(axis=1, keepdims=True))
+
+
+def resample_stripes(stripes: Stripes, times: FloatArray) -> Bootstrap:
+    """Fit the stripes again with each record taken so many times."""
+    place = stripes.record_index
+    collapses = times[:, place] @ stripes.collapsed.T.astype(np.float64)
+    histories = np.repeat(times[:, place].sum(axis=1, keepdims=True), len(stripes.levels), axis=1)
+    return Bootstrap(*fit_samples(stripes.levels, np.minimum(collapses, histories), histories))
+
+
+def fit_samples(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray
+) -> tuple[FloatArray, FloatArray, np.ndarray[Any, Any]]:
+    """Curves of many samples: theta and beta, NaN where a sample has no fit, and the status of each."""
+    curves, statuses = _binding.fit_curves(levels, collapses, histories)
+    status = np.array(statuses)
+    fitted = np.isin(status, ("ok", "extrapolated"))
+    return np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status
