@@ -132,13 +132,8 @@ contains
 
       character(len=:), allocatable :: task
 
-      if (index(word, '=') > 0) then
-         task = word(index(word, '=') + 1:)
-      else
-         task = argument(i)
-         if (i > command_argument_count() .or. index(task, '-') == 1) return
-         i = i + 1
-      end if
+      call take_value(word, i, task)
+      if (.not. allocated(task)) return
       if (any(task == task_names)) then
          arguments%task = task
       else
@@ -161,13 +156,8 @@ contains
       character(len=:), allocatable :: value
       logical :: ok
 
-      if (index(word, '=') > 0) then
-         value = word(index(word, '=') + 1:)
-      else
-         value = argument(i)
-         if (i > command_argument_count() .or. index(value, '--') == 1) return
-         i = i + 1
-      end if
+      call take_value(word, i, value)
+      if (.not. allocated(value)) return
       call parse_real(value, arguments%seconds, ok)
       if (ok) ok = arguments%seconds >= shortest .and. arguments%seconds <= longest
       if (.not. ok) call raise_input(error, '--benchmark '//value//': must be a length of a measurement between '// &
@@ -189,12 +179,8 @@ contains
       integer :: first, last, colon
       logical :: ok, ok_too
 
-      if (index(word, '=') > 0) then
-         value = word(index(word, '=') + 1:)
-      else
-         value = argument(i)
-         i = i + 1
-      end if
+      call take_value(word, i, value)
+      if (.not. allocated(value)) value = ''
       colon = index(value, ':')
       call parse_integer(value(:colon - 1), first, ok)
       call parse_integer(value(colon + 1:), last, ok_too)
@@ -223,15 +209,10 @@ contains
       integer :: number
       logical :: ok
 
-      if (index(word, '=') > 0) then
-         value = word(index(word, '=') + 1:)
-      else
-         value = argument(i)
-         if (i > command_argument_count()) then
-            call raise_input(error, '--threads: a number must follow, such as --threads 4')
-            return
-         end if
-         i = i + 1
+      call take_value(word, i, value)
+      if (.not. allocated(value)) then
+         call raise_input(error, '--threads: a number must follow, such as --threads 4')
+         return
       end if
       call parse_integer(value, number, ok)
       if (ok) ok = number >= 0 .and. number <= largest_threads
@@ -242,6 +223,27 @@ contains
             & to_text(largest_threads))
       end if
    end subroutine take_threads
+
+   !> The value of an option: what follows `=`, or the next word unless that is an option
+   subroutine take_value(word, i, value)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> The value; not allocated if there is none
+      character(len=:), allocatable, intent(out) :: value
+
+      if (index(word, '=') > 0) then
+         value = word(index(word, '=') + 1:)
+         return
+      end if
+      value = argument(i)
+      if (i > command_argument_count() .or. index(value, '--') == 1) then
+         deallocate (value)
+      else
+         i = i + 1
+      end if
+   end subroutine take_value
 
    !> One argument
    function argument(i) result(word)

@@ -14,7 +14,7 @@ program dondolo_main
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
-   use dondolo_run_population, only : is_part, merge_population
+   use dondolo_run_population, only : merge_population
    use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : outlive_file_limit, stderr_is_terminal
@@ -32,7 +32,7 @@ program dondolo_main
    case ('help')
       call print_help()
    case ('version')
-      write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//build_variant()
+      write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//trim(build_variant())
    case ('template')
       call print_template(arguments%task)
    case ('benchmark')
@@ -70,7 +70,7 @@ contains
       end if
       threads = team(case%job%threads)
       if (arguments%action == 'merge') then
-         call merge_parts(case, arguments%parts, results, error)
+         call merge_population(case, arguments%parts, results, error)
          if (.not. allocated(error)) call finish_run(case, results, 0.0_wp, threads, error)
          return
       end if
@@ -88,24 +88,6 @@ contains
       call finish_run(case, results, real(finish - start, wp)/real(rate, wp), threads, error)
    end subroutine serve
 
-   !> Take the parts of a population together
-   subroutine merge_parts(case, parts, results, error)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Paths of the files of counts
-      type(lines_type), intent(in) :: parts
-      !> Results
-      type(results_type), intent(out) :: results
-      !> Not a case of a population, or a file that does not belong to it
-      type(error_type), allocatable, intent(out) :: error
-
-      if (case%job%task /= 'typology') then
-         call raise_input(error, '--merge: only for task = ''typology''')
-      else
-         call merge_population(case, parts, results, error)
-      end if
-   end subroutine merge_parts
-
    !> Write the reports, unless the run was one part of a population, and print the results at a glance
    subroutine finish_run(case, results, seconds, threads, error)
       !> The case
@@ -121,7 +103,7 @@ contains
 
       type(lines_type) :: paths
 
-      if (case%job%task == 'typology' .and. is_part(case)) then
+      if (case%job%task == 'typology' .and. case%survey%is_part) then
          call paths%add(results%counts%files(1)%path)
       else
          call write_reports(case, results, paths, error)

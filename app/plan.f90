@@ -2,6 +2,7 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
+   use dondolo_counts_file, only : counts_file_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -9,9 +10,10 @@ module dondolo_plan
    use dondolo_record_table, only : record_table
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
+   use dondolo_run_population, only : find_start
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : rounded, scale_warning_type
+   use dondolo_warnings, only : rounded, scale_warning_type, size_warning_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -31,7 +33,11 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(scale_warning_type) :: scales
+      type(size_warning_type) :: sizes
+      type(lines_type) :: warnings
+      type(counts_file_type) :: file
       type(work_type) :: work
+      logical :: has_begun
 
       if (case%job%task /= 'history') call plan_case(case, work, scales, error)
       if (allocated(error)) return
@@ -40,11 +46,16 @@ contains
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
       if (case%job%task == 'typology') then
-         call print_population(case, error)
+         call find_start(case, file, has_begun, error)
+         if (.not. allocated(error)) call print_population(case, error)
          if (allocated(error)) return
+         sizes = case%survey%sizes
       else
          call print_wall(case%wall)
+         call sizes%look(case%wall)
       end if
+      call sizes%warn(warnings)
+      if (warnings%count > 0) write (output_unit, '(a)') 'warning: '//warnings%line(1)%text, ''
       call print_records(case)
       if (case%job%task == 'history') then
          write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
@@ -55,6 +66,8 @@ contains
          & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
       if (size(case%stripes%thresholds) > 1) &
          & write (output_unit, '(a)') 'EDP thresholds:'//list(case%stripes%thresholds)
+      if (case%job%task == 'typology' .and. has_begun) write (output_unit, '(a)') 'an earlier run has left '// &
+         & to_text(file%done - file%first + 1)//' of '//to_text(file%last - file%first + 1)//' rows in '//file%path
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
@@ -93,7 +106,7 @@ contains
          if (allocated(error)) return
          if (survey%walls < survey%rows) write (output_unit, '(a)') to_text(survey%walls)//' walls, with '// &
             & to_text(survey%rows)//' mechanisms in all'
-         if (survey%last - survey%first + 1 < survey%rows) write (output_unit, '(a)') 'rows '// &
+         if (survey%is_part) write (output_unit, '(a)') 'rows '// &
             & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)
          call print_head(name_width)
          do i = survey%first, min(survey%last, survey%first + shown_rows - 1)

@@ -676,6 +676,7 @@ warned 's/0.6, 1.0/0.6, 5.0/' 'scale factors above 10 in 6 of 40 histories, the 
 warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at 0.08333 g'
 warned 's/levels.*/levels = 0.09, 0.1/;/0.6, 1.0/d' 'no collapse at levels 0.09 to 0.1'
 warned 's/levels.*/levels = 2, 3/;/0.6, 1.0/d;s/height = 3.0/height = 1.0/;s/0.25/0.05/' 'every history collapses at levels 2 to 3'
+warned 's/height = 3.0/height = 300/' "wall '.*' is thicker than 3 m or higher than 60 m: is it in metres?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv

@@ -82,7 +82,7 @@ rm out/*.counts
 check "parts: the same bytes" diff -r whole out
 rm -rf out
 
-# Memory: five times the walls, hardly any work; what grows are 16 bytes a name
+# Memory: five times the walls, hardly any work; what grows is the index of names
 if command -v /usr/bin/time >/dev/null; then
    study 'levels = 0.01' >study.nml
    for n in 8000 40000; do

@@ -5,6 +5,7 @@ program test_grouping
    use checks, only : check, check_ok, finish, suite
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_lane_variants, only : build_variant
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : new_record_set, record_set_type
@@ -21,6 +22,7 @@ program test_grouping
 
    walls = argument(1, 25)
    first = argument(2, 1)
+   call test_variant()
    call suite('threads and grouping')
    do i = first, first + walls - 1
       call test_wall(i)
@@ -28,6 +30,24 @@ program test_grouping
    call finish()
 
 contains
+
+   !> All threads are told the same build variant
+   subroutine test_variant()
+      character(len=8) :: variant, told
+      integer, parameter :: calls = 1000000
+      integer :: i, others
+
+      call suite('variant')
+      variant = build_variant()
+      others = 0
+      !$omp parallel do num_threads(8) reduction(+: others) default(none) private(told) shared(variant)
+      do i = 1, calls
+         told = build_variant()
+         if (told /= variant) others = others + 1
+      end do
+      !$omp end parallel do
+      call check(len_trim(variant) > 0 .and. others == 0, to_text(others)//' of '//to_text(calls)//' were told another')
+   end subroutine test_variant
 
    !> Stripes of one random wall under random records
    subroutine test_wall(number)

@@ -119,6 +119,16 @@ contains
          call check(index(error%message, 'line 4: name = ''a [1m'': must stand on one line') > 0, 'a control character')
          call check(index(error%message, 'line 5: group = ''c d'': must stand on one line') > 0, 'a line end in a group')
       end if
+      call write_file('walls.csv', 'name,mechanism,height,thickness'//lf//',one_sided,3,0.25'//lf// &
+         & 'wall 1,two_block,3,0.25'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_error(error, 'line 3: name = ''wall 1'': another wall has this name (line 2)', &
+         & 'a wall called what one without a name is called')
+      call write_file('walls.csv', 'mechanism,height,thickness,p_occ,weight'//lf//'one_sided,3,0.25,-0.00,-0'//lf// &
+         & 'one_sided,3,0.25,1,1'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_ok(error, 'zeros with a sign')
+      if (allocated(members)) call check(all(sign(1.0_wp, [members%p_occ, members%weight]) > 0.0_wp), 'lose it')
       call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//'one_sided,3,0.25,"  "'//lf)
       call read_population(scratch//'/walls.csv', members, error)
       call check_ok(error, 'a group of blanks')
@@ -408,12 +418,12 @@ contains
       call write_file('a.nml', case_text//' &solver rtol = 1e-9 /')
       call read_case(scratch//'/a.nml', case, error)
       call run_case(case, results, error, 1)
-      call check_error(error, 'z.checkpoint: is of other walls, records, levels or settings', 'other settings')
+      call check_error(error, 'z.checkpoint: is of other levels, thresholds, polarity or solver', 'other settings')
       call write_file('a.nml', case_text)
       call write_file('walls.csv', population//'f,one_sided,3,0.2,,1,old,1'//lf)
       call read_case(scratch//'/a.nml', case, error)
       call run_case(case, results, error, 1)
-      call check_error(error, 'remove it to begin anew', 'other walls')
+      call check_error(error, 'is of another table of walls; remove it to begin anew', 'other walls')
       call write_file('walls.csv', population)
       call remove_file(path)
    end subroutine test_killed
@@ -517,7 +527,8 @@ contains
    subroutine test_key()
       type(case_type) :: case, other
       type(error_type), allocatable :: error
-      character(len=*), parameter :: elsewhere = 'is of other walls, records, levels or settings'
+      character(len=*), parameter :: elsewhere = 'is of other levels, thresholds, polarity or solver', &
+         & shaken = 'is of other accelerograms'
 
       call suite('key')
       call read_case(scratch//'/a.nml', case, error)
@@ -536,11 +547,11 @@ contains
       other%records_input%polarity = 'reversed'
       call refuse(case, other, elsewhere, 'the polarity')
       other%records(1)%acceleration(100) = 2.0_wp
-      call refuse(case, other, elsewhere, 'a sample of a record')
+      call refuse(case, other, shaken, 'a sample of a record')
       other%records(2)%dt = 0.01_wp
-      call refuse(case, other, elsewhere, 'the step of a record')
+      call refuse(case, other, shaken, 'the step of a record')
       other%records(2)%name = 'three'
-      call refuse(case, other, elsewhere, 'the name of a record')
+      call refuse(case, other, shaken, 'the name of a record')
       other%solver%gravity = 9.8_wp
       call refuse(case, other, elsewhere, 'gravity')
       other%solver%solver%rtol = 1.0e-9_wp
@@ -623,10 +634,12 @@ contains
       call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
       call merge_anew(case, paths, error)
       call check_error(error, 'z_walls_2-5.counts: ends with row 3, its last is 5: run it again', 'a part not complete')
+      call read_case(scratch//'/a.nml', case, error, [1, 9])
+      call check_text(counts_path(case), scratch//'/out/z_walls_1-7.counts', 'all rows, asked for, are a part')
       call write_file('a.nml', case_text//' &solver gravity = 9.8 /')
       call read_case(scratch//'/a.nml', case, error)
       call merge_anew(case, paths, error)
-      call check_error(error, 'is of other walls, records, levels or settings', 'another case')
+      call check_error(error, 'is of other levels, thresholds, polarity or solver', 'another case')
       call write_file('a.nml', case_text)
    end subroutine test_parts
 

@@ -26,6 +26,9 @@ program test_typology
    call test_groups()
    call test_weights_of_nothing()
    call test_too_many_groups()
+   call test_all_that_can()
+   call test_weights_beyond_numbers()
+   call test_signed_zero()
    call test_fractiles_by_hand()
    call test_fractiles_by_sorting()
    call test_order()
@@ -98,6 +101,69 @@ contains
          names = names//typologies(i)%group//':'//typologies(i)%mechanism//' '
       end do
    end function names_of
+
+   !> Where all walls that can collapse do, rounding of the saturation makes up no survivors
+   subroutine test_all_that_can()
+      type(wall_curves_type) :: wall
+      type(typology_type), allocatable :: curves(:)
+      type(fragility_type) :: fit
+      type(error_type), allocatable :: error
+      real(wp) :: p_occ
+      integer :: i, k
+
+      call suite('all that can')
+      call fit_fragility(fit, x, [0.0_wp, 44.0_wp, 44.0_wp], spread(44.0_wp, 1, 3), error)
+      call check(fit%status == 'separated', 'one mechanism')
+      do i = 1, 200
+         p_occ = 0.005_wp*real(i, wp)
+         call new_wall_curves(wall, '', 1.0_wp + p_occ, ['one_sided'], [p_occ], [fit], &
+            & reshape([0, 44, 44], [3, 1]), [44], x, error)
+         call check_ok(error, 'wall')
+         call combine_population(curves, [wall], x, error)
+         call check_ok(error, 'population')
+         if (allocated(error)) return
+         do k = 1, size(curves)
+            call check(curves(k)%fit%status == 'separated', 'p_occ = '//to_text(p_occ)//': '//curves(k)%fit%status)
+         end do
+      end do
+   end subroutine test_all_that_can
+
+   !> A weight of a mechanism that is too small for a number counts as none
+   subroutine test_weights_beyond_numbers()
+      type(wall_curves_type) :: walls(2)
+      type(typology_type), allocatable :: curves(:)
+      integer :: k
+
+      call suite('weights beyond numbers')
+      walls(1) = wall_of([1], ['one_sided'], sqrt(tiny(1.0_wp)), [sqrt(tiny(1.0_wp))*epsilon(1.0_wp)**2])
+      walls(2) = wall_of([3], ['two_block'], 1.0_wp)
+      curves = combined(walls(:1))
+      do k = 1, size(curves)
+         call check(.not. any(curves(k)%mean_fraction /= curves(k)%mean_fraction), 'no NaN alone')
+      end do
+      curves = combined(walls)
+      call check_text(names_of(curves), ':two_block :all ', 'the mechanism has no curve')
+   end subroutine test_weights_beyond_numbers
+
+   !> A zero with a sign is a zero
+   subroutine test_signed_zero()
+      type(fractiles_type) :: fractiles
+      real(wp) :: values(3, 1)
+      integer :: i
+
+      call suite('signed zero')
+      call new_fractiles(fractiles, [0.16_wp, 0.5_wp, 0.84_wp], 1, 5.0_wp, 8)
+      do while (.not. fractiles%complete())
+         do i = 1, 5
+            call fractiles%add([merge(-0.0_wp, 0.25_wp*real(i - 1, wp), i <= 2)], 1.0_wp)
+         end do
+         call fractiles%end_pass()
+      end do
+      values = fractiles%values()
+      do i = 1, 3
+         call check_close(values(i, 1), 0.5_wp*real(i - 1, wp), 0.0_wp, 'fractile '//to_text(i))
+      end do
+   end subroutine test_signed_zero
 
    !> One wall of one mechanism is its own population
    subroutine test_one_wall()

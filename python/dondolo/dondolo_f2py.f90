@@ -3,7 +3,8 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
-! 0, or 1 and 2 as the exit codes of the executable. Each procedure releases Python's lock (threadsafe).
+! 0, or 1 and 2 as the exit codes of the executable. Procedures that compute release Python's lock (threadsafe); those that
+! make texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
 subroutine constants(defaults, version, statuses)
@@ -13,7 +14,6 @@ subroutine constants(defaults, version, statuses)
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : standard_gravity
    implicit none
-   !f2py threadsafe
    ! rtol, atol, edp_limit, gravity
    real(c_double), intent(out) :: defaults(4)
    character(len=32), intent(out) :: version
@@ -33,7 +33,6 @@ end subroutine constants
 subroutine variant(name)
    use dondolo_lane_variants, only : build_variant
    implicit none
-   !f2py threadsafe
    character(len=32), intent(out) :: name
 
    name = build_variant()
@@ -60,7 +59,6 @@ subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: texts
    integer(c_int), intent(in) :: w, given(8, w)
    real(c_double), intent(in) :: numbers(8, w), gravity(w)
@@ -147,7 +145,6 @@ subroutine describe_measure(im, of_record, handle, sizes, stat, message)
    use dondolo_lines, only : lines_type
    use dondolo_scaling, only : new_scaling, scaling_type
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: im
    integer(c_int), intent(in) :: of_record
    integer(c_intptr_t), intent(out) :: handle
@@ -315,7 +312,6 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record, read_all => read_records
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: path, units, channel, layout
    integer(c_int), intent(in) :: what, dt_given
    real(c_double), intent(in) :: dt
@@ -356,7 +352,6 @@ subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: path
    real(c_double), intent(in) :: gravity
    integer(c_intptr_t), intent(out) :: handle
@@ -384,7 +379,6 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    use dondolo_error, only : error_type
    use dondolo_population, only : member_type, read_population
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: path
    real(c_double), intent(in) :: gravity
    integer(c_intptr_t), intent(out) :: handle
@@ -472,9 +466,8 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, size_warning_type, warn_of_records
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
    real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
@@ -487,6 +480,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
+   type(size_warning_type) :: dimensions
    type(lines_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
@@ -519,11 +513,13 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
             exit
          end if
          histories(i) = size(stripes%record)
-         call scales%look(stripes, records, i)
+         call scales%look(stripes, records)
+         call dimensions%look(walls(i))
       end do
    end if
    if (.not. allocated(error)) then
       call warn_of_records(records, warnings)
+      call dimensions%warn(warnings)
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
@@ -687,7 +683,6 @@ subroutine synthetic_record(magnitude, distance, site, seed, stream, deviations,
    use dondolo_record, only : record_type
    use dondolo_synthetic, only : make_record => synthetic_record
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: site
    integer(c_int), intent(in) :: seed, stream
    real(c_double), intent(in) :: magnitude, distance, deviations
@@ -769,7 +764,6 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
    use dondolo_warnings, only : fit_warning_type
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: texts
    integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
    real(c_double), intent(in) :: levels(m), weights(r), p_occ(r)
@@ -839,7 +833,6 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : warn_of_fit
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: texts
    integer(c_int), intent(in) :: m, given(8), status
    real(c_double), intent(in) :: numbers(8), gravity, levels(m), largest_edp, curve(8)
@@ -882,7 +875,6 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    use dondolo_stripes, only : stripes_type
    use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    implicit none
-   !f2py threadsafe
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit, level
    character(len=*), intent(in) :: record
@@ -939,7 +931,6 @@ subroutine read_case(path, handle, sizes, stat, message)
    use dondolo_lines, only : lines_type
    use dondolo_population, only : member_type, read_population
    implicit none
-   !f2py threadsafe
    character(len=*), intent(in) :: path
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat

@@ -68,9 +68,15 @@ def test_no_single_precision_at_the_boundary():
         assert not re.search(r": .*\bfloat32\b", text), name
 
 
-def test_every_procedure_is_threadsafe(root):
+def test_procedures_that_compute_release_the_lock(root):
+    """Only those may: gfortran's functions that return texts are not safe in several threads."""
     text = (root / "python/dondolo/dondolo_f2py.f90").read_text()
-    assert len(re.findall(r"^subroutine ", text, re.M)) == text.count("!f2py threadsafe")
+    procedures = re.split(r"(?m)^subroutine ", text)[1:]
+    free = {re.match(r"\w+", procedure)[0] for procedure in procedures if "!f2py threadsafe" in procedure}
+    assert free == {
+        "take_parcel", "wall_terms", "check_record", "intensities", "scaling_values", "spectrum", "ground_velocity",
+        "significant_times", "simulate", "run_block", "run_scaled", "fit_curves", "probability",
+    }  # fmt: skip
 
 
 def test_import_is_quick():

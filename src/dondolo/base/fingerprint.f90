@@ -32,7 +32,7 @@ module dondolo_fingerprint
 contains
 
    !> Add an integer
-   elemental subroutine add_integer(self, number)
+   pure subroutine add_integer(self, number)
       !> Fingerprint
       class(fingerprint_type), intent(inout) :: self
       !> The integer

@@ -1,4 +1,7 @@
 !> Numbers and words as text: what messages, readers and tables share.
+!>
+!> gfortran 12 keeps the length of a result of deferred length in one place for each place where the function is called,
+!> for all threads. None is called in here; what threads run calls none either, or one thread at a time.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
@@ -24,6 +27,7 @@ contains
       character(len=:), allocatable :: text
 
       character(len=48) :: buffer
+      character(len=16) :: format
       real(wp) :: again
       integer :: digits, stat
 
@@ -34,21 +38,23 @@ contains
          return
       end if
       do digits = 1, precision(value) + 3
-         write (buffer, '(es48.'//integer_to_text(digits - 1)//'e4)') value
+         write (format, '(a, i0, a)') '(es48.', digits - 1, 'e4)'
+         write (buffer, format) value
          read (buffer, *, iostat=stat) again
          if (stat == 0 .and. again == value) exit
       end do
-      text = plain(trim(adjustl(buffer)))
+      call make_plain(trim(adjustl(buffer)), text)
    end function real_to_text
 
    !> Rewrite d.dddE+0xx as a plain decimal where that is short
-   pure function plain(scientific) result(text)
+   pure subroutine make_plain(scientific, text)
       !> Number as written by an ES edit descriptor with four exponent digits
       character(len=*), intent(in) :: scientific
       !> The same number, easier to read
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=:), allocatable :: digits, sign
+      character(len=8) :: power
       integer :: mark, exponent, point
 
       mark = index(scientific, 'E')
@@ -59,7 +65,8 @@ contains
       if (exponent < -4 .or. exponent > 15) then
          text = scientific(:len(sign) + 1)
          if (len(digits) > 1) text = text//'.'//digits(2:)
-         text = text//'e'//integer_to_text(exponent)
+         write (power, '(i0)') exponent
+         text = text//'e'//trim(power)
          return
       end if
       if (exponent < 0) digits = repeat('0', -exponent)//digits
@@ -67,7 +74,7 @@ contains
       if (len(digits) < point) digits = digits//repeat('0', point - len(digits))
       text = sign//digits(:point)
       if (len(digits) > point) text = text//'.'//digits(point + 1:)
-   end function plain
+   end subroutine make_plain
 
    !> An integer without blanks
    pure function integer_to_text(value) result(text)

@@ -136,6 +136,7 @@ contains
       call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
          & case%peaks, case%stripes, case%solver, range, error)
       if (allocated(error)) return
+      case%survey%is_part = present(rows)
       if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
          & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
    end subroutine survey

@@ -3,7 +3,7 @@
 module dondolo_combine_rows
    use dondolo_case, only : case_type
    use dondolo_counts, only : counts_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
@@ -45,6 +45,7 @@ contains
          results%typologies(:, k) = combination%typologies
       end do
       call warn_of_records(case%records, results%warnings)
+      call case%survey%sizes%warn(results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, thresholds), results%warnings)
    end subroutine combine_rows
@@ -73,7 +74,9 @@ contains
          call results%counts%next(counts, found, error)
          if (allocated(error) .or. .not. found) exit
          call reader%next(member, is_there, error)
-         if (allocated(error) .or. .not. is_there) exit
+         if (.not. allocated(error) .and. .not. is_there) &
+            & call raise_failure(error, case%population_path()//': has changed while it was read')
+         if (allocated(error)) exit
          associate (input => member%wall%input, curve => counts%curve(size(counts%curve)))
             call fits%look(curve, input%name)
             if (counts%row <= shown_rows) then

@@ -65,7 +65,8 @@ contains
       integer(int32), allocatable :: integers(:)
       real(wp), allocatable :: reals(:)
       integer(int64) :: counted(work_counts)
-      integer :: i, j, k, at, place
+      integer(int64) :: at, place, byte
+      integer :: i, j, k
 
       at = 0
       place = 0
@@ -75,8 +76,8 @@ contains
             place = place + own_reals + curve_reals*states
          end associate
          if (.not. allocated(rows(i)%response)) cycle
-         at = at + 2*size(rows(i)%response)
-         place = place + 2*size(rows(i)%response)
+         at = at + 2*size(rows(i)%response, kind=int64)
+         place = place + 2*size(rows(i)%response, kind=int64)
       end do
       allocate (integers(at), reals(place))
       at = 0
@@ -111,14 +112,16 @@ contains
       end do
       counted = [work%histories, work%still, work%in_lanes, work%intervals, work%rocked, work%steps, work%evaluations, &
          & work%impacts]
-      allocate (character(len=8*work_counts + 4 + 4*size(integers) + bytes_of_real*size(reals)) :: bytes)
+      allocate (character(len=8*work_counts + 4 + 4*size(integers, kind=int64) &
+         & + bytes_of_real*size(reals, kind=int64)) :: bytes)
       bytes(:8*work_counts) = transfer(counted, bytes(:8*work_counts))
-      i = 8*work_counts
-      bytes(i + 1:i + 4) = transfer(size(integers, kind=int32), bytes(i + 1:i + 4))
-      i = i + 4
-      bytes(i + 1:i + 4*size(integers)) = transfer(integers, bytes(i + 1:i + 4*size(integers)))
-      i = i + 4*size(integers)
-      bytes(i + 1:) = transfer(reals, bytes(i + 1:))
+      byte = 8*work_counts
+      bytes(byte + 1:byte + 4) = transfer(size(integers, kind=int32), bytes(byte + 1:byte + 4))
+      byte = byte + 4
+      at = 4*size(integers, kind=int64)
+      bytes(byte + 1:byte + at) = transfer(integers, bytes(byte + 1:byte + at))
+      byte = byte + at
+      bytes(byte + 1:) = transfer(reals, bytes(byte + 1:))
    end function pack_counts
 
    !> Rows out of bytes
@@ -137,7 +140,8 @@ contains
       integer(int32), allocatable :: integers(:)
       real(wp), allocatable :: reals(:)
       integer(int64) :: counted(work_counts)
-      integer :: i, j, k, at, number, place
+      integer(int64) :: at, place
+      integer :: i, j, k, number
 
       counted = transfer(bytes(:8*work_counts), counted)
       work = work_type(histories=counted(1), still=counted(2), in_lanes=counted(3), intervals=counted(4), &
@@ -145,8 +149,9 @@ contains
       at = 8*work_counts
       number = transfer(bytes(at + 1:at + 4), number)
       at = at + 4
-      integers = transfer(bytes(at + 1:at + 4*number), [0_int32])
-      reals = transfer(bytes(at + 4*number + 1:), [0.0_wp])
+      place = at + 4*int(number, int64)
+      integers = transfer(bytes(at + 1:place), [0_int32])
+      reals = transfer(bytes(place + 1:), [0.0_wp])
       allocate (rows(count))
       at = 0
       place = 0

@@ -22,12 +22,12 @@ module dondolo_counts_file
 
    !> Bytes of the head of the file, of its part that the fingerprint at its end is of, and of a block before its
    !> contents: the number of rows, the length of the contents, and a fingerprint of all of them
-   integer, parameter :: head_bytes = 128, print_at = head_bytes - 16, block_head_bytes = 28
+   integer, parameter :: head_bytes = 128, fingerprint_at = head_bytes - 16, block_head_bytes = 28
 
    !> What must be the same in files of one study
    type :: counts_key_type
-      !> Fingerprint of everything that results depend on
-      character(len=16) :: input = ''
+      !> Fingerprints of the table of walls, of the accelerograms, and of the levels and settings
+      character(len=16) :: walls = '', records = '', settings = ''
       !> Build variant
       character(len=16) :: variant = ''
       !> Shape of the counts of a row
@@ -103,7 +103,7 @@ contains
       end if
       contents = pack_counts(rows, work)
       head = bytes_of_integers([int(size(rows), int32), transfer(len(contents, int64), [0_int32, 0_int32])])
-      call write_bytes(file%path, head//print_of(head//contents)//contents, .true., error)
+      call write_bytes(file%path, head//fingerprint_of(head//contents)//contents, .true., error)
       if (allocated(error)) return
       file%bytes = file%bytes + block_head_bytes + len(contents, int64)
       file%done = file%done + size(rows)
@@ -142,7 +142,7 @@ contains
             & iostat=stat)
          if (stat == 0) read (file%unit, iostat=stat) head
          if (stat == 0 .and. index(head, magic) /= 1) stat = 1
-         if (stat == 0 .and. head(print_at + 1:) /= print_of(head(:print_at))) stat = 1
+         if (stat == 0 .and. head(fingerprint_at + 1:) /= fingerprint_of(head(:fingerprint_at))) stat = 1
       else
          stat = 1
       end if
@@ -270,13 +270,13 @@ contains
       character(len=12) :: head
       integer(int32) :: numbers(3)
       integer(int64) :: length, room
-      character(len=16) :: print
+      character(len=16) :: fingerprint
       character(len=:), allocatable :: contents
       integer :: stat
 
       found = .false.
       bytes = 0
-      read (file%unit, iostat=stat) head, print
+      read (file%unit, iostat=stat) head, fingerprint
       if (stat /= 0) return
       numbers = transfer(head, numbers)
       length = transfer(numbers(2:3), length)
@@ -285,7 +285,7 @@ contains
       allocate (character(len=length) :: contents)
       read (file%unit, iostat=stat) contents
       if (stat /= 0) return
-      if (print_of(head//contents) /= print) return
+      if (fingerprint_of(head//contents) /= fingerprint) return
       call unpack_counts(contents, int(numbers(1)), file%key%shape, rows, work)
       bytes = length + block_head_bytes
       found = .true.
@@ -302,10 +302,10 @@ contains
       !> Head
       character(len=head_bytes) :: head
 
-      head(:print_at) = magic//key%input//key%variant//bytes_of_integers([int(first, int32), int(last, int32), &
-         & int(storage_size(1.0_wp), int32), int(key%shape%levels, int32), int(key%shape%thresholds, int32), &
-         & merge(1_int32, 0_int32, key%shape%keeps_histories)])
-      head(print_at + 1:) = print_of(head(:print_at))
+      head(:fingerprint_at) = magic//key%walls//key%records//key%settings//key%variant//bytes_of_integers( &
+         & [int(first, int32), int(last, int32), int(storage_size(1.0_wp), int32), int(key%shape%levels, int32), &
+         & int(key%shape%thresholds, int32), merge(1_int32, 0_int32, key%shape%keeps_histories)])
+      head(fingerprint_at + 1:) = fingerprint_of(head(:fingerprint_at))
    end function head_of
 
    !> Read the head of a file
@@ -321,9 +321,11 @@ contains
       integer :: at
 
       at = len(magic)
-      file%key%input = head(at + 1:at + 16)
-      file%key%variant = head(at + 17:at + 32)
-      numbers = transfer(head(at + 33:at + 56), numbers)
+      file%key%walls = head(at + 1:at + 16)
+      file%key%records = head(at + 17:at + 32)
+      file%key%settings = head(at + 33:at + 48)
+      file%key%variant = head(at + 49:at + 64)
+      numbers = transfer(head(at + 65:at + 88), numbers)
       file%first = numbers(1)
       file%last = numbers(2)
       file%key%shape = shape_type(numbers(4), numbers(5), numbers(6) == 1)
@@ -332,7 +334,7 @@ contains
    end subroutine read_head
 
    !> Fingerprint of bytes
-   function print_of(contents) result(text)
+   function fingerprint_of(contents) result(text)
       !> The bytes
       character(len=*), intent(in) :: contents
       !> Fingerprint
@@ -342,7 +344,7 @@ contains
 
       call fingerprint%add_text(contents)
       text = fingerprint%text()
-   end function print_of
+   end function fingerprint_of
 
    !> Integers as bytes
    pure function bytes_of_integers(integers) result(bytes)

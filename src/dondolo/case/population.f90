@@ -266,6 +266,8 @@ contains
          if (.not. allocated(error) .and. .not. (share >= 0.0_wp .and. share <= largest)) &
             & call problems%note(name//' = '//to_text(share)//': must lie between 0 and '//to_text(largest))
          call problems%take(error)
+         ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
+         share = abs(share)
       end subroutine read_share
 
       !> Check that a text stands on one line and can be printed
@@ -298,7 +300,7 @@ contains
       integer :: line
 
       associate (name => member%wall%input%name, mechanism => member%wall%input%mechanism)
-         if (len(self%mechanisms) > 0 .and. member%has_name) member%continues = self%wall%wall%input%name == name
+         if (self%wall%has_name .and. member%has_name) member%continues = self%wall%wall%input%name == name
          if (.not. member%continues) then
             line = 0
             if (self%checks_names) call self%names%note(name, self%table%line, line)

@@ -13,7 +13,8 @@ module dondolo_run_case
    use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
    use dondolo_survey, only : check_size
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, size_warning_type, warn_of_error, warn_of_errors, warn_of_fit, &
+      & warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -35,10 +36,15 @@ contains
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
 
+      type(size_warning_type) :: sizes
       integer :: team
 
       team = case%job%threads
       if (present(threads)) team = threads
+      if (case%job%task /= 'typology') then
+         call sizes%look(case%wall)
+         call sizes%warn(results%warnings)
+      end if
       select case (case%job%task)
       case ('history')
          call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
@@ -93,7 +99,7 @@ contains
          call choose_histories(case, wall, stripes, error)
          if (allocated(error)) return
          call work%add(planned_work(stripes, wall, case%record_set))
-         call scales%look(stripes, case%records, max(1, reader%row))
+         call scales%look(stripes, case%records)
       end subroutine plan_wall
 
    end subroutine plan_case
@@ -129,7 +135,7 @@ contains
          end do
          results%work = stripes%work
          call warn_of_records(case%records, results%warnings)
-         call scales%look(stripes, case%records, 1)
+         call scales%look(stripes, case%records)
          call scales%warn(results%warnings)
          call warn_of_fit(case%wall, stripes, results%fragility(size(thresholds)), results%warnings)
          call warn_of_errors(stripes, case%records, case%solver%solver%edp_limit, results%warnings)

@@ -26,7 +26,7 @@ module dondolo_run_population
    implicit none
    private
 
-   public :: run_population, merge_population, counts_path, is_part
+   public :: run_population, merge_population, find_start, counts_path
 
    !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
    integer, parameter :: histories_of_thread = 100000
@@ -52,13 +52,13 @@ contains
       type(counts_file_type) :: file
 
       call check_size(case%population_path(), case%survey%histories, error)
-      if (.not. allocated(error)) call find_start(case, file, results%resumed, error)
+      if (.not. allocated(error)) call start(case, file, results%resumed, error)
       if (.not. allocated(error)) call run_blocks(case, file, error, team, progress)
       if (allocated(error)) return
       allocate (results%counts%files(1))
       results%counts%files(1) = file
       results%work = file%work
-      if (.not. is_part(case)) call combine_rows(case, results, error)
+      if (.not. case%survey%is_part) call combine_rows(case, results, error)
    end subroutine run_population
 
    !> Take the files that hold the parts of a population together
@@ -67,9 +67,10 @@ contains
       type(case_type), intent(in) :: case
       !> Paths of the files, in any order
       type(lines_type), intent(in) :: paths
-      !> Results
+      !> Results: counts, work, curves and warnings
       type(results_type), intent(out) :: results
-      !> A file is none of this case, or not complete, or rows are missing or stand in two files
+      !> The case has no population, a file is none of this case or not complete, rows are missing or stand in two
+      !> files, or they cannot be combined
       type(error_type), allocatable, intent(out) :: error
 
       type(counts_file_type), allocatable :: files(:)
@@ -78,6 +79,10 @@ contains
       integer :: i, j, done
       logical :: exists
 
+      if (case%job%task /= 'typology') then
+         call raise_input(error, '--merge: only for task = ''typology''')
+         return
+      end if
       allocate (files(paths%count))
       key = key_of(case)
       do i = 1, size(files)
@@ -119,14 +124,6 @@ contains
       call combine_rows(case, results, error)
    end subroutine merge_population
 
-   !> Are only some rows of the population to be run?
-   pure logical function is_part(case)
-      !> The case
-      type(case_type), intent(in) :: case
-
-      is_part = case%survey%last - case%survey%first + 1 < case%survey%rows
-   end function is_part
-
    !> Path of the file of counts: that of a part stays, that of a whole population is there while it runs
    pure function counts_path(case) result(path)
       !> The case
@@ -135,7 +132,7 @@ contains
       character(len=:), allocatable :: path
 
       path = case%job%output//'.checkpoint'
-      if (is_part(case)) path = case%job%output//'_walls_'//to_text(case%survey%first)//'-'// &
+      if (case%survey%is_part) path = case%job%output//'_walls_'//to_text(case%survey%first)//'-'// &
          & to_text(case%survey%last)//'.counts'
    end function counts_path
 
@@ -146,22 +143,23 @@ contains
       !> Key
       type(counts_key_type) :: key
 
-      type(fingerprint_type) :: fingerprint
+      type(fingerprint_type) :: records, settings
       integer :: i
 
-      fingerprint = case%survey%fingerprint
-      call fingerprint%add_text(dondolo_version_text)
-      call fingerprint%add_text(case%stripes%scaling%name)
-      call fingerprint%add_text(case%records_input%polarity)
-      call fingerprint%add_text(trim(case%solver%solver%engine))
-      call fingerprint%add_reals([case%stripes%levels, case%stripes%thresholds, case%solver%gravity, &
-         & case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit])
+      key%walls = case%survey%fingerprint%text()
       do i = 1, size(case%records)
-         call fingerprint%add_text(case%records(i)%name)
-         call fingerprint%add_reals([case%records(i)%dt])
-         call fingerprint%add_reals(case%records(i)%acceleration)
+         call records%add_text(case%records(i)%name)
+         call records%add_reals([case%records(i)%dt])
+         call records%add_reals(case%records(i)%acceleration)
       end do
-      key%input = fingerprint%text()
+      key%records = records%text()
+      call settings%add_text(dondolo_version_text)
+      call settings%add_text(case%stripes%scaling%name)
+      call settings%add_text(case%records_input%polarity)
+      call settings%add_text(trim(case%solver%solver%engine))
+      call settings%add_reals([case%stripes%levels, case%stripes%thresholds, case%solver%gravity, &
+         & case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit])
+      key%settings = settings%text()
       key%variant = build_variant()
       key%shape = shape_type(size(case%stripes%levels), size(case%stripes%thresholds), case%job%histories)
    end function key_of
@@ -175,9 +173,12 @@ contains
       !> It does not
       type(error_type), allocatable, intent(out) :: error
 
-      if (file%key%input /= key%input .or. file%key%shape%levels /= key%shape%levels .or. &
-         & file%key%shape%thresholds /= key%shape%thresholds) then
-         call raise_input(error, file%path//': is of other walls, records, levels or settings, or of another version')
+      if (file%key%walls /= key%walls) then
+         call raise_input(error, file%path//': is of another table of walls')
+      else if (file%key%records /= key%records) then
+         call raise_input(error, file%path//': is of other accelerograms')
+      else if (file%key%settings /= key%settings) then
+         call raise_input(error, file%path//': is of other levels, thresholds, polarity or solver, or of another version')
       else if (file%key%shape%keeps_histories .neqv. key%shape%keeps_histories) then
          call raise_input(error, file%path//': was made with another value of &job: histories')
       else if (file%key%variant /= key%variant) then
@@ -186,45 +187,59 @@ contains
       end if
    end subroutine check_key
 
-   !> Find the file that an earlier run has left, or begin one
-   subroutine find_start(case, file, resumed, error)
+   !> Look for the file that an earlier run has left
+   subroutine find_start(case, file, exists, error)
       !> The case
       type(case_type), intent(in) :: case
       !> The file
       type(counts_file_type), intent(out) :: file
-      !> Last row that it has; 0 if it is new
+      !> Is there one?
+      logical, intent(out) :: exists
+      !> It is of another case, or of other rows
+      type(error_type), allocatable, intent(out) :: error
+
+      call inspect_counts(counts_path(case), file, exists, error)
+      if (allocated(error) .or. .not. exists) return
+      call check_key(file, key_of(case), error)
+      associate (survey => case%survey)
+         if (.not. allocated(error) .and. (file%first /= survey%first .or. file%last /= survey%last)) &
+            & call raise_input(error, file%path//': is of rows '//to_text(file%first)//' to '//to_text(file%last))
+      end associate
+      if (allocated(error)) error%message = error%message//'; remove it to begin anew'
+   end subroutine find_start
+
+   !> Go on with the file that an earlier run has left, or begin one
+   subroutine start(case, file, resumed, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The file
+      type(counts_file_type), intent(out) :: file
+      !> Last row that it has; 0 if it has none
       integer, intent(out) :: resumed
       !> It is of another case, or cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       type(lines_type) :: made
-      type(counts_key_type) :: key
       logical :: exists, ok
 
       resumed = 0
-      key = key_of(case)
-      call inspect_counts(counts_path(case), file, exists, error)
+      call find_start(case, file, exists, error)
       if (allocated(error)) return
-      associate (survey => case%survey)
-         if (exists) then
-            call check_key(file, key, error)
-            if (.not. allocated(error) .and. (file%first /= survey%first .or. file%last /= survey%last)) &
-               & call raise_input(error, file%path//': is of rows '//to_text(file%first)//' to '//to_text(file%last))
-            if (allocated(error)) then
-               error%message = error%message//'; remove it to begin anew'
-               return
-            end if
-            if (file%done >= file%first) resumed = file%done
-            ! What a killed run left of a block
-            call cut_file(file%path, file%bytes, ok)
-            if (.not. ok) call raise_failure(error, file%path//': cannot be written')
-            return
-         end if
-         call make_folders(case%job%output, made, ok)
-         call create_counts(counts_path(case), key, survey%first, survey%last, error)
-         if (.not. allocated(error)) call inspect_counts(counts_path(case), file, exists, error)
-      end associate
-   end subroutine find_start
+      if (exists) then
+         if (file%done >= file%first) resumed = file%done
+         ! What a killed run left of a block
+         call cut_file(file%path, file%bytes, ok)
+         if (.not. ok) call raise_failure(error, file%path//': cannot be written')
+         return
+      end if
+      call make_folders(case%job%output, made, ok)
+      if (.not. ok) then
+         call raise_failure(error, case%job%output//': its folder cannot be made')
+         return
+      end if
+      call create_counts(counts_path(case), key_of(case), case%survey%first, case%survey%last, error)
+      if (.not. allocated(error)) call inspect_counts(counts_path(case), file, exists, error)
+   end subroutine start
 
    !> Run block after block
    subroutine run_blocks(case, file, error, team, progress)

@@ -128,7 +128,6 @@ contains
          !$omp critical (plan_row)
          call plan_stripes(stripes, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
             & case%peaks, case%records_input%polarity, solver, error)
-         call add_place(error, 'wall '''//member%wall%input%name//'''')
          !$omp end critical (plan_row)
          if (.not. allocated(error)) then
             call run_histories(stripes, member%wall, case%records, case%record_set, solver, 1, size(stripes%response), &
@@ -144,6 +143,7 @@ contains
             work = stripes%work
             if (case%job%histories) call move_alloc(stripes%response, row%response)
          end if
+         call add_place(error, 'wall '''//member%wall%input%name//'''')
       end associate
    end subroutine run_row
 

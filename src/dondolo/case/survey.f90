@@ -17,7 +17,7 @@ module dondolo_survey
    use dondolo_stripes_group, only : stripes_input_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : most_groups
-   use dondolo_warnings, only : scale_warning_type
+   use dondolo_warnings, only : scale_warning_type, size_warning_type
    implicit none
    private
 
@@ -31,12 +31,16 @@ module dondolo_survey
       integer :: walls = 0
       !> Rows that are to be run
       integer :: first = 1, last = 0
+      !> Were rows asked for, even if they are all of them?
+      logical :: is_part = .false.
       !> Histories of these rows, all levels
       integer(int64) :: histories = 0
       !> Names of the groups, in the order in which they appear
       type(lines_type) :: groups
       !> What there is to say of scale factors
       type(scale_warning_type) :: scales
+      !> What there is to say of the sizes of walls
+      type(size_warning_type) :: sizes
       !> Fingerprint of the table
       type(fingerprint_type) :: fingerprint
    end type survey_type
@@ -97,7 +101,8 @@ contains
                call reader%close()
                return
             end if
-            call survey%scales%look(plan, records, reader%row)
+            call survey%scales%look(plan, records)
+            call survey%sizes%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
                & survey%histories = survey%histories + size(plan%scale)
          end if

@@ -1,5 +1,6 @@
 !> What a user should know of results that are correct but may mislead.
 module dondolo_warnings
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type, lines_type
@@ -12,25 +13,42 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors, rounded
+   public :: size_warning_type, scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error
+   public :: warn_of_errors, rounded
+
+   !> Masonry hardly is thicker or higher [m]: the numbers may be centimetres
+   real(wp), parameter :: thick = 3.0_wp, high = 60.0_wp
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
 
+   !> What there is to say of the sizes of walls
+   type :: size_warning_type
+      !> Walls looked at
+      integer :: walls = 0
+      !> Walls that are too thick or too high
+      integer :: large = 0
+      !> Name of the first of them
+      character(len=:), allocatable :: first
+   contains
+      !> Look at a wall
+      procedure :: look => look_at_size
+      !> Warn, if there is reason to
+      procedure :: warn => warn_of_sizes
+   end type size_warning_type
+
    !> What there is to say of scale factors
    type :: scale_warning_type
       !> Histories looked at
-      integer :: histories = 0
+      integer(int64) :: histories = 0
       !> Histories with a large factor
-      integer :: large = 0
+      integer(int64) :: large = 0
       !> The largest factor
       real(wp) :: largest = 0.0_wp
       !> Its level
       real(wp) :: level = 0.0_wp
       !> Its record
       character(len=:), allocatable :: record
-      !> Number of its wall
-      integer :: wall = 0
    contains
       !> Look at the factors of a wall
       procedure :: look
@@ -63,27 +81,51 @@ module dondolo_warnings
 
 contains
 
-   !> Look at the factors of a wall; what there is to say does not depend on the order of the walls
-   subroutine look(self, stripes, records, wall)
+   !> Look at the size of a wall, or of one of its mechanisms
+   subroutine look_at_size(self, wall)
+      !> What there is to say
+      class(size_warning_type), intent(inout) :: self
+      !> The wall
+      type(wall_type), intent(in) :: wall
+
+      self%walls = self%walls + 1
+      if (wall%input%thickness <= thick .and. wall%input%height <= high) return
+      self%large = self%large + 1
+      if (self%large == 1) self%first = wall%input%name
+   end subroutine look_at_size
+
+   !> Warn, if there is reason to
+   subroutine warn_of_sizes(self, warnings)
+      !> What there is to say
+      class(size_warning_type), intent(in) :: self
+      !> Warnings to add to
+      type(lines_type), intent(inout) :: warnings
+
+      character(len=:), allocatable :: which
+
+      if (self%large == 0) return
+      which = ''
+      if (self%walls > 1) which = ' ('//to_text(self%large)//' of '//to_text(self%walls)//' in all)'
+      call warnings%add('wall '''//self%first//''' is thicker than '//to_text(thick)//' m or higher than '// &
+         & to_text(high)//' m: is it in metres?'//which)
+   end subroutine warn_of_sizes
+
+   !> Look at the factors of a wall
+   subroutine look(self, stripes, records)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
       !> Records
       type(record_type), intent(in) :: records(:)
-      !> Number of the wall
-      integer, intent(in) :: wall
 
-      real(wp) :: largest
       integer :: at(2)
 
-      self%histories = self%histories + size(stripes%scale)
-      self%large = self%large + count(stripes%scale > large_scale)
+      self%histories = self%histories + size(stripes%scale, kind=int64)
+      self%large = self%large + count(stripes%scale > large_scale, kind=int64)
       at = maxloc(stripes%scale)
-      largest = stripes%scale(at(1), at(2))
-      if (.not. (largest > self%largest .or. (largest >= self%largest .and. wall < self%wall))) return
-      self%largest = largest
-      self%wall = wall
+      if (.not. stripes%scale(at(1), at(2)) > self%largest) return
+      self%largest = stripes%scale(at(1), at(2))
       self%level = stripes%levels(at(2))
       self%record = records(stripes%record(at(1)))%name
    end subroutine look
@@ -188,7 +230,7 @@ contains
       !> Warnings to add to
       type(lines_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: consequence, which, walls
+      character(len=:), allocatable :: consequence, whose, which, walls
       integer :: i
 
       walls = ' walls '
@@ -202,12 +244,13 @@ contains
       end do
       do i = 1, size(typologies)
          associate (group => typologies(i)%group, fit => typologies(i)%fit)
+            whose = 'the population'
+            if (len(group) > 0) whose = 'group '''//group//''''
             which = 'mechanism '//typologies(i)%mechanism
-            if (len(group) > 0) which = 'group '''//group//''', '//which
             if (.not. fit%has_fit()) then
-               call warnings%add('the population has no fit ('//which//', status '//trim(fit%status)//')')
+               call warnings%add(whose//' has no fit ('//which//', status '//trim(fit%status)//')')
             else if (fit%status == 'extrapolated') then
-               call warnings%add('the median of the population, '//rounded(fit%theta)//' ('//which// &
+               call warnings%add('the median of '//whose//', '//rounded(fit%theta)//' ('//which// &
                   & '), lies outside the levels: the fit extrapolates')
             end if
          end associate

@@ -96,7 +96,8 @@ contains
       integer :: bin, j, k
 
       do j = 1, size(numbers)
-         key = shiftr(transfer(real(numbers(j), real64), key), self%shift)
+         ! The bits of -0 are those of a large number.
+         key = shiftr(transfer(abs(real(numbers(j), real64)), key), self%shift)
          bin = int(ibits(key, 0, self%bits))
          higher = shiftr(key, self%bits)
          do k = 1, size(self%share)

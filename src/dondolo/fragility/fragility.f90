@@ -64,7 +64,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp) :: x(size(levels)), b(2), information(2, 2), covariance(2, 2), jacobian(2, 2)
-      real(wp) :: centre, spread
+      real(wp) :: centre, spread, logarithm
       logical :: ok
 
       call check_counts(levels, collapses, histories, error)
@@ -86,7 +86,14 @@ contains
       end if
 
       fragility%beta = spread/b(2)
-      fragility%theta = exp(centre - fragility%beta*b(1))
+      logarithm = centre - fragility%beta*b(1)
+      if (.not. abs(logarithm) < 0.5_wp*log(huge(logarithm))) then
+         ! Flat but for rounding: the median is no number any more
+         fragility%beta = 0.0_wp
+         fragility%status = 'decreasing'
+         return
+      end if
+      fragility%theta = exp(logarithm)
       if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = 'extrapolated'
       fragility%log_likelihood = log_likelihood(b, x, collapses, histories) &
          & + sum(log_gamma(histories + 1.0_wp) - log_gamma(collapses + 1.0_wp) &

@@ -68,7 +68,8 @@ contains
       f = wall%fractions()
       do m = 1, size(wall%p_occ)
          if (wall%p_occ(m) < 1.0_wp) group%uncertain = .true.
-         if (.not. wall%p_occ(m) > 0.0_wp) cycle
+         ! A product too small for a number counts as none.
+         if (.not. wall%weight*wall%p_occ(m) > 0.0_wp) cycle
          do place = 1, size(group%mechanism)
             if (group%mechanism(place)%mechanism == wall%mechanism(m)) exit
          end do

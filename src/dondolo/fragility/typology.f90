@@ -256,7 +256,7 @@ contains
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: n(size(levels)), z(size(levels))
+      real(wp) :: n(size(levels)), share(size(levels))
 
       curve%group = group
       curve%mechanism = sums%mechanism
@@ -274,9 +274,10 @@ contains
       end if
       curve%histories = real(sums%walls, wp)*(sums%histories/sums%weight)
       n = curve%histories
-      z = n*curve%mean_fraction
-      if (curve%saturation > 0.0_wp) z = z/curve%saturation
-      call fit_fragility(curve%fit, levels, min(z, n), n, error)
+      ! Divided first: where all that can collapse does, the share is 1 to the last bit and no survivor is made up.
+      share = curve%mean_fraction
+      if (curve%saturation > 0.0_wp) share = min(share/curve%saturation, 1.0_wp)
+      call fit_fragility(curve%fit, levels, n*share, n, error)
    end subroutine make_curve
 
 end module dondolo_typology

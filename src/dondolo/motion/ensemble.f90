@@ -98,7 +98,6 @@ contains
 
       type(stage_type) :: stage
       type(work_type) :: work, own
-      ! Of a fixed length: gfortran 12 does not hand a deferred one on to the threads.
       character(len=16) :: variant
       integer :: number
 
@@ -149,7 +148,7 @@ contains
       if (present(variant)) then
          text = 'lanes ('//trim(variant)//')'//text
       else
-         text = 'lanes ('//build_variant()//')'//text
+         text = 'lanes ('//trim(build_variant())//')'//text
       end if
    end function engine_text
 

@@ -46,16 +46,17 @@ contains
 
    !> Name of the variant that the engine lanes runs
    function build_variant() result(name)
-      !> Name
-      character(len=:), allocatable :: name
+      !> Name. Of a fixed length, since threads ask at the same time: gfortran 12 keeps the length of a result of deferred
+      !> length in one place for all threads
+      character(len=len(variant_names)) :: name
 
       character(len=len(variant_names)) :: wish
       integer :: best, status
 
       best = processor_level()
-      name = trim(variant_names(best))
+      name = variant_names(best)
       call get_environment_variable('DONDOLO_VARIANT', wish, status=status)
-      if (status == 0 .and. any(wish == variant_names(:best))) name = trim(wish)
+      if (status == 0 .and. any(wish == variant_names(:best))) name = wish
    end function build_variant
 
    !> Histories of one wall, as long as the queue has some, by a variant
