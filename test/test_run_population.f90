@@ -124,6 +124,12 @@ contains
       call read_population(scratch//'/walls.csv', members, error)
       call check_error(error, 'line 3: name = ''wall 1'': another wall has this name (line 2)', &
          & 'a wall called what one without a name is called')
+      call write_file('walls.csv', 'name,mechanism,height,thickness'//lf//'a,one_sided,3,0.25'//lf// &
+         & 'b,one_sided,x,0.25'//lf//'a,one_sided,3,0.25'//lf//'c,one_sided,3,0.25'//lf//'c,two_block,-3,0.25'//lf// &
+         & 'c,free_standing,3,0.25'//lf)
+      call read_population(scratch//'/walls.csv', members, error)
+      call check_error(error, 'line 4: name = ''a'': another wall has this name (line 2)', 'behind a wall that is wrong')
+      if (allocated(error)) call check(lines_of(error%message) == 3, 'a wall goes on behind a row that is wrong')
       call write_file('walls.csv', 'mechanism,height,thickness,p_occ,weight'//lf//'one_sided,3,0.25,-0.00,-0'//lf// &
          & 'one_sided,3,0.25,1,1'//lf)
       call read_population(scratch//'/walls.csv', members, error)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -80,14 +80,30 @@ def draw_records(number: int, n: int, seed: Any, events: Sequence[Any] | None = 
     Records with the same label in `events` are drawn together. Each sample has as many records as there are.
     """
     n, generator = as_count("n", n, 1), as_generator(seed)
-    labels = range(number) if events is None else list(events)
-    if len(labels) != number:
-        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
+    labels = _labels(number, events)
     places: dict[Any, int] = {}
     place = [places.setdefault(label, len(places)) for label in labels]
+    if len(places) < 2:
+        what = "records" if events is None else "events"
+        raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
     drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
     return drawn * (number / drawn.sum(axis=1, keepdims=True))
+
+
+def _labels(number: int, events: Sequence[Any] | None) -> list[Any]:
+    """The label of each record; none may be missing, for all that are would be one event."""
+    if events is None:
+        return list(range(number))
+    if isinstance(events, str) or not isinstance(events, Iterable):
+        raise InputError(f"events = {events!r}: must be labels, one for each record")
+    labels = list(events)
+    if len(labels) != number:
+        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
+    for i, label in enumerate(labels):
+        if label is None or label == "" or label != label or not isinstance(label, Hashable):
+            raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
+    return labels
 
 
 def resample_stripes(stripes: Stripes, times: FloatArray) -> Bootstrap:

@@ -39,9 +39,9 @@ class Group:
     walls : int
         How many walls, those of no weight left out.
     weight : float
-        Sum of the weights; of one mechanism a wall counts as often as it can occur.
+        Sum of the weights, in walls; of one mechanism a wall counts as often as it can occur.
     mean_fraction : ndarray, shape (levels,)
-        Weighted mean of the walls' fractions of collapse.
+        Weighted mean of the walls' fractions of collapse, 0 to 1.
     mean_curve : ndarray, shape (levels,)
         Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part
         with its fractions.
@@ -158,7 +158,24 @@ class Typology:
         return self.group().mean_curve
 
     def group(self, mechanism: str | None = None, group: str = "") -> Group:
-        """A curve: of one mechanism, or of all if None; of a group, or of the whole population if ''."""
+        """A curve of the population.
+
+        Parameters
+        ----------
+        mechanism : str, optional
+            One of the mechanisms, or 'all'; all combined if left out.
+        group : str
+            One of the groups; '' for the whole population.
+
+        Returns
+        -------
+        Group
+
+        Raises
+        ------
+        InputError
+            There is no such mechanism or group.
+        """
         known = {one.group: None for one in self.groups}
         if group not in known:
             raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, known))}")
@@ -186,6 +203,11 @@ class Typology:
         Typology
             With this threshold alone.
 
+        Raises
+        ------
+        InputError
+            There is no such threshold.
+
         Warns
         -----
         DondoloWarning
@@ -194,7 +216,7 @@ class Typology:
         value = as_number("edp", edp)
         place = np.flatnonzero(self.edp_thresholds == value)
         if len(place) == 0:
-            raise InputError(f"edp = {value:g}: must be one of {', '.join(f'{one:g}' for one in self.edp_thresholds)}")
+            raise InputError(f"edp = {value}: must be one of {', '.join(f'{one:g}' for one in self.edp_thresholds)}")
         if len(self.edp_thresholds) == 1:
             return self
         if value not in self._states and place[0] == len(self.edp_thresholds) - 1:
@@ -225,10 +247,15 @@ class Typology:
         -------
         ndarray, shape (walls,) and that of x
             Walls of no weight left out.
+
+        Raises
+        ------
+        InputError
+            No such mechanism or group, or a level that is negative or no number.
         """
         values = as_levels(x)
         probabilities, _ = self._members(mechanism, group).at(values.ravel())
-        return probabilities.reshape((-1, *values.shape))
+        return probabilities.reshape((len(probabilities), *values.shape))
 
     def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
         """Weighted mean of the walls' curves at any levels; arguments as those of `probabilities`.
@@ -236,6 +263,11 @@ class Typology:
         Returns
         -------
         float or ndarray, shape of x
+
+        Raises
+        ------
+        InputError
+            As `probabilities`.
         """
         values = as_levels(x)
         members = self._members(mechanism, group)
@@ -261,8 +293,17 @@ class Typology:
         -------
         ndarray, shape of q and that of x
             At each level the smallest probability such that the walls up to it have at least the share.
+
+        Raises
+        ------
+        InputError
+            As `probabilities`, or a share beyond 0 and 1.
         """
-        values, shares = as_levels(x), np.asarray(q, dtype=np.float64)
+        values = as_levels(x)
+        try:
+            shares = np.asarray(q, dtype=np.float64)
+        except (TypeError, ValueError):
+            shares = np.array(np.nan)
         if not np.all((shares > 0.0) & (shares <= 1.0)):
             raise InputError("q: must be shares of the weight, above 0 and up to 1")
         members = self._members(mechanism, group)
@@ -336,6 +377,8 @@ class Typology:
 
         Raises
         ------
+        InputError
+            No such mechanism or group, fewer than two events, labels that are not one for each record.
         DondoloError
             Records cannot be drawn where the results were read back from files.
         """
@@ -416,13 +459,9 @@ def combine(
     if len(chosen) == 0:
         raise Interrupted("interrupted: no wall is complete")
     if len(chosen) < len(people.walls):
-        weights = people.weights[chosen]
-        people = Population(
-            tuple(people.walls[i] for i in chosen),
-            weights if weights.any() else None,  # type: ignore[arg-type]
-            tuple(people.groups[i] for i in chosen),
-            people.p_occ[chosen],
-        )
+        if not people.weights[chosen].any():
+            raise Interrupted("interrupted: no wall of any weight is complete")
+        people = people._chosen(chosen)
     counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
     sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
     return _combine(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
@@ -466,8 +505,8 @@ def _combine(
     together = []
     for group in data.groups:
         n = np.full(len(levels), group.histories)
-        z = n * group.mean_fraction / group.saturation if group.saturation > 0.0 else 0.0 * n
-        fit = curve_of(group.curve, levels, np.minimum(z, n), n, **origin, saturation=group.saturation)
+        share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
+        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
         means = (group.mean_fraction, group.mean_curve, group.fractiles)
         together.append(

@@ -121,8 +121,8 @@ def resample_population(
     A record is drawn for all walls at once and brings its histories at all levels and of both polarities; a wall brings
     all its mechanisms. For the parameters see `Typology.bootstrap`.
     """
-    kinds = (over,) if isinstance(over, str) else tuple(over)
-    if not kinds or not set(kinds) <= set(_KINDS):
+    kinds = (over,) if isinstance(over, str) or not isinstance(over, Iterable) else tuple(over)
+    if not kinds or not all(kind in _KINDS for kind in kinds):
         raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
     n, generator = as_count("n", n, 1), as_generator(seed)
     rows = _rows_of(population, mechanism, group)

@@ -4,6 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
+from dondolo.bootstrap import draw_records
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import optimize, stats
@@ -309,6 +310,29 @@ def test_comparison_draws_events_together(wall, few):
     other = dd.multiple_stripe(wall, few, levels, progress=False).fit()
     with pytest.raises(dd.InputError, match="events: is for curves from the same records"):
         dd.compare(ways[0], other, method="bootstrap", n=5, events=pairs)
+
+
+@pytest.mark.parametrize(
+    ("events", "sentence"),
+    [
+        (lambda n: [0] * n, "events: two at least are needed to draw from, there is 1"),
+        (lambda n: ["a"] * (n - 1) + [""], "= '': must be a name or a number"),
+        (lambda n: [None] * n, "events: label 1 = None: must be a name or a number"),
+        (lambda n: [float("nan")] * n, "events: label 1 = nan: must be a name or a number"),
+        (lambda n: [[1]] * n, r"events: label 1 = \[1\]: must be a name or a number"),
+        (lambda n: 3, "events = 3: must be labels, one for each record"),
+        (lambda n: "a" * n, "must be labels, one for each record"),
+    ],
+)
+def test_wrong_events(stripes, events, sentence):
+    """Labels that are missing would make one event of their records."""
+    with pytest.raises(dd.InputError, match=sentence):
+        stripes.fit().bootstrap(5, events=events(stripes.records))
+
+
+def test_one_record_cannot_be_drawn_from():
+    with pytest.raises(dd.InputError, match="records: two at least are needed to draw from, there is 1"):
+        draw_records(1, 5, 0)
 
 
 @pytest.mark.parametrize("seed", [-1, "lucky", 1.5])

@@ -9,6 +9,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from dondolo.typology import combine
 
 import dondolo as dd
 from dondolo import _request
@@ -223,3 +224,25 @@ print(largest() - before)
     command = [sys.executable, "-c", program, str(root / "data/records/synthetic44.csv")]
     result = subprocess.run(command, capture_output=True, text=True, check=True)
     assert float(result.stdout) < 70.0
+
+
+def test_wrong_levels_and_shares(typology):
+    assert typology.probabilities([]).shape == (len(typology.combined), 0)
+    for wrong in ("a", [0.5, "b"], 0.0, 1.5, np.nan):
+        with pytest.raises(dd.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
+            typology.fractiles(0.5, wrong)
+    with pytest.raises(dd.InputError, match=r"edp = 1\.0000001: must be one of 1"):
+        typology.at(1.0000001)
+
+
+def test_a_partial_population_keeps_its_weights_and_origin():
+    walls = [dd.OneSidedWall(3.0, 0.3, name=name) for name in "abc"]
+    people = dd.Population(walls, [0.0, 2.0, 3.0], origin=["surveyed"])
+    counts = np.array([1, 5, 9], dtype=np.int32)[None, :, None].repeat(3, axis=2)
+    sizes = np.full(3, 10, dtype=np.int32)
+    given = people, "pga", np.array([0.2, 0.4, 0.8]), np.array([1.0]), counts, sizes
+    with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
+        combine(*given, np.array([True, False, False]), dd.Work())
+    partial, _ = combine(*given, np.array([True, True, False]), dd.Work())
+    assert partial.weight == 2.0
+    assert partial.population.origin == ("surveyed",)

@@ -171,7 +171,12 @@ contains
       self%row = self%row + 1
       if (allocated(error)) return
       call read_row(self, member, error)
-      if (.not. allocated(error)) call place_row(self, member, error)
+      if (.not. allocated(error)) then
+         call place_row(self, member, error)
+      else if (self%wall%has_name) then
+         ! Rows behind a wall that is wrong do not go on with the one before it.
+         self%wall%has_name = self%wall%wall%input%name == member%wall%input%name
+      end if
       call add_place(error, self%table%place())
    end subroutine next
 
@@ -226,6 +231,7 @@ contains
          if (.not. allocated(error)) call set_wall_number(input, wall_numbers(i), number)
          call problems%take(error)
       end do
+      member%wall%input%name = input%name
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       call problems%take(error)
