@@ -155,14 +155,42 @@ def test_correlation():
             column(people, "hinge", "two_block"),
         ]
     )
-    found = np.corrcoef(scores)
-    # By chance 0.02 (one over the root of n); the correlated ones are met more closely.
-    assert found[0, 1] == pytest.approx(0.6, abs=3e-3)
-    assert found[0, 2] == pytest.approx(-0.4, abs=3e-3)
-    assert found[1, 2] == pytest.approx(0.0, abs=3e-3)
-    assert found[0, 3] == pytest.approx(0.0, abs=0.1)
+    expected = np.eye(4)
+    expected[0, 1] = expected[1, 0] = 0.6
+    expected[0, 2] = expected[2, 0] = -0.4
+    # By chance 0.02, one over the root of n
+    assert np.corrcoef(scores) == pytest.approx(expected, abs=3e-3)
     rank = stats.spearmanr(scores[0], scores[1]).statistic
     assert rank == pytest.approx(6.0 / math.pi * math.asin(0.3), abs=0.02)
+
+
+def scores_of(people):
+    """Normal scores of the ranks of what `sample` samples, thickness left out."""
+    columns = [column(people, what) for what in ("height", "density")]
+    columns += [column(people, what, "two_block") for what in ("hinge", "overburden")]
+    return stats.norm.ppf(stats.rankdata(columns, axis=1) / (len(columns[0]) + 1.0))
+
+
+@pytest.mark.parametrize(("n", "off"), [(30, 0.1), (100, 0.03), (1000, 3e-3)])
+@pytest.mark.parametrize("correlation", [{}, {("height", "density"): 0.6}])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_pairs_that_are_not_named_have_no_correlation(correlation, n, off, seed):
+    """By chance it would be one over the root of n, and twice that in the worst of the pairs."""
+    expected = np.eye(4)
+    expected[0, 1] = expected[1, 0] = 0.6 if correlation else 0.0
+    found = np.corrcoef(scores_of(sample(n=n, seed=seed, correlation=correlation)))
+    assert np.abs(found - expected).max() < off
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_few_walls(seed):
+    """What three numbers can have is -1, -1/2, 1/2 and 1; the draws that give no choice are drawn again."""
+    few = {"height": dd.Normal(3.0, 0.1), "thickness": dd.Normal(0.3, 0.01)}
+    people = dd.sample_population("one_sided", 3, seed, **few, correlation={("height", "thickness"): 0.4})
+    ranks = stats.rankdata([column(people, what) for what in few], axis=1)
+    assert np.corrcoef(ranks)[0, 1] == pytest.approx(0.5)
+    for n in (1, 2):
+        assert len(dd.sample_population("one_sided", n, seed, **few)) == n
 
 
 @settings(deadline=None)
@@ -275,7 +303,14 @@ def test_origin(tmp_path):
             },
             "correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is -0.8",
         ),
-        ({"n": 2, "correlation": {("height", "density"): 0.5}}, "n = 2: too few walls for 2 correlated properties"),
+        *(
+            (
+                {"n": n, "correlation": {("height", "density"): 0.5}},
+                f"n = {n}: must be at least 6, more than what is sampled (height, thickness, density, two_block.hinge, "
+                "two_block.overburden), for correlations",
+            )
+            for n in (1, 2, 5)
+        ),
     ],
 )
 def test_errors(changes, sentence):
