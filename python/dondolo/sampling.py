@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding
-from dondolo._arguments import FloatArray, as_array, as_count, as_number
+from dondolo._arguments import FloatArray, as_array, as_count, as_number, as_text
 from dondolo.errors import InputError
 from dondolo.population import Population
 from dondolo.walls import MECHANISMS, Wall, wall_from
@@ -31,7 +31,18 @@ class Distribution:
     """What the distributions share: quantiles."""
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p.
+
+        Parameters
+        ----------
+        probability : ndarray
+            p, between 0 and 1.
+
+        Returns
+        -------
+        ndarray, shape of probability
+            In the unit of the parameters.
+        """
         raise NotImplementedError
 
 
@@ -43,6 +54,11 @@ class Uniform(Distribution):
     ----------
     low, high : float
         The smallest and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, or `high` not greater than `low`.
     """
 
     low: float
@@ -53,7 +69,7 @@ class Uniform(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         return self.low + (self.high - self.low) * probability
 
 
@@ -65,6 +81,11 @@ class Triangular(Distribution):
     ----------
     low, mode, high : float
         The smallest, the most likely and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `high` not greater than `low`, or `mode` not between them.
     """
 
     low: float
@@ -78,7 +99,7 @@ class Triangular(Distribution):
             raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         from scipy import stats
 
         width = self.high - self.low
@@ -96,6 +117,11 @@ class Normal(Distribution):
     low, high : float, optional
         Where it is cut off: what lies beyond is spread over what is left in proportion, so that the distribution keeps
         its shape and no samples gather at the ends.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `sd` not positive, or `high` not greater than `low`.
     """
 
     mean: float
@@ -110,7 +136,7 @@ class Normal(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
         return self.mean + self.sd * _cut_normal(probability, *ends)
 
@@ -127,6 +153,11 @@ class Lognormal(Distribution):
         Standard deviation of the logarithm, of the whole distribution.
     low, high : float, optional
         Where it is cut off, as for `Normal`.
+
+    Raises
+    ------
+    InputError
+        A parameter is no positive finite number, or `high` not greater than `low`.
     """
 
     median: float
@@ -143,7 +174,7 @@ class Lognormal(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
         return self.median * np.exp(self.beta * _cut_normal(probability, *ends))
 
@@ -158,15 +189,20 @@ class Choice(Distribution):
         The values, rising.
     probabilities : sequence of float, optional
         Their probabilities, with the sum 1; all alike if left out.
+
+    Raises
+    ------
+    InputError
+        The values do not rise, or there are not as many probabilities, not negative and with the sum 1.
     """
 
     values: tuple[float, ...]
-    probabilities: tuple[float, ...] = ()
+    probabilities: tuple[float, ...] = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         values = as_array("values", self.values)
         shares = np.full(len(values), 1.0 / len(values))
-        if len(self.probabilities):
+        if self.probabilities is not None:
             shares = as_array("probabilities", self.probabilities)
         if len(shares) != len(values):
             raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
@@ -178,7 +214,7 @@ class Choice(Distribution):
         object.__setattr__(self, "probabilities", tuple(shares.tolist()))
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = np.cumsum(self.probabilities)[:-1]
         return np.asarray(self.values)[np.searchsorted(ends, probability)]
 
@@ -271,7 +307,10 @@ def sample_population(
     """
     own = _as_mechanisms(mechanisms)
     n, seed = as_count("n", n, 1), as_count("seed", seed, 0)
-    variables, correlation = dict(variables or {}), dict(correlation or {})
+    as_text("group", group)
+    as_text("name", name)
+    variables = {} if variables is None else _as_mapping("variables", variables, "distributions by their names")
+    correlation = {} if correlation is None else _as_mapping("correlation", correlation, "numbers by pairs of names")
     _check_variables(variables)
     _check_properties(own, properties)
     sampled = _draw(n, seed, _distributions(own, variables, properties), correlation)
@@ -298,18 +337,32 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
     """Mechanisms and what each has of its own."""
     if isinstance(mechanisms, str):
         mechanisms = (mechanisms,)
-    own = mechanisms if isinstance(mechanisms, Mapping) else {mechanism: {} for mechanism in mechanisms}
+    if not isinstance(mechanisms, Iterable):
+        raise InputError(f"mechanisms = {mechanisms!r}: must be names of mechanisms")
+    own: dict[str, dict[str, Property]] = {}
+    for mechanism in mechanisms:
+        if not isinstance(mechanism, str) or mechanism not in MECHANISMS:
+            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+        if mechanism in own:
+            raise InputError(f"mechanisms: {mechanism!r} is given twice")
+        extra = mechanisms[mechanism] if isinstance(mechanisms, Mapping) else {}
+        own[mechanism] = _as_mapping(mechanism, extra, "properties by their names")
     if not own:
         raise InputError("mechanisms: must be given")
-    for mechanism in own:
-        if mechanism not in MECHANISMS:
-            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
-    return {mechanism: dict(extra) for mechanism, extra in own.items()}
+    return own
+
+
+def _as_mapping(name: str, value: Any, what: str) -> dict[Any, Any]:
+    """Turn what a user gives for a mapping into a dictionary of one's own."""
+    if not isinstance(value, Mapping):
+        raise InputError(f"{name} = {value!r}: must be a mapping, {what}")
+    return dict(value)
 
 
 def _check_variables(variables: Mapping[str, Any]) -> None:
     """What is sampled for functions only must not look like a property."""
     for what, value in variables.items():
+        as_text("variables", what)
         if what in _PROPERTIES:
             raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
         if not isinstance(value, Distribution):
@@ -360,7 +413,7 @@ def _draw(
         probabilities = _reorder(probabilities, matrix)
     elif correlation:
         raise InputError(
-            f"n = {n}: must be at least {len(names) + 1}, more than what is sampled ({', '.join(names)}), for correlations"
+            f"n = {n}: must be at least {len(names) + 1} for correlations, more than are sampled: {', '.join(names)}"
         )
     samples = {what: distributions[what].quantile(probabilities[:, i]) for i, what in enumerate(names)}
     for values in samples.values():
@@ -372,7 +425,7 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
     """Matrix of the correlations of all that is sampled."""
     matrix = np.eye(len(names))
     for pair, given in correlation.items():
-        if isinstance(pair, str) or len(pair) != 2 or pair[0] == pair[1]:
+        if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(f"correlation: {pair!r}: must be two names")
         for what in pair:
             if what not in names:
@@ -430,6 +483,18 @@ def _ranks(values: FloatArray) -> Any:
     return np.argsort(np.argsort(values, axis=0), axis=0)
 
 
+class _Known(dict[str, FloatArray]):
+    """What the function of a property gets: the samples by name."""
+
+    def __init__(self, reader: str, samples: Samples) -> None:
+        super().__init__(samples)
+        self._reader = reader
+
+    def __missing__(self, what: object) -> FloatArray:
+        known = ", ".join(map(repr, self)) or "none"
+        raise InputError(f"{self._reader}: its function asks for {what!r}; known before it are: {known}")
+
+
 def _evaluate(
     properties: Mapping[str, Property], prefix: str, sampled: Samples, known: Samples, n: int
 ) -> dict[str, Any]:
@@ -441,10 +506,10 @@ def _evaluate(
         elif isinstance(value, str):
             values[what] = value
         elif not callable(value):
-            values[what] = np.full(n, as_number(what, value))
+            values[what] = np.broadcast_to(as_number(what, value), n)
     for what, value in properties.items():
         if callable(value):
-            answer = np.asarray(value({**known, **values}))
+            answer = np.asarray(value(_Known(what, {**known, **values})))
             if answer.dtype.kind not in "biuf" or answer.shape not in ((), (n,)):
                 raise InputError(f"{what}: its function must return {n} numbers or one")
             values[what] = np.broadcast_to(answer.astype(np.float64), n)

@@ -91,6 +91,8 @@ def test_choice():
         (lambda: dd.Choice((1.0, 2.0), (1.5, -0.5)), "probabilities: must not be negative and have the sum 1, not 1"),
         (lambda: dd.Choice((2.0, 1.0)), "values: must rise from one to the next"),
         (lambda: dd.Choice(()), "values: must be given"),
+        (lambda: dd.Choice((1, 2), 0.5), "2 values, 1 probabilities: must be as many"),
+        (lambda: dd.Choice((1, 2), ()), "probabilities: must be given"),
     ],
 )
 def test_wrong_distributions(make, sentence):
@@ -228,6 +230,16 @@ def test_functions():
     assert (column(people, "density") == 1900.0).all()
 
 
+def test_functions_do_not_change_what_they_get():
+    def a_tenth(samples):
+        samples["height"] *= 0.1
+        return samples["height"]
+
+    for height in (3.0, dd.Uniform(2.0, 3.0), lambda samples: 3.0):
+        with pytest.raises(ValueError, match="read-only"):
+            dd.sample_population("one_sided", 4, 1, height=height, thickness=a_tenth)
+
+
 def test_origin(tmp_path):
     def half_brick(samples):
         return np.full(20, 0.12)
@@ -267,6 +279,10 @@ def test_origin(tmp_path):
     [
         ({"mechanisms": "sliding"}, "mechanism = 'sliding': must be one of 'one_sided', 'free_standing', 'two_block'"),
         ({"mechanisms": []}, "mechanisms: must be given"),
+        ({"mechanisms": None}, "mechanisms = None: must be names of mechanisms"),
+        ({"mechanisms": [["one_sided"]]}, "mechanism = ['one_sided']: must be one of 'one_sided', "),
+        ({"mechanisms": ["one_sided", "one_sided"]}, "mechanisms: 'one_sided' is given twice"),
+        ({"mechanisms": {"one_sided": None}}, "one_sided = None: must be a mapping, properties by their names"),
         ({"n": 0}, "n = 0: must be a whole number, at least 1"),
         ({"n": 1.5}, "n = 1.5: must be a whole number, at least 1"),
         ({"seed": -1}, "seed = -1: must be a whole number, at least 0"),
@@ -277,16 +293,24 @@ def test_origin(tmp_path):
         ({"restitution": 0.9}, "restitution = 0.9: must be a text"),
         ({"variables": {"height": HEIGHT}}, "variables: 'height' is a property of the walls, to be given as one"),
         ({"variables": {"storeys": 2}}, "storeys = 2: must be a distribution"),
+        ({"variables": {2: HEIGHT}}, "variables = 2: must be a text"),
+        ({"variables": [1]}, "variables = [1]: must be a mapping, distributions by their names"),
+        ({"variables": 3}, "variables = 3: must be a mapping, distributions by their names"),
+        ({"height": lambda s: s["storeys"] * 3.0}, "height: its function asks for 'storeys'; known before it are: 'th"),
         ({"thickness": lambda s: np.ones(3)}, "thickness: its function must return 200 numbers or one"),
         ({"thickness": lambda s: "thick"}, "thickness: its function must return 200 numbers or one"),
         ({"density": dd.Uniform(-2.0, -1.0)}, "must be positive"),
-        ({"name": "a\nb"}, "must stand on one line"),
-        ({"group": "a\nb"}, "must stand on one line"),
+        ({"name": "a\nb"}, "name: must stand on one line"),
+        ({"group": "a\nb"}, "group: must stand on one line"),
+        ({"name": 3}, "name = 3: must be a text"),
+        ({"group": 3}, "group = 3: must be a text"),
         ({"p_occ": dd.Uniform(1.5, 2.0), "mechanisms": "one_sided"}, "wall 'facades 0001': p_occ = "),
         ({"weight": dd.Uniform(-2.0, -1.0)}, "wall 'facades 0001': weight = -"),
         ({"correlation": {("height", "colour"): 0.5}}, "correlation: 'colour' is not sampled; these are: 'height', "),
         ({"correlation": {("height", "height"): 0.5}}, "correlation: ('height', 'height'): must be two names"),
         ({"correlation": {"height": 0.5}}, "correlation: 'height': must be two names"),
+        ({"correlation": {3: 0.5}}, "correlation: 3: must be two names"),
+        ({"correlation": [0.5]}, "correlation = [0.5]: must be a mapping, numbers by pairs of names"),
         ({"correlation": {("height", "density"): 1.0}}, "correlation of height and density = 1: must lie between -1"),
         ({"correlation": {("height", "density"): "0.5"}}, "correlation = '0.5': must be a number"),
         (
@@ -306,8 +330,8 @@ def test_origin(tmp_path):
         *(
             (
                 {"n": n, "correlation": {("height", "density"): 0.5}},
-                f"n = {n}: must be at least 6, more than what is sampled (height, thickness, density, two_block.hinge, "
-                "two_block.overburden), for correlations",
+                f"n = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, density, "
+                "two_block.hinge, two_block.overburden",
             )
             for n in (1, 2, 5)
         ),
