@@ -52,8 +52,3 @@ class Members:
         for walls, row in self.rows:
             whole[walls] += (1.0 - whole[walls]) * rows[row]
         return whole, self.weights
-
-
-def first_rows(names: list[str]) -> np.ndarray[Any, Any]:
-    """Where each wall begins among rows, of which those of a wall stand one after the other."""
-    return np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)

@@ -28,10 +28,11 @@ from dondolo._page import (
     whole,
 )
 from dondolo._report_run import LARGE_SCALE, Run, heads, quoted
-from dondolo._report_words import BETA, THETA, date_in_words, mechanism_name, quiet, state_name, status_table
+from dondolo._report_words import BETA, THETA, date_in_words, quiet, state_name, status_table
 from dondolo.motion import Response
 from dondolo.records import Record
 from dondolo.stripes import Stripes
+from dondolo.style import mechanism_name
 from dondolo.typology import Typology
 
 

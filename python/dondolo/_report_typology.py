@@ -29,12 +29,12 @@ from dondolo._report_words import (
     THETA,
     Chapter,
     level_head,
-    mechanism_name,
     quiet,
     state_name,
     with_unit,
 )
 from dondolo.errors import DondoloError
+from dondolo.style import mechanism_name
 from dondolo.typology import Group, Typology
 
 # Samples of the bootstrap
@@ -86,7 +86,11 @@ def _typology_figures(people: Typology) -> Markup:
 
     of_all = [curve for curve in people.groups if not curve.group]
     pieces = [
-        paragraph(LOGNORMAL, " Thin lines are the curves of single walls, the red line is their weighted mean."),
+        paragraph(
+            LOGNORMAL,
+            " Thin grey lines are the curves of single walls, bold lines their weighted means; a thin line beside a"
+            " mean is the lognormal fitted to it.",
+        ),
     ]
     if len(of_all) > 1:
         pieces.append(

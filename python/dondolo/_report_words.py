@@ -44,11 +44,6 @@ def state_name(edp: float, limit: float) -> str:
     return "collapse" if edp == limit else f"EDP ≥ {edp:g}"
 
 
-def mechanism_name(mechanism: str) -> str:
-    """A mechanism in words."""
-    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
-
-
 def with_unit(value: float, im: str, figures: int = 3) -> Markup:
     """A level of intensity and its unit."""
     return joined(number(value, figures), f" {_binding.unit_of(im)}".rstrip())

@@ -67,7 +67,7 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
             markerfacecolor="none",
             markeredgecolor=colour,
             markeredgewidth=0.8,
-            label=f"{key or 'no group'} ({here.sum()})",
+            label=style.label(f"{key or 'no group'} ({here.sum()})"),
         )
         below.stairs(
             np.histogram(trigger[here], edges, weights=population.weights[here])[0],
@@ -75,7 +75,7 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
             color=colour,
             linestyle=_LINES[(i + i // len(_COLOURS)) % len(_LINES)],
             linewidth=1.4,
-            label=key or "no group",
+            label=style.label(key or "no group"),
         )
     top, right = 1.12 * thickness.max(), 1.05 * height.max()
     for slenderness in _SLENDERNESS:

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _POINTS = 301
 # Most walls that are drawn one by one
 _THIN = 300
+# Width of a lognormal beside the mean that it is fitted to
+_FITTED = 0.6
 # What tells lines apart in grey
 _LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 
@@ -50,15 +52,14 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
         There are no such walls.
     """
     curve = typology.group(mechanism, group)
-    if ax is None:
-        ax = _axes(3)
+    ax = _axes(ax, 3)
     grid = _grid(typology.levels)
     members = typology._members(mechanism, group)
     walls = len(members.weights)
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
     thin = np.concatenate([members.at(part)[0][drawn] for part in members.parts(grid)], axis=1)
     ax.plot(grid, thin.T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
-    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else f"{walls} walls"
+    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else _walls(walls)
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, typology, grid, mechanism, group, style.BLUE)
     mean = typology.mean(grid, mechanism, group)
@@ -83,6 +84,8 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
 def plot_combination(typology: Typology, ax: Axes | None = None, group: str = "") -> Axes:
     """Draw the mean curve of each mechanism, and that of all together with its fractiles.
 
+    A thin line beside a mean curve is the lognormal of the parameters told.
+
     Parameters
     ----------
     typology : Typology
@@ -100,23 +103,23 @@ def plot_combination(typology: Typology, ax: Axes | None = None, group: str = ""
     """
     curves = [curve for curve in typology.groups if curve.group == group and curve.mechanism != "all"]
     whole = typology.group(None, group)
-    if ax is None:
-        ax = _axes(len(curves) + 3)
+    ax = _axes(ax, len(curves) + 4)
     grid = _grid(typology.levels)
     _band(ax, typology, grid, None, group, style.GREY)
     where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
     for curve, line in zip(curves, _LINES[1:], strict=False):
-        mean = typology.mean(grid, curve.mechanism, group)
-        text = f"{_words(curve.mechanism)}{where}, {_parameters(curve.fit)}"
-        ax.plot(grid, mean, color=style.BLUE, linestyle=line, label=text, zorder=3)
-    mean = typology.mean(grid, None, group)
-    text = f"{_words(whole.mechanism)}, {_parameters(whole.fit)}"
-    ax.plot(grid, mean, color=style.RED, linewidth=2.4, label=text, zorder=4)
+        look = {"color": style.BLUE, "linestyle": line, "linewidth": 1.8, "zorder": 3}
+        _mean(ax, typology, grid, curve, f"{style.mechanism_name(curve.mechanism)}{where}", look)
+    look = {"color": style.RED, "linewidth": 2.4, "zorder": 4}
+    _mean(ax, typology, grid, whole, style.mechanism_name(whole.mechanism), look)
+    _explain_fitted(ax, [*curves, whole])
     return _finish(ax, typology, grid, f"group {group}" if group else "population")
 
 
 def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | None = None) -> Axes:
     """Draw the mean curve of each group beside that of the population.
+
+    A thin line beside a mean curve is the lognormal of the parameters told.
 
     Parameters
     ----------
@@ -145,17 +148,17 @@ def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | Non
         raise InputError("group: no wall of this population belongs to a group")
     known = {(curve.group, curve.mechanism) for curve in typology.groups}
     names = [name for name in names if mechanism is None or (name, mechanism) in known]
-    if ax is None:
-        ax = _axes(len(names) + 1)
+    curves = [typology.group(mechanism, name) for name in names]
+    ax = _axes(ax, len(names) + 2)
     grid = _grid(typology.levels)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
-    for i, (name, color) in enumerate(zip(names, colors, strict=True)):
-        curve = typology.group(mechanism, name)
-        text = f"{name}: {curve.walls} walls, {_parameters(curve.fit)}"
-        ax.plot(grid, typology.mean(grid, mechanism, name), color=color, linestyle=_LINES[i % len(_LINES)], label=text)
-    text = f"population: {whole.walls} walls, {_parameters(whole.fit)}"
-    ax.plot(grid, typology.mean(grid, mechanism), color=style.RED, linewidth=2.4, label=text)
-    return _finish(ax, typology, grid, "all mechanisms" if mechanism is None else _words(mechanism))
+    for i, (curve, color) in enumerate(zip(curves, colors, strict=True)):
+        look = {"color": color, "linestyle": _LINES[i % len(_LINES)], "linewidth": 1.8}
+        _mean(ax, typology, grid, curve, f"{curve.group} ({_walls(curve.walls)})", look)
+    look = {"color": style.RED, "linewidth": 2.4}
+    _mean(ax, typology, grid, whole, f"population ({_walls(whole.walls)})", look)
+    _explain_fitted(ax, [*curves, whole])
+    return _finish(ax, typology, grid, style.mechanism_name(mechanism or "all"))
 
 
 def plot_damage_states(
@@ -166,6 +169,8 @@ def plot_damage_states(
     group: str = "",
 ) -> Axes:
     """Draw one curve a damage state, collapse the boldest.
+
+    For a population a thin line beside a mean curve is the lognormal of the parameters told.
 
     Parameters
     ----------
@@ -187,12 +192,12 @@ def plot_damage_states(
     """
     import matplotlib.pyplot as plt
 
-    if ax is None:
-        ax = _axes(2)
-    grid = _grid(states.levels)
     if edp is None:
         wall = isinstance(states, Stripes)
         edp = [share * states.edp_limit for share in (0.1, 0.4, 1.0)] if wall else list(states.edp_thresholds)
+    ax = _axes(ax, len(edp) + 1)
+    grid = _grid(states.levels)
+    means: list[Group] = []
     looks = zip(sorted(edp), plt.get_cmap("viridis")(np.linspace(0.85, 0.0, len(edp))), strict=True)
     for i, (threshold, color) in enumerate(looks):
         bold = 1.2 + 1.4 * (i + 1) / len(edp)
@@ -207,18 +212,19 @@ def plot_damage_states(
         else:
             state = states.at(threshold)
             one = state.group(mechanism, group)
-            text = f"EDP ≥ {threshold:g}: {_parameters(one.fit)}"
-            ax.plot(grid, state.mean(grid, mechanism, group), **look, label=text)
+            means.append(one)
+            _mean(ax, state, grid, one, f"EDP ≥ {threshold:g}", look)
             ax.plot(states.levels, one.mean_fraction, **marks)
+    _explain_fitted(ax, means)
     whose = states.wall.name if isinstance(states, Stripes) else _name(states.group(mechanism, group), states)
     _finish(ax, states, grid, whose)
     ax.set_ylabel("probability to reach the state")
     return ax
 
 
-def _axes(rows: int) -> Axes:
-    """Axes of a new figure with room for so many rows of a legend below."""
-    return style.new_axes(size=(6.0, 3.8 + 0.19 * rows))
+def _axes(ax: Axes | None, rows: int) -> Axes:
+    """Those given, or axes of a new figure with room for so many rows of a legend below."""
+    return style.new_axes(size=(6.0, 3.8 + 0.19 * rows)) if ax is None else ax
 
 
 def _grid(levels: Any) -> Any:
@@ -236,6 +242,21 @@ def _band(ax: Axes, typology: Typology, grid: Any, mechanism: str | None, group:
     ax.plot(grid, median, color=color, linewidth=1.6, linestyle=":", label="median of the walls", zorder=3)
 
 
+def _mean(ax: Axes, typology: Typology, grid: Any, curve: Group, name: str, look: dict[str, Any]) -> None:
+    """A mean curve, and thin beside it the lognormal whose parameters its label tells."""
+    fitted = f"lognormal {_parameters(curve.fit)}" if curve.fit.has_fit else _parameters(curve.fit)
+    text = style.label(f"{name}: mean; {fitted}")
+    ax.plot(grid, typology.mean(grid, curve.mechanism, curve.group), **look, label=text)
+    if curve.fit.has_fit:
+        ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_FITTED, zorder=look.get("zorder"))
+
+
+def _explain_fitted(ax: Axes, curves: Sequence[Group]) -> None:
+    """What the thin lines beside means are."""
+    if any(curve.fit.has_fit for curve in curves):
+        ax.plot([], [], color=style.BLACK, linewidth=_FITTED, label="thin: lognormals fitted to the mean fractions")
+
+
 def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
     """Axes, title and legend."""
     ax.set_xlim(0.0, grid[-1])
@@ -248,16 +269,16 @@ def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
     return ax
 
 
-def _words(mechanism: str) -> str:
-    """A mechanism in words."""
-    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
+def _walls(number: int) -> str:
+    """How many walls."""
+    return f"{number} wall" if number == 1 else f"{number} walls"
 
 
 def _name(curve: Group, typology: Typology) -> str:
     """Mechanism and group of a curve."""
     grouped = any(one.group for one in typology.groups)
     group = f", group {curve.group}" if curve.group else ", population" if grouped else ""
-    return _words(curve.mechanism) + group
+    return style.mechanism_name(curve.mechanism) + group
 
 
 def _parameters(fit: Fragility) -> str:

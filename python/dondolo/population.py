@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 from collections import Counter
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import Any, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_text
@@ -27,17 +28,17 @@ class Population:
     """Walls and how many of the kind each stands for.
 
     Walls with the same name, one after the other, are mechanisms of one wall. Walls that were given no name are called
-    'wall' with their number.
+    'wall' with the number of their row, or the next that no other wall is called by.
 
     Attributes
     ----------
     walls : tuple of Wall
-        The walls, each with one mechanism.
-    weights : ndarray, shape (walls,)
+        The walls, each with one mechanism: the rows of the population.
+    weights : ndarray, shape (rows,)
         Their weights, not negative and not all zero; 1 each if left out.
     groups : tuple of str
         Name of the group that each belongs to, for curves by group; empty if left out.
-    p_occ : ndarray, shape (walls,)
+    p_occ : ndarray, shape (rows,)
         Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
     origin : tuple of str
         Where the walls come from, in lines for the head of a file.
@@ -66,31 +67,38 @@ class Population:
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        walls = (self.walls,) if isinstance(self.walls, Wall) else tuple(self.walls)
+        walls = (self.walls,) if isinstance(self.walls, Wall) else _several("walls", self.walls, "walls")
         if not walls:
             raise InputError("walls: must be given")
         for wall in walls:
             if not isinstance(wall, Wall):
                 raise InputError(f"walls: {type(wall).__name__} is no wall")
         if len(walls) > 1:
-            walls = tuple(
-                wall._renamed(f"wall {i}") if wall.name == _UNNAMED else wall for i, wall in enumerate(walls, 1)
-            )
+            walls = _named(walls)
         weights = _shares("weight", self.weights, walls, math.inf)
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
         p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
-        groups = ("",) * len(walls) if self.groups is None else tuple(self.groups)
+        groups = ("",) * len(walls) if self.groups is None else _several("groups", self.groups, "a name for each wall")
         if len(groups) != len(walls):
             raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
         for wall, group in zip(walls, groups, strict=True):
             _on_one_line("group", group, wall)
-        for line in self.origin:
+        origin = _several("origin", self.origin, "lines")
+        for line in origin:
             as_text("origin", line)
         _check_names(walls, weights, groups)
-        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": tuple(self.origin)}
+        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": origin}
         for name, value in filled.items():
             object.__setattr__(self, name, value)
+
+    @functools.cached_property
+    def first_rows(self) -> NDArray[np.intp]:
+        """Where among the rows each wall begins: the rows of a wall stand one after the other."""
+        names = [wall.name for wall in self.walls]
+        first = np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)
+        first.flags.writeable = False
+        return first
 
     def __len__(self) -> int:
         return len(self.walls)
@@ -105,13 +113,43 @@ class Population:
     def __getitem__(self, index: slice) -> Population: ...
 
     def __getitem__(self, index: int | slice) -> Wall | Population:
-        """One of the walls, or a population of those in a slice."""
+        """The wall of a row, or a population of the rows in a slice.
+
+        Parameters
+        ----------
+        index : int or slice
+            Which rows.
+
+        Returns
+        -------
+        Wall or Population
+
+        Raises
+        ------
+        InputError
+            There are no rows in the slice.
+        """
         if isinstance(index, slice):
             return self._chosen(range(len(self))[index])
         return self.walls[index]
 
     def __add__(self, other: Population) -> Population:
-        """Both populations together; no wall may have a name of the other's."""
+        """Both populations together.
+
+        Parameters
+        ----------
+        other : Population
+            Its rows come last.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            Both have a wall of one name.
+        """
         if not isinstance(other, Population):
             return NotImplemented
         names = {wall.name for wall in self.walls} - {_UNNAMED}
@@ -127,7 +165,22 @@ class Population:
         )
 
     def group(self, name: str) -> Population:
-        """The walls of a group."""
+        """The walls of a group.
+
+        Parameters
+        ----------
+        name : str
+            Name of the group; '' for the walls that belong to none.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            No wall belongs to it.
+        """
         chosen = [i for i, group in enumerate(self.groups) if group == name]
         if not chosen:
             known = ", ".join(map(repr, dict.fromkeys(self.groups)))
@@ -147,13 +200,11 @@ class Population:
 
     def _facts(self) -> list[tuple[str, str]]:
         """How many there are, name and text."""
-        names = [wall.name for wall in self.walls]
-        first = [i for i, name in enumerate(names) if i == 0 or name != names[i - 1]]
-        groups = Counter(self.groups[i] for i in first)
+        groups = Counter(self.groups[i] for i in self.first_rows)
         facts = [
-            ("walls", str(len(first))),
+            ("walls", str(len(self.first_rows))),
             ("mechanisms", str(len(self))),
-            ("sum of the weights", f"{self.weights[first].sum():.6g}"),
+            ("sum of the weights", f"{self.weights[self.first_rows].sum():.6g}"),
             ("groups", ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
         ]
         return facts if any(groups) else facts[:-1]
@@ -180,7 +231,18 @@ class Population:
         return tables.html_of("Population", [*self._facts(), *self._ranges()])
 
     def to_frame(self) -> Any:
-        """The walls, their static quantities and weights as a pandas DataFrame."""
+        """The walls, their static quantities and weights.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of the executable's ``*_walls.csv``, with units in their names: one row a mechanism of a wall.
+
+        Raises
+        ------
+        DondoloError
+            There is no pandas.
+        """
         return tables.frame(self._table())
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
@@ -230,6 +292,27 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
     walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)
     return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ, origin)
+
+
+def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
+    """Turn what a user gives for several things into a tuple of them; a text is not several."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise InputError(f"{name} = {values!r}: must be {what}")
+    return tuple(values)
+
+
+def _named(walls: Sequence[Wall]) -> tuple[Wall, ...]:
+    """Walls of which each that was given no name has one of its own."""
+    taken = {wall.name for wall in walls}
+    named, number = [], 0
+    for i, wall in enumerate(walls, 1):
+        if wall.name == _UNNAMED:
+            number = max(number + 1, i)
+            while f"wall {number}" in taken:
+                number += 1
+            wall = wall._renamed(f"wall {number}")
+        named.append(wall)
+    return tuple(named)
 
 
 def _on_one_line(what: str, text: str, wall: Wall) -> None:

@@ -14,13 +14,14 @@ from dondolo._report_risk import risk_chapter
 from dondolo._report_run import Run, run_of
 from dondolo._report_typology import typology_cards, typology_chapters, typology_sentences
 from dondolo._report_wall import response_cards, response_chapters, stripes_cards, stripes_chapters
-from dondolo._report_words import date_in_words, mechanism_name, symbols
+from dondolo._report_words import date_in_words, symbols
 from dondolo.cases import Results
 from dondolo.errors import DondoloError, InputError
 from dondolo.hazard import HazardCurve
 from dondolo.motion import Response
 from dondolo.results import StoredResults
 from dondolo.stripes import Stripes
+from dondolo.style import mechanism_name
 from dondolo.typology import Typology
 
 _GENERATOR = "dondolo report"

@@ -1,8 +1,8 @@
 """Sampled populations: walls whose properties are drawn from distributions.
 
 Samples are a Latin hypercube (McKay, Beckman and Conover 1979): the range of every property is cut into as many parts
-of equal probability as there are walls, and each part holds one wall. Correlation is brought in by changing the order
-of the samples of a property alone (Iman and Conover 1982), so that this stays so.
+of equal probability as there are walls, and each part holds one wall. Correlation is brought in, and taken out where
+none is wanted, by changing the order of the samples of a property alone (Iman and Conover 1982), so that this stays so.
 """
 
 from __future__ import annotations
@@ -17,19 +17,32 @@ from typing import Any
 import numpy as np
 
 from dondolo import _binding
-from dondolo._arguments import FloatArray, as_array, as_count, as_number
+from dondolo._arguments import FloatArray, as_array, as_count, as_number, as_text
 from dondolo.errors import InputError
 from dondolo.population import Population
 from dondolo.walls import MECHANISMS, Wall, wall_from
 
 _PROPERTIES = (*_binding.WALL_NUMBERS, "restitution", "weight", "p_occ")
+# After so many the order hardly changes any more
+_PASSES = 5
 
 
 class Distribution:
     """What the distributions share: quantiles."""
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p.
+
+        Parameters
+        ----------
+        probability : ndarray
+            p, between 0 and 1.
+
+        Returns
+        -------
+        ndarray, shape of probability
+            In the unit of the parameters.
+        """
         raise NotImplementedError
 
 
@@ -41,6 +54,11 @@ class Uniform(Distribution):
     ----------
     low, high : float
         The smallest and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, or `high` not greater than `low`.
     """
 
     low: float
@@ -51,7 +69,7 @@ class Uniform(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         return self.low + (self.high - self.low) * probability
 
 
@@ -63,6 +81,11 @@ class Triangular(Distribution):
     ----------
     low, mode, high : float
         The smallest, the most likely and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `high` not greater than `low`, or `mode` not between them.
     """
 
     low: float
@@ -76,7 +99,7 @@ class Triangular(Distribution):
             raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         from scipy import stats
 
         width = self.high - self.low
@@ -94,6 +117,11 @@ class Normal(Distribution):
     low, high : float, optional
         Where it is cut off: what lies beyond is spread over what is left in proportion, so that the distribution keeps
         its shape and no samples gather at the ends.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `sd` not positive, or `high` not greater than `low`.
     """
 
     mean: float
@@ -108,7 +136,7 @@ class Normal(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
         return self.mean + self.sd * _cut_normal(probability, *ends)
 
@@ -125,6 +153,11 @@ class Lognormal(Distribution):
         Standard deviation of the logarithm, of the whole distribution.
     low, high : float, optional
         Where it is cut off, as for `Normal`.
+
+    Raises
+    ------
+    InputError
+        A parameter is no positive finite number, or `high` not greater than `low`.
     """
 
     median: float
@@ -141,7 +174,7 @@ class Lognormal(Distribution):
         _check_ends(self.low, self.high)
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
         return self.median * np.exp(self.beta * _cut_normal(probability, *ends))
 
@@ -156,15 +189,20 @@ class Choice(Distribution):
         The values, rising.
     probabilities : sequence of float, optional
         Their probabilities, with the sum 1; all alike if left out.
+
+    Raises
+    ------
+    InputError
+        The values do not rise, or there are not as many probabilities, not negative and with the sum 1.
     """
 
     values: tuple[float, ...]
-    probabilities: tuple[float, ...] = ()
+    probabilities: tuple[float, ...] = None  # type: ignore[assignment]
 
     def __post_init__(self) -> None:
         values = as_array("values", self.values)
         shares = np.full(len(values), 1.0 / len(values))
-        if len(self.probabilities):
+        if self.probabilities is not None:
             shares = as_array("probabilities", self.probabilities)
         if len(shares) != len(values):
             raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
@@ -176,7 +214,7 @@ class Choice(Distribution):
         object.__setattr__(self, "probabilities", tuple(shares.tolist()))
 
     def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, for p between 0 and 1."""
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
         ends = np.cumsum(self.probabilities)[:-1]
         return np.asarray(self.values)[np.searchsorted(ends, probability)]
 
@@ -215,7 +253,8 @@ def sample_population(
         Distributions of what is no property of a wall, but properties are functions of (the number of storeys).
     correlation : mapping, optional
         Pairs of names of sampled properties and variables, and the correlation of each pair; a property of one
-        mechanism is named as in "two_block.hinge". Pairs that are not named have none.
+        mechanism is named as in "two_block.hinge". Pairs that are not named have none. Takes more walls than there are
+        properties and variables that are sampled.
     group : str, optional
         Group of all walls.
     name : str, optional
@@ -241,7 +280,9 @@ def sample_population(
     -----
     A correlation is that of the normal scores (the Gaussian copula): of the values of two normal distributions, of the
     logarithms of two lognormal ones. The rank correlation is 6/pi asin(rho/2). The correlation of the sample's scores
-    is the one asked for, but for what the order of n numbers cannot give.
+    is the one asked for, and zero where none is, but for what the order of n numbers cannot give: of eight properties
+    the worst pair is off by some hundredths with 30 walls, by some thousandths with 300. Where there are no more walls
+    than properties and variables that are sampled, these are paired at random.
 
     References
     ----------
@@ -266,7 +307,10 @@ def sample_population(
     """
     own = _as_mechanisms(mechanisms)
     n, seed = as_count("n", n, 1), as_count("seed", seed, 0)
-    variables, correlation = dict(variables or {}), dict(correlation or {})
+    as_text("group", group)
+    as_text("name", name)
+    variables = {} if variables is None else _as_mapping("variables", variables, "distributions by their names")
+    correlation = {} if correlation is None else _as_mapping("correlation", correlation, "numbers by pairs of names")
     _check_variables(variables)
     _check_properties(own, properties)
     sampled = _draw(n, seed, _distributions(own, variables, properties), correlation)
@@ -293,18 +337,32 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
     """Mechanisms and what each has of its own."""
     if isinstance(mechanisms, str):
         mechanisms = (mechanisms,)
-    own = mechanisms if isinstance(mechanisms, Mapping) else {mechanism: {} for mechanism in mechanisms}
+    if not isinstance(mechanisms, Iterable):
+        raise InputError(f"mechanisms = {mechanisms!r}: must be names of mechanisms")
+    own: dict[str, dict[str, Property]] = {}
+    for mechanism in mechanisms:
+        if not isinstance(mechanism, str) or mechanism not in MECHANISMS:
+            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+        if mechanism in own:
+            raise InputError(f"mechanisms: {mechanism!r} is given twice")
+        extra = mechanisms[mechanism] if isinstance(mechanisms, Mapping) else {}
+        own[mechanism] = _as_mapping(mechanism, extra, "properties by their names")
     if not own:
         raise InputError("mechanisms: must be given")
-    for mechanism in own:
-        if mechanism not in MECHANISMS:
-            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
-    return {mechanism: dict(extra) for mechanism, extra in own.items()}
+    return own
+
+
+def _as_mapping(name: str, value: Any, what: str) -> dict[Any, Any]:
+    """Turn what a user gives for a mapping into a dictionary of one's own."""
+    if not isinstance(value, Mapping):
+        raise InputError(f"{name} = {value!r}: must be a mapping, {what}")
+    return dict(value)
 
 
 def _check_variables(variables: Mapping[str, Any]) -> None:
     """What is sampled for functions only must not look like a property."""
     for what, value in variables.items():
+        as_text("variables", what)
         if what in _PROPERTIES:
             raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
         if not isinstance(value, Distribution):
@@ -346,11 +404,17 @@ def _draw(
     matrix = _matrix(names, correlation)
     if not names:
         return {}
-    probabilities = qmc.LatinHypercube(len(names), seed=np.random.default_rng(seed)).random(n)
-    correlated = sorted({names.index(what) for pair in correlation for what in pair})
-    if correlated:
-        part = _reorder(probabilities[:, correlated], matrix[np.ix_(correlated, correlated)])
-        probabilities[:, correlated] = part
+    hypercube = qmc.LatinHypercube(len(names), seed=np.random.default_rng(seed))
+    probabilities = hypercube.random(n)
+    if n > len(names) > 1:
+        # A few walls may come in orders of which one follows from the others
+        while _is_singular(np.corrcoef(_scores(probabilities), rowvar=False)):
+            probabilities = hypercube.random(n)
+        probabilities = _reorder(probabilities, matrix)
+    elif correlation:
+        raise InputError(
+            f"n = {n}: must be at least {len(names) + 1} for correlations, more than are sampled: {', '.join(names)}"
+        )
     samples = {what: distributions[what].quantile(probabilities[:, i]) for i, what in enumerate(names)}
     for values in samples.values():
         values.flags.writeable = False
@@ -361,7 +425,7 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
     """Matrix of the correlations of all that is sampled."""
     matrix = np.eye(len(names))
     for pair, given in correlation.items():
-        if isinstance(pair, str) or len(pair) != 2 or pair[0] == pair[1]:
+        if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
             raise InputError(f"correlation: {pair!r}: must be two names")
         for what in pair:
             if what not in names:
@@ -374,33 +438,61 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
             raise InputError(f"correlation of {pair[0]} and {pair[1]}: is given twice")
         i, k = names.index(pair[0]), names.index(pair[1])
         matrix[i, k] = matrix[k, i] = value
-    smallest = np.linalg.eigvalsh(matrix).min() if len(names) else 1.0
-    if smallest < 1e-9:
+    if names and _is_singular(matrix):
         raise InputError(
-            f"correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is "
-            f"{smallest:.3g}, must be positive"
+            "correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is "
+            f"{np.linalg.eigvalsh(matrix).min():.3g}, must be positive"
         )
     return matrix
 
 
+def _is_singular(matrix: FloatArray) -> bool:
+    """Does one of some quantities follow from the others, by the matrix of their correlations?"""
+    return bool(np.linalg.eigvalsh(matrix).min() < 1e-9)
+
+
 def _reorder(probabilities: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Change the order in each column so that the normal scores of the ranks have the given correlation.
+    """Change the order in each column so that the normal scores of the ranks have the given correlations.
 
     Scores without correlation, L^-1 z with the Cholesky factor L of their own correlation, get the one wanted; their
-    ranks are taken over (Iman and Conover 1982).
+    ranks are taken over (Iman and Conover 1982). The scores of these ranks are not quite those: again from there.
     """
-    from scipy import linalg, stats
+    from scipy import linalg
 
-    n, count = probabilities.shape
-    rows = np.argsort(np.argsort(probabilities, axis=0), axis=0)
-    scores = stats.norm.ppf((rows + 1.0) / (n + 1.0))
-    try:
-        own = np.linalg.cholesky(np.atleast_2d(np.corrcoef(scores, rowvar=False)))
-    except np.linalg.LinAlgError:
-        raise InputError(f"n = {n}: too few walls for {count} correlated properties") from None
-    wanted = np.linalg.cholesky(matrix) @ linalg.solve_triangular(own, scores.T, lower=True)
-    ranks = np.argsort(np.argsort(wanted, axis=1), axis=1)
-    return np.take_along_axis(np.sort(probabilities, axis=0), ranks.T, axis=0)
+    factor, ordered = np.linalg.cholesky(matrix), np.sort(probabilities, axis=0)
+    for _ in range(_PASSES):
+        scores = _scores(probabilities)
+        own = np.corrcoef(scores, rowvar=False)
+        if _is_singular(own):
+            # So few walls that two columns have got one order
+            break
+        wanted = factor @ linalg.solve_triangular(np.linalg.cholesky(own), scores.T, lower=True)
+        probabilities = np.take_along_axis(ordered, _ranks(wanted.T), axis=0)
+    return probabilities
+
+
+def _scores(values: FloatArray) -> FloatArray:
+    """Normal scores of each column: what the normal distribution has at the ranks."""
+    from scipy import stats
+
+    return stats.norm.ppf((_ranks(values) + 1.0) / (len(values) + 1.0))
+
+
+def _ranks(values: FloatArray) -> Any:
+    """Ranks in each column, from 0."""
+    return np.argsort(np.argsort(values, axis=0), axis=0)
+
+
+class _Known(dict[str, FloatArray]):
+    """What the function of a property gets: the samples by name."""
+
+    def __init__(self, reader: str, samples: Samples) -> None:
+        super().__init__(samples)
+        self._reader = reader
+
+    def __missing__(self, what: object) -> FloatArray:
+        known = ", ".join(map(repr, self)) or "none"
+        raise InputError(f"{self._reader}: its function asks for {what!r}; known before it are: {known}")
 
 
 def _evaluate(
@@ -414,10 +506,10 @@ def _evaluate(
         elif isinstance(value, str):
             values[what] = value
         elif not callable(value):
-            values[what] = np.full(n, as_number(what, value))
+            values[what] = np.broadcast_to(as_number(what, value), n)
     for what, value in properties.items():
         if callable(value):
-            answer = np.asarray(value({**known, **values}))
+            answer = np.asarray(value(_Known(what, {**known, **values})))
             if answer.dtype.kind not in "biuf" or answer.shape not in ((), (n,)):
                 raise InputError(f"{what}: its function must return {n} numbers or one")
             values[what] = np.broadcast_to(answer.astype(np.float64), n)

@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from dondolo import _binding
 from dondolo._blocks import run_walls
 from dondolo._flags import states_of
-from dondolo._members import first_rows
 from dondolo._request import new_request
 from dondolo.errors import Interrupted
 from dondolo.population import Population
@@ -94,7 +93,7 @@ def typology(
     plan = request.plan()
     run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
     # A wall is complete with all its mechanisms.
-    first = first_rows([wall.name for wall in people.walls])
+    first = people.first_rows
     whole = np.logical_and.reduceat(run.complete, first)
     rows = np.repeat(whole, np.diff(np.append(first, len(people))))
     if not whole.any():

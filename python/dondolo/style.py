@@ -45,6 +45,16 @@ def im_label(im: str) -> str:
     return f"{measure.title} [{measure.unit or '-'}]"
 
 
+def mechanism_name(mechanism: str) -> str:
+    """A mechanism in words."""
+    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
+
+
+def label(text: str) -> str:
+    """A label that begins with what a user wrote: Matplotlib leaves those that begin with '_' out of legends."""
+    return f" {text}" if text.startswith("_") else text
+
+
 def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: Any) -> Any:
     """Axes of a new figure in the style of dondolo."""
     import matplotlib.pyplot as plt
@@ -55,7 +65,8 @@ def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: A
 
 
 def legend(ax: Axes, **options: Any) -> None:
-    """A legend without a frame, if there is something to explain."""
-    handles, _ = ax.get_legend_handles_labels()
+    """A legend without a frame, if there is something to explain; names in it are no formulas."""
+    handles, labels = ax.get_legend_handles_labels()
     if handles:
-        ax.legend(frameon=False, fontsize=8.5, **options)
+        for text in ax.legend(handles, labels, frameon=False, fontsize=8.5, **options).get_texts():
+            text.set_parse_math(False)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_levels, as_number, as_text, shaped
 from dondolo._flags import Flags
-from dondolo._members import Members, first_rows
+from dondolo._members import Members
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.fragility import Fragility, curve_of
 from dondolo.population import Population
@@ -334,7 +334,8 @@ class Typology:
         counts = self.collapses[:, rows] / self.histories[rows]
         curves = [self.curves[i] for i in rows]
         if curve.mechanism == "all":
-            first = first_rows([people.walls[i].name for i in rows])
+            # Weights and groups are those of whole walls
+            first = np.searchsorted(rows, people.first_rows[chosen[people.first_rows]])
             return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
         weights = people.weights[rows] * people.p_occ[rows]
         return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
@@ -453,7 +454,7 @@ def combine(
 
     Exceedances are (thresholds, levels, rows); thresholds increase, and the last is that of collapse.
     """
-    first = first_rows([wall.name for wall in people.walls])
+    first = people.first_rows
     rows = np.diff(np.append(first, len(people.walls)))
     chosen = np.flatnonzero(np.repeat(np.logical_and.reduceat(complete, first), rows))
     if len(chosen) == 0:
@@ -479,7 +480,7 @@ def _combine(
     """The curves of the last state."""
     walls = people.walls
     origin = {"im": im, "edp": float(edp_thresholds[-1])}
-    first = first_rows([wall.name for wall in walls])
+    first = people.first_rows
     rows = np.diff(np.append(first, len(walls))).astype(np.int32)
     words = (
         as_text("name", word)

@@ -157,8 +157,7 @@ def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows
     groups = dict.fromkeys(["", *population.groups])
     if group not in groups:
         raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, groups))}")
-    names = [wall.name for wall in population.walls]
-    wall = np.cumsum([i > 0 and names[i] != names[i - 1] for i in range(len(names))])
+    wall = np.searchsorted(population.first_rows, np.arange(len(population)), side="right") - 1
     chosen = np.array([group in ("", own) for own in population.groups])
     kinds = dict.fromkeys(own.mechanism for own, here in zip(population.walls, chosen, strict=True) if here)
     _, wall[chosen] = np.unique(wall[chosen], return_inverse=True)

@@ -2,10 +2,12 @@
 
 import pickle
 
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo.typology import combine
 from dondolo.work import Work
+from matplotlib.colors import to_rgba
 
 import dondolo as dd
 from dondolo import _members
@@ -49,6 +51,12 @@ def typology_of(walls, levels=LEVELS, histories=HISTORIES):
     sizes = np.full(len(rows), histories, dtype=np.int32)
     complete = np.ones(len(rows), dtype=bool)
     return combine(people, "pga", levels, np.ones(1), counts, sizes, complete, Work())[0]
+
+
+@pytest.fixture(autouse=True)
+def closed_figures():
+    yield
+    plt.close("all")
 
 
 @pytest.fixture(scope="module")
@@ -373,22 +381,28 @@ def test_figures(people, states, monkeypatch):
     monkeypatch.setattr(plots_typology, "_THIN", 2)
     labels = dd.plot_typology(people).get_legend_handles_labels()[1]
     assert labels[0] == "2 of 5 walls"
+    assert dd.plot_typology(typology_of(WALLS[3:4])).get_legend_handles_labels()[1][0] == "1 wall"
     assert {"16 to 84 % of the walls", "median of the walls", "weighted mean"} <= set(labels)
 
     ax = dd.plot_combination(people)
-    lines = {drawn.get_label().split(",")[0]: drawn for drawn in ax.get_lines()}
+    lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
     for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", None)):
         assert np.array_equal(lines[name].get_ydata(), people.mean(lines[name].get_xdata(), mechanism))
     styles = [drawn.get_linestyle() for name, drawn in lines.items() if "occur" in name]
     assert len(set(styles)) == len(styles) == 3
 
     ax = dd.plot_groups(people, "two_block")
-    lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
-    assert list(lines) == ["facades", "towers", "population"]
-    grid = lines["towers"].get_xdata()
-    assert np.array_equal(lines["towers"].get_ydata(), people.mean(grid, "two_block", "towers"))
-    lines = dd.plot_groups(people, "one_sided").get_lines()
-    assert [drawn.get_label().split(":")[0] for drawn in lines] == ["facades", "population"]
+    labels = ax.get_legend_handles_labels()[1]
+    assert [label.split(":")[0] for label in labels] == [
+        "facades (3 walls)",
+        "towers (1 wall)",
+        "population (4 walls)",
+        "thin",
+    ]
+    towers = next(drawn for drawn in ax.get_lines() if drawn.get_label().startswith("towers"))
+    assert np.array_equal(towers.get_ydata(), people.mean(towers.get_xdata(), "two_block", "towers"))
+    labels = dd.plot_groups(people, "one_sided").get_legend_handles_labels()[1]
+    assert [label.split(" (")[0] for label in labels[:-1]] == ["facades", "population"]
     with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
         dd.plot_groups(typology_of(WALLS[3:4]))
 
@@ -396,13 +410,58 @@ def test_figures(people, states, monkeypatch):
     for what, edp in ((typology, (0.1, 0.4, 1.0)), (stripes[0], (0.1, 0.4, 1.0))):
         ax = dd.plot_damage_states(what)
         labels = ax.get_legend_handles_labels()[1]
-        assert [label.split(":")[0] for label in labels] == [f"EDP ≥ {one:g}" for one in edp]
+        assert [label.split(":")[0] for label in labels if "EDP" in label] == [f"EDP ≥ {one:g}" for one in edp]
+        assert ("thin" in labels[-1]) == (what is typology)
         assert ax.get_ylabel() == "probability to reach the state"
         curves = [what.at(one).mean if what is typology else what.fit(one) for one in edp]
         curves = [curve for curve in curves if what is typology or curve.has_fit]
         lines = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) > len(what.levels)]
+        lines = [drawn for drawn in lines if not drawn.get_label().startswith("_")]
         for drawn, curve in zip(lines, curves, strict=True):
             assert np.array_equal(drawn.get_ydata(), curve(drawn.get_xdata()))
+
+
+def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
+    """The mean is no lognormal: what has the parameters of the legend stands beside it, thin."""
+    typology = states[0]
+    state = [typology.at(edp) for edp in typology.edp_thresholds]
+    drawings = [
+        (dd.plot_combination(people), [people.group(name) for name in (*KINDS, None)]),
+        (dd.plot_groups(people), [people.group(group=name) for name in ("facades", "towers", "")]),
+        (dd.plot_damage_states(typology), [one.group() for one in state]),
+    ]
+    for ax, curves in drawings:
+        lines = ax.get_lines()
+        means = [i for i, drawn in enumerate(lines) if ": mean; " in drawn.get_label()]
+        assert len(means) == len(curves)
+        for i, curve in zip(means, curves, strict=True):
+            label = lines[i].get_label()
+            assert f"lognormal θ = {curve.fit.theta:.3g} g, β = {curve.fit.beta:.3g}" in label
+            beside = lines[i + 1]
+            assert np.array_equal(beside.get_ydata(), curve.fit(beside.get_xdata()))
+            assert to_rgba(beside.get_color()) == to_rgba(lines[i].get_color())
+            assert beside.get_linewidth() < 0.5 * lines[i].get_linewidth()
+    counts = people.exceedances * 0
+    complete = np.ones(len(people.walls), dtype=bool)
+    none, _ = combine(people.population, "pga", LEVELS, np.ones(1), counts, people.histories, complete, Work())
+    labels = dd.plot_groups(none).get_legend_handles_labels()[1]
+    assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
+
+
+@pytest.mark.parametrize("name", ["cost $x_{$", "_east", "__"])
+def test_figures_of_groups_with_any_name(name, tmp_path):
+    walls = [(wall[0], name, *wall[2:]) for wall in WALLS[:3]]
+    people = typology_of(walls)
+    axes = [
+        dd.plot_groups(people),
+        *dd.plot_population(people.population, "group"),
+        dd.plot_combination(people, group=name),
+    ]
+    for ax in axes[:3]:
+        texts = [text.get_text().lstrip() for text in ax.get_legend().get_texts()]
+        assert texts[0].startswith(name)
+    for ax in axes:
+        ax.figure.savefig(tmp_path / "figure.png")
 
 
 def test_populations_are_compared_with_a_warning(people):

@@ -40,6 +40,21 @@ def test_defaults():
     assert dd.Population(dd.OneSidedWall(3.0, 0.25))[0].name == "wall"
 
 
+def test_an_unnamed_wall_takes_the_name_of_no_other():
+    people = dd.Population([dd.OneSidedWall(3.0, 0.3, name="wall 2"), dd.TwoBlockWall(3.0, 0.3)])
+    assert [wall.name for wall in people] == ["wall 2", "wall 3"]
+    assert "walls 2, mechanisms 2" in repr(people)
+    unnamed = dd.OneSidedWall(3.0, 0.3)
+    several = [unnamed, unnamed, dd.OneSidedWall(3.0, 0.3, name="wall 1"), unnamed, unnamed]
+    assert [wall.name for wall in dd.Population(several)] == ["wall 2", "wall 3", "wall 1", "wall 4", "wall 5"]
+
+
+def test_where_each_wall_begins():
+    assert PEOPLE.first_rows.tolist() == [0, 2, 3]
+    assert PEOPLE[1:].first_rows.tolist() == [0, 1, 2]
+    assert not PEOPLE.first_rows.flags.writeable
+
+
 def test_rows_and_parts():
     assert len(PEOPLE) == 4
     assert PEOPLE[1] is ROWS[1]
@@ -101,12 +116,25 @@ def test_shown():
         ({"groups": ["x", "x", "a\nb", ""]}, "wall 'b, \"the\" #2': group: must stand on one line"),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
+        ({"groups": 5}, "groups = 5: must be a name for each wall"),
+        ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
         ({"origin": ["two\nlines"]}, "origin: must stand on one line"),
+        ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],
 )
 def test_errors(arguments, sentence):
     with pytest.raises(dd.InputError) as caught:
         dd.Population(ROWS, **arguments)
+    assert str(caught.value) == sentence
+
+
+@pytest.mark.parametrize(
+    ("walls", "sentence"),
+    [(3, "walls = 3: must be walls"), ("ab", "walls = 'ab': must be walls"), ([3], "walls: int is no wall")],
+)
+def test_no_walls(walls, sentence):
+    with pytest.raises(dd.InputError) as caught:
+        dd.Population(walls)
     assert str(caught.value) == sentence
 
 

@@ -91,6 +91,8 @@ def test_choice():
         (lambda: dd.Choice((1.0, 2.0), (1.5, -0.5)), "probabilities: must not be negative and have the sum 1, not 1"),
         (lambda: dd.Choice((2.0, 1.0)), "values: must rise from one to the next"),
         (lambda: dd.Choice(()), "values: must be given"),
+        (lambda: dd.Choice((1, 2), 0.5), "2 values, 1 probabilities: must be as many"),
+        (lambda: dd.Choice((1, 2), ()), "probabilities: must be given"),
     ],
 )
 def test_wrong_distributions(make, sentence):
@@ -155,14 +157,42 @@ def test_correlation():
             column(people, "hinge", "two_block"),
         ]
     )
-    found = np.corrcoef(scores)
-    # By chance 0.02 (one over the root of n); the correlated ones are met more closely.
-    assert found[0, 1] == pytest.approx(0.6, abs=3e-3)
-    assert found[0, 2] == pytest.approx(-0.4, abs=3e-3)
-    assert found[1, 2] == pytest.approx(0.0, abs=3e-3)
-    assert found[0, 3] == pytest.approx(0.0, abs=0.1)
+    expected = np.eye(4)
+    expected[0, 1] = expected[1, 0] = 0.6
+    expected[0, 2] = expected[2, 0] = -0.4
+    # By chance 0.02, one over the root of n
+    assert np.corrcoef(scores) == pytest.approx(expected, abs=3e-3)
     rank = stats.spearmanr(scores[0], scores[1]).statistic
     assert rank == pytest.approx(6.0 / math.pi * math.asin(0.3), abs=0.02)
+
+
+def scores_of(people):
+    """Normal scores of the ranks of what `sample` samples, thickness left out."""
+    columns = [column(people, what) for what in ("height", "density")]
+    columns += [column(people, what, "two_block") for what in ("hinge", "overburden")]
+    return stats.norm.ppf(stats.rankdata(columns, axis=1) / (len(columns[0]) + 1.0))
+
+
+@pytest.mark.parametrize(("n", "off"), [(30, 0.1), (100, 0.03), (1000, 3e-3)])
+@pytest.mark.parametrize("correlation", [{}, {("height", "density"): 0.6}])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_pairs_that_are_not_named_have_no_correlation(correlation, n, off, seed):
+    """By chance it would be one over the root of n, and twice that in the worst of the pairs."""
+    expected = np.eye(4)
+    expected[0, 1] = expected[1, 0] = 0.6 if correlation else 0.0
+    found = np.corrcoef(scores_of(sample(n=n, seed=seed, correlation=correlation)))
+    assert np.abs(found - expected).max() < off
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_few_walls(seed):
+    """What three numbers can have is -1, -1/2, 1/2 and 1; the draws that give no choice are drawn again."""
+    few = {"height": dd.Normal(3.0, 0.1), "thickness": dd.Normal(0.3, 0.01)}
+    people = dd.sample_population("one_sided", 3, seed, **few, correlation={("height", "thickness"): 0.4})
+    ranks = stats.rankdata([column(people, what) for what in few], axis=1)
+    assert np.corrcoef(ranks)[0, 1] == pytest.approx(0.5)
+    for n in (1, 2):
+        assert len(dd.sample_population("one_sided", n, seed, **few)) == n
 
 
 @settings(deadline=None)
@@ -198,6 +228,16 @@ def test_functions():
     assert people.weights[::2] == pytest.approx(3.0 + ratio)
     assert set(people.p_occ) == {0.2, 0.95}
     assert (column(people, "density") == 1900.0).all()
+
+
+def test_functions_do_not_change_what_they_get():
+    def a_tenth(samples):
+        samples["height"] *= 0.1
+        return samples["height"]
+
+    for height in (3.0, dd.Uniform(2.0, 3.0), lambda samples: 3.0):
+        with pytest.raises(ValueError, match="read-only"):
+            dd.sample_population("one_sided", 4, 1, height=height, thickness=a_tenth)
 
 
 def test_origin(tmp_path):
@@ -239,6 +279,10 @@ def test_origin(tmp_path):
     [
         ({"mechanisms": "sliding"}, "mechanism = 'sliding': must be one of 'one_sided', 'free_standing', 'two_block'"),
         ({"mechanisms": []}, "mechanisms: must be given"),
+        ({"mechanisms": None}, "mechanisms = None: must be names of mechanisms"),
+        ({"mechanisms": [["one_sided"]]}, "mechanism = ['one_sided']: must be one of 'one_sided', "),
+        ({"mechanisms": ["one_sided", "one_sided"]}, "mechanisms: 'one_sided' is given twice"),
+        ({"mechanisms": {"one_sided": None}}, "one_sided = None: must be a mapping, properties by their names"),
         ({"n": 0}, "n = 0: must be a whole number, at least 1"),
         ({"n": 1.5}, "n = 1.5: must be a whole number, at least 1"),
         ({"seed": -1}, "seed = -1: must be a whole number, at least 0"),
@@ -249,16 +293,24 @@ def test_origin(tmp_path):
         ({"restitution": 0.9}, "restitution = 0.9: must be a text"),
         ({"variables": {"height": HEIGHT}}, "variables: 'height' is a property of the walls, to be given as one"),
         ({"variables": {"storeys": 2}}, "storeys = 2: must be a distribution"),
+        ({"variables": {2: HEIGHT}}, "variables = 2: must be a text"),
+        ({"variables": [1]}, "variables = [1]: must be a mapping, distributions by their names"),
+        ({"variables": 3}, "variables = 3: must be a mapping, distributions by their names"),
+        ({"height": lambda s: s["storeys"] * 3.0}, "height: its function asks for 'storeys'; known before it are: 'th"),
         ({"thickness": lambda s: np.ones(3)}, "thickness: its function must return 200 numbers or one"),
         ({"thickness": lambda s: "thick"}, "thickness: its function must return 200 numbers or one"),
         ({"density": dd.Uniform(-2.0, -1.0)}, "must be positive"),
-        ({"name": "a\nb"}, "must stand on one line"),
-        ({"group": "a\nb"}, "must stand on one line"),
+        ({"name": "a\nb"}, "name: must stand on one line"),
+        ({"group": "a\nb"}, "group: must stand on one line"),
+        ({"name": 3}, "name = 3: must be a text"),
+        ({"group": 3}, "group = 3: must be a text"),
         ({"p_occ": dd.Uniform(1.5, 2.0), "mechanisms": "one_sided"}, "wall 'facades 0001': p_occ = "),
         ({"weight": dd.Uniform(-2.0, -1.0)}, "wall 'facades 0001': weight = -"),
         ({"correlation": {("height", "colour"): 0.5}}, "correlation: 'colour' is not sampled; these are: 'height', "),
         ({"correlation": {("height", "height"): 0.5}}, "correlation: ('height', 'height'): must be two names"),
         ({"correlation": {"height": 0.5}}, "correlation: 'height': must be two names"),
+        ({"correlation": {3: 0.5}}, "correlation: 3: must be two names"),
+        ({"correlation": [0.5]}, "correlation = [0.5]: must be a mapping, numbers by pairs of names"),
         ({"correlation": {("height", "density"): 1.0}}, "correlation of height and density = 1: must lie between -1"),
         ({"correlation": {("height", "density"): "0.5"}}, "correlation = '0.5': must be a number"),
         (
@@ -275,7 +327,14 @@ def test_origin(tmp_path):
             },
             "correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is -0.8",
         ),
-        ({"n": 2, "correlation": {("height", "density"): 0.5}}, "n = 2: too few walls for 2 correlated properties"),
+        *(
+            (
+                {"n": n, "correlation": {("height", "density"): 0.5}},
+                f"n = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, density, "
+                "two_block.hinge, two_block.overburden",
+            )
+            for n in (1, 2, 5)
+        ),
     ],
 )
 def test_errors(changes, sentence):
