@@ -180,10 +180,10 @@ contains
       integer :: j, k, histories
 
       head = head_of_levels(case)
-      histories = size(results%stripes%record)
+      histories = results%row%histories
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
-         associate (collapses => results%reached(j, size(results%reached, 2)))
+         associate (collapses => results%row%reached(j, size(results%row%reached, 2)))
             counts = to_text(collapses)//'/'//to_text(histories)
             fraction = real(collapses, wp)/real(histories, wp)
          end associate
@@ -192,14 +192,14 @@ contains
          write (output_unit, '(a)') trim(line)
       end do
       write (output_unit, '(a)') ''
-      do k = 1, size(results%fragility) - 1
+      do k = 1, size(results%row%curve) - 1
          write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
-         call print_fit(results%fragility(k), case%stripes%scaling%unit_after_blank())
+         call print_fit(results%row%curve(k), case%stripes%scaling%unit_after_blank())
       end do
-      if (size(results%fragility) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
-      call print_fit(results%fragility(size(results%fragility)), case%stripes%scaling%unit_after_blank())
+      if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
+      call print_fit(results%row%curve(size(results%row%curve)), case%stripes%scaling%unit_after_blank())
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
-         & rounded(maxval(results%stripes%response%edp_error))
+         & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes
 
    !> Print a curve, or why there is none

@@ -255,9 +255,9 @@ contains
       if (.not. allocated(error)) call run_case(case, stripes, error, threads=1)
       call check_ok(error, 'stripes')
       if (allocated(error)) return
-      call check(all(stripes%reached(:, 1) == stripes%stripes%collapses()), 'collapses')
-      call check(all(stripes%stripes%record == [1, 2]), 'polarity does not double the histories of a symmetric wall')
-      call check(any(stripes%stripes%response%edp > 0.0_wp), 'something moves')
+      call check(all(stripes%row%reached(:, 1) == count(stripes%row%response%collapsed, dim=1)), 'collapses')
+      call check(stripes%row%histories == 2, 'polarity does not double the histories of a symmetric wall')
+      call check(any(stripes%row%response%edp > 0.0_wp), 'something moves')
 
       call write_file('a.nml', history_case)
       call read_case(scratch//'/a.nml', case, error)
@@ -266,9 +266,9 @@ contains
       if (allocated(error)) return
       call check(case%history%record == 2, 'record by name')
       ! Two engines, each with an error of its own: far above it, and far below what another record or scale would give.
-      call check_close(history%response%edp, stripes%stripes%response(2, 2)%edp, 1.0e-6_wp, &
+      call check_close(history%response%edp, stripes%row%response(2, 2)%edp, 1.0e-6_wp, &
          & 'history and stripe give the same EDP')
-      call check_close(history%response%time_of_peak, stripes%stripes%response(2, 2)%time_of_peak, 1.0e-6_wp, &
+      call check_close(history%response%time_of_peak, stripes%row%response(2, 2)%time_of_peak, 1.0e-6_wp, &
          & 'at the same time')
       call check_close(minval(history%trace%acceleration(:history%trace%rows)) &
          & *maxval(abs(case%records(2)%acceleration))/maxval(case%records(2)%acceleration), &
@@ -311,7 +311,7 @@ contains
       associate (work => results%work)
          call check(work%histories == 6, 'every history')
          call check(work%intervals == 6*500, 'every sample interval')
-         call check(work%still == count(.not. results%stripes%response%edp > 0.0_wp), 'still ones have no EDP')
+         call check(work%still == count(.not. results%row%response%edp > 0.0_wp), 'still ones have no EDP')
          call check(work%still > 0 .and. work%still < work%histories, 'some move, some do not')
          call check(work%rocked > 0 .and. work%rocked < work%intervals, 'some intervals rock, some do not')
          call check(work%steps >= work%rocked .and. work%evaluations >= work%steps, 'a step at least in each')

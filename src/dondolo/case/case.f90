@@ -2,9 +2,8 @@
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_history_group, only : echo_history, find_record, history_input_type, history_variables, &
-      & read_history_group
-   use dondolo_job_group, only : echo_job, job_type, job_variables, read_job
+   use dondolo_history_group, only : echo_history, find_record, history_input_type, read_history_group
+   use dondolo_job_group, only : echo_job, job_type, read_job
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist, only : namelist_type, read_namelist

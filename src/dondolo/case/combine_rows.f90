@@ -69,7 +69,7 @@ contains
       allocate (results%shown(min(shown_rows, case%survey%rows)))
       call results%counts%open(error)
       if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
       do while (.not. allocated(error))
          call results%counts%next(counts, found, error)
          if (allocated(error) .or. .not. found) exit

@@ -15,7 +15,7 @@ module dondolo_population
    implicit none
    private
 
-   public :: member_type, population_reader_type, read_population, check_weight
+   public :: member_type, population_reader_type, read_population
 
    !> Columns besides the variables of a wall
    character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
@@ -44,8 +44,11 @@ module dondolo_population
       type(csv_reader_type) :: table
       !> Gravity [m/s2]
       real(wp), allocatable :: gravity
-      !> Are names looked up, to find those that stand twice? A table that was read before needs it no more
-      logical :: checks_names = .true.
+      !> Are names looked up, to find those that stand twice, and is a weight asked for? A table that was read before
+      !> needs it no more
+      logical :: is_checked = .true.
+      !> Are all rows so far right, and has one of them a weight?
+      logical :: is_right = .true., has_weight = .false.
       !> Names of the walls so far
       type(name_index_type) :: names
       !> The wall of the row before, its first row
@@ -79,13 +82,12 @@ contains
       type(population_reader_type) :: reader
       type(problems_type) :: problems
       type(member_type), allocatable :: more(:)
-      logical :: found, has_weight
+      logical :: found
       integer :: rows
 
       call reader%open(file, error, gravity)
       if (allocated(error)) return
       allocate (members(64))
-      has_weight = .false.
       rows = 0
       do
          if (rows == size(members)) then
@@ -94,33 +96,16 @@ contains
             call move_alloc(more, members)
          end if
          call reader%next(members(rows + 1), found, error)
-         if (.not. found) exit
-         if (.not. allocated(error)) then
-            rows = rows + 1
-            has_weight = has_weight .or. members(rows)%weight > 0.0_wp
-         end if
+         if (found .and. .not. allocated(error)) rows = rows + 1
          call problems%take(error)
+         if (.not. found) exit
       end do
       members = members(:rows)
-      if (.not. allocated(error) .and. problems%count == 0) call check_weight(file, has_weight, error)
-      call problems%take(error)
       call problems%raise(error)
    end subroutine read_population
 
-   !> Check that some wall has a weight
-   subroutine check_weight(file, has_weight, error)
-      !> Path of the table
-      character(len=*), intent(in) :: file
-      !> Has one?
-      logical, intent(in) :: has_weight
-      !> None has
-      type(error_type), allocatable, intent(out) :: error
-
-      if (.not. has_weight) call raise_input(error, file//': weight: must be positive for at least one wall')
-   end subroutine check_weight
-
    !> Open a population
-   subroutine open_population(self, file, error, gravity, checks_names)
+   subroutine open_population(self, file, error, gravity, is_checked)
       !> The reader
       class(population_reader_type), intent(inout) :: self
       !> Path of the table
@@ -129,15 +114,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
-      !> Are names to be looked up? Yes if absent
-      logical, intent(in), optional :: checks_names
+      !> Is the table as a whole to be checked? Yes if absent
+      logical, intent(in), optional :: is_checked
 
       integer :: i
 
       self%row = 0
       self%mechanisms = ''
       if (present(gravity)) self%gravity = gravity
-      if (present(checks_names)) self%checks_names = checks_names
+      if (present(is_checked)) self%is_checked = is_checked
       call self%table%open(file, error)
       if (allocated(error)) return
       do i = 1, size(self%table%columns)
@@ -159,16 +144,16 @@ contains
       type(member_type), intent(out) :: member
       !> Was there a row, right or wrong?
       logical, intent(out) :: found
-      !> Everything that is wrong with it
+      !> Everything that is wrong with it, or at the end with the table
       type(error_type), allocatable, intent(out) :: error
 
       call self%table%next(found, error)
       if (.not. found) then
-         if (.not. allocated(error) .and. self%row == 0) &
-            & call raise_input(error, self%table%lines%file//': no walls under the header')
+         if (.not. allocated(error)) call check_end(self, error)
          return
       end if
       self%row = self%row + 1
+      self%is_right = self%is_right .and. .not. allocated(error)
       if (allocated(error)) return
       call read_row(self, member, error)
       if (.not. allocated(error)) then
@@ -178,7 +163,23 @@ contains
          self%wall%has_name = self%wall%wall%input%name == member%wall%input%name
       end if
       call add_place(error, self%table%place())
+      self%is_right = self%is_right .and. .not. allocated(error)
+      self%has_weight = self%has_weight .or. member%weight > 0.0_wp
    end subroutine next
+
+   !> Check that there are walls, and that one of them has a weight
+   subroutine check_end(self, error)
+      !> The reader, at the end of the table
+      type(population_reader_type), intent(in) :: self
+      !> There is none
+      type(error_type), allocatable, intent(out) :: error
+
+      if (self%row == 0) then
+         call raise_input(error, self%table%lines%file//': no walls under the header')
+      else if (self%is_checked .and. self%is_right .and. .not. self%has_weight) then
+         call raise_input(error, self%table%lines%file//': weight: must be positive for at least one wall')
+      end if
+   end subroutine check_end
 
    !> Pass over rows
    subroutine skip(self, rows, error)
@@ -186,7 +187,7 @@ contains
       class(population_reader_type), intent(inout) :: self
       !> Number of rows
       integer, intent(in) :: rows
-      !> The last of them is wrong
+      !> One of them is no row, or the last is wrong; a table that ends before is none
       type(error_type), allocatable, intent(out) :: error
 
       type(member_type) :: member
@@ -309,7 +310,7 @@ contains
          if (self%wall%has_name .and. member%has_name) member%continues = self%wall%wall%input%name == name
          if (.not. member%continues) then
             line = 0
-            if (self%checks_names) call self%names%note(name, self%table%line, line)
+            if (self%is_checked) call self%names%note(name, self%table%line, line)
             if (line > 0) then
                call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
                   & '); mechanisms of one wall must stand one after the other')

@@ -6,12 +6,10 @@ module dondolo_reports
    use dondolo_job_group, only : job_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_population, only : member_type
-   use dondolo_report_rows, only : fragility_head, fragility_row, history_head, history_row, stripes_head, &
-      & stripes_row, typology_head, typology_row, wall_cells, wall_head, wall_row
+   use dondolo_report_rows, only : typology_head, typology_row
    use dondolo_result_files, only : check_output, result_files_type
    use dondolo_results, only : results_type
-   use dondolo_row_reports, only : write_rows
+   use dondolo_row_reports, only : write_one_row, write_rows
    use dondolo_text, only : to_table, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_work, only : work_names, work_type
@@ -75,11 +73,7 @@ contains
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
          call write_head(case, results, files)
-         if (case%job%task == 'typology' .and. names(i) /= '_typology.csv') then
-            call write_rows(case, results%counts, trim(names(i)), files, error)
-         else
-            call write_table(case, results, trim(names(i)), files)
-         end if
+         call write_table(case, results, trim(names(i)), files, error)
          if (allocated(error)) then
             call files%abandon()
             return
@@ -92,30 +86,27 @@ contains
    end subroutine write_reports
 
    !> Write one table
-   subroutine write_table(case, results, name, files)
+   subroutine write_table(case, results, name, files, error)
       !> The case
       type(case_type), intent(in) :: case
       !> Its results
-      type(results_type), intent(in) :: results
+      type(results_type), intent(inout) :: results
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files
       type(result_files_type), intent(inout) :: files
+      !> A file that is read again has changed
+      type(error_type), allocatable, intent(out) :: error
 
-      select case (name)
-      case ('_walls.csv')
-         call write_wall(case, files)
-      case ('_histories.csv')
-         call write_histories(case, results, files)
-      case ('_stripes.csv')
-         call write_stripes(case, results, files)
-      case ('_fragility.csv')
-         call write_fragility(case, results, files)
-      case ('_typology.csv')
+      if (name == '_typology.csv') then
          call write_typology(case, results, files)
-      case ('_history.csv')
+      else if (name == '_history.csv') then
          call write_history(case, results, files)
-      end select
+      else if (case%job%task == 'typology') then
+         call write_rows(case, results%counts, name, files, error)
+      else
+         call write_one_row(case, results%row, name, files, error)
+      end if
    end subroutine write_table
 
    !> Comment lines: which program, which case, what was computed, and what to beware of
@@ -173,88 +164,6 @@ contains
       unit = case%stripes%scaling%unit()
       if (len(unit) == 0) unit = '1'
    end function unit_of_levels
-
-   !> The one wall
-   subroutine write_wall(case, files)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Files
-      type(result_files_type), intent(inout) :: files
-
-      type(member_type) :: member
-
-      member%wall = case%wall
-      member%group = ''
-      call files%line(wall_head)
-      call files%line(wall_row(member))
-   end subroutine write_wall
-
-   !> All histories of the one wall
-   subroutine write_histories(case, results, files)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Its results
-      type(results_type), intent(in) :: results
-      !> Files
-      type(result_files_type), intent(inout) :: files
-
-      character(len=:), allocatable :: last
-      integer :: i, j
-
-      last = ''
-      if (case%solver%solver%estimate_error) last = ',edp_error'
-      call files%line(history_head//last)
-      associate (stripes => results%stripes)
-         do j = 1, size(stripes%levels)
-            do i = 1, size(stripes%record)
-               if (case%solver%solver%estimate_error) last = ','//to_table(stripes%response(i, j)%edp_error)
-               call files%line(history_row(wall_cells(case%wall), case%records(stripes%record(i))%name, &
-                  & stripes%polarity(i), stripes%im, stripes%levels(j), stripes%scale(i, j), &
-                  & stripes%response(i, j))//last)
-            end do
-         end do
-      end associate
-   end subroutine write_histories
-
-   !> Histories of the one wall that reach each threshold at every level
-   subroutine write_stripes(case, results, files)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Its results
-      type(results_type), intent(in) :: results
-      !> Files
-      type(result_files_type), intent(inout) :: files
-
-      integer :: j, k
-
-      call files%line(stripes_head)
-      associate (stripes => results%stripes)
-         do k = 1, size(case%stripes%thresholds)
-            do j = 1, size(stripes%levels)
-               call files%line(stripes_row(wall_cells(case%wall), stripes%im, stripes%levels(j), &
-                  & size(stripes%record), results%reached(j, k), case%stripes%thresholds(k)))
-            end do
-         end do
-      end associate
-   end subroutine write_stripes
-
-   !> Curves of the one wall
-   subroutine write_fragility(case, results, files)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Its results
-      type(results_type), intent(in) :: results
-      !> Files
-      type(result_files_type), intent(inout) :: files
-
-      integer :: k
-
-      call files%line(fragility_head)
-      do k = 1, size(case%stripes%thresholds)
-         call files%line(fragility_row(wall_cells(case%wall), results%stripes%im, results%fragility(k), &
-            & case%stripes%thresholds(k)))
-      end do
-   end subroutine write_fragility
 
    !> Curves of the population
    subroutine write_typology(case, results, files)

@@ -1,11 +1,11 @@
 !> What comes of a case.
 module dondolo_results
+   use dondolo_counts, only : counts_type
    use dondolo_counts_stream, only : counts_stream_type
    use dondolo_ensemble, only : engine_text
    use dondolo_fragility, only : fragility_type
    use dondolo_lines, only : lines_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_stripes, only : stripes_type
    use dondolo_typology, only : typology_type
    use dondolo_work, only : work_type
    implicit none
@@ -29,12 +29,8 @@ module dondolo_results
 
    !> Results of a case; what its task does not make stays empty
    type :: results_type
-      !> All histories: task 'stripes'
-      type(stripes_type) :: stripes
-      !> Histories that reach each EDP threshold (levels, thresholds): task 'stripes'
-      integer, allocatable :: reached(:, :)
-      !> Curve of each threshold: task 'stripes'
-      type(fragility_type), allocatable :: fragility(:)
+      !> Counts and curves of the one wall, with all its histories: task 'stripes'
+      type(counts_type) :: row
       !> Counts of all rows of the population: task 'typology'
       type(counts_stream_type) :: counts
       !> Curves of the population for each EDP threshold (curves, thresholds): task 'typology'; none if only some of its

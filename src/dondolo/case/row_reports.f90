@@ -1,4 +1,5 @@
-!> Tables of a population, row by row, as they come out of its table and of the files of counts.
+!> Tables of walls, row by row: of the one wall of a case, or of a population as its rows come out of its table and of the
+!> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
    use dondolo_counts, only : counts_type
@@ -9,10 +10,11 @@ module dondolo_row_reports
       & stripes_row, wall_cells, wall_head, wall_row
    use dondolo_result_files, only : result_files_type
    use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_text, only : to_table
    implicit none
    private
 
-   public :: write_rows
+   public :: write_rows, write_one_row
 
 contains
 
@@ -34,38 +36,93 @@ contains
       type(counts_type) :: row
       logical :: found, is_there
 
-      select case (name)
-      case ('_walls.csv')
-         call files%line(wall_head)
-      case ('_histories.csv')
-         call files%line(history_head)
-      case ('_stripes.csv')
-         call files%line(stripes_head)
-      case ('_fragility.csv')
-         call files%line(fragility_head)
-      end select
+      call write_names(case, name, files)
       call counts%open(error)
       if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
       do while (.not. allocated(error))
          call reader%next(member, found, error)
          if (.not. allocated(error)) call counts%next(row, is_there, error)
          if (allocated(error)) exit
          if (found .neqv. is_there) call raise_failure(error, case%population_path()//': has changed while it was read')
          if (allocated(error) .or. .not. found) exit
-         select case (name)
-         case ('_walls.csv')
-            call files%line(wall_row(member))
-         case ('_histories.csv')
-            call write_histories(case, member, row, files, error)
-         case ('_stripes.csv')
-            call write_stripes(case, member, row, files)
-         case ('_fragility.csv')
-            call write_fragility(case, member, row, files)
-         end select
+         call write_row(case, member, row, name, files, error)
       end do
       call reader%close()
    end subroutine write_rows
+
+   !> Write one table of the one wall of a case
+   subroutine write_one_row(case, row, name, files, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Counts of the wall, with all its histories
+      type(counts_type), intent(in) :: row
+      !> What the name of the file ends with
+      character(len=*), intent(in) :: name
+      !> Files, one of which was begun
+      type(result_files_type), intent(inout) :: files
+      !> The histories cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      type(member_type) :: member
+
+      member%wall = case%wall
+      member%group = ''
+      call write_names(case, name, files)
+      call write_row(case, member, row, name, files, error)
+   end subroutine write_one_row
+
+   !> Names of the columns of a table
+   subroutine write_names(case, name, files)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> What the name of the file ends with
+      character(len=*), intent(in) :: name
+      !> Files
+      type(result_files_type), intent(inout) :: files
+
+      select case (name)
+      case ('_walls.csv')
+         call files%line(wall_head)
+      case ('_histories.csv')
+         if (case%solver%solver%estimate_error) then
+            call files%line(history_head//',edp_error')
+         else
+            call files%line(history_head)
+         end if
+      case ('_stripes.csv')
+         call files%line(stripes_head)
+      case ('_fragility.csv')
+         call files%line(fragility_head)
+      end select
+   end subroutine write_names
+
+   !> Lines of a wall, or of one of its mechanisms, in a table
+   subroutine write_row(case, member, row, name, files, error)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The wall
+      type(member_type), intent(in) :: member
+      !> Its counts
+      type(counts_type), intent(in) :: row
+      !> What the name of the file ends with
+      character(len=*), intent(in) :: name
+      !> Files
+      type(result_files_type), intent(inout) :: files
+      !> Its histories cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      select case (name)
+      case ('_walls.csv')
+         call files%line(wall_row(member))
+      case ('_histories.csv')
+         call write_histories(case, member, row, files, error)
+      case ('_stripes.csv')
+         call write_stripes(case, member, row, files)
+      case ('_fragility.csv')
+         call write_fragility(case, member, row, files)
+      end select
+   end subroutine write_row
 
    !> All histories of a row
    subroutine write_histories(case, member, row, files, error)
@@ -81,17 +138,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(stripes_type) :: plan
-      character(len=:), allocatable :: cells
+      character(len=:), allocatable :: cells, last
       integer :: i, j
 
       call plan_stripes(plan, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
          & case%peaks, case%records_input%polarity, case%solver%solver, error)
       if (allocated(error)) return
       cells = wall_cells(member%wall)
+      last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
+            if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
             call files%line(history_row(cells, case%records(plan%record(i))%name, plan%polarity(i), plan%im, &
-               & plan%levels(j), plan%scale(i, j), row%response(i, j)))
+               & plan%levels(j), plan%scale(i, j), row%response(i, j))//last)
          end do
       end do
    end subroutine write_histories

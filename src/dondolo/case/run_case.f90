@@ -79,7 +79,7 @@ contains
       end if
       call check_size(case%population_path(), case%survey%histories, error)
       if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
          call reader%next(member, found, error)
@@ -117,29 +117,32 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
+      type(stripes_type) :: stripes
       type(scale_warning_type) :: scales
       real(wp), allocatable :: histories(:)
       integer :: k
 
-      associate (stripes => results%stripes, thresholds => case%stripes%thresholds)
-         call choose_histories(case, case%wall, stripes, error)
-         if (allocated(error)) return
-         call run_histories(stripes, case%wall, case%records, case%record_set, case%solver%solver, 1, &
-            & size(stripes%response), team, progress)
-         allocate (results%reached(size(stripes%levels), size(thresholds)), results%fragility(size(thresholds)))
-         histories = spread(real(size(stripes%record), wp), 1, size(stripes%levels))
+      call choose_histories(case, case%wall, stripes, error)
+      if (allocated(error)) return
+      call run_histories(stripes, case%wall, case%records, case%record_set, case%solver%solver, 1, &
+         & size(stripes%response), team, progress)
+      associate (row => results%row, thresholds => case%stripes%thresholds)
+         row%histories = size(stripes%record)
+         allocate (row%reached(size(stripes%levels), size(thresholds)), row%curve(size(thresholds)))
+         histories = spread(real(row%histories, wp), 1, size(stripes%levels))
          do k = 1, size(thresholds)
-            results%reached(:, k) = stripes%exceedances(thresholds(k))
-            call fit_fragility(results%fragility(k), stripes%levels, real(results%reached(:, k), wp), histories, error)
+            row%reached(:, k) = stripes%exceedances(thresholds(k))
+            call fit_fragility(row%curve(k), stripes%levels, real(row%reached(:, k), wp), histories, error)
             if (allocated(error)) return
          end do
          results%work = stripes%work
          call warn_of_records(case%records, results%warnings)
          call scales%look(stripes, case%records)
          call scales%warn(results%warnings)
-         call warn_of_fit(case%wall, stripes, results%fragility(size(thresholds)), results%warnings)
+         call warn_of_fit(case%wall, stripes, row%curve(size(thresholds)), results%warnings)
          call warn_of_errors(stripes, case%records, case%solver%solver%edp_limit, results%warnings)
       end associate
+      call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
 
    !> Choose the histories of a wall

@@ -263,7 +263,7 @@ contains
 
       associate (survey => case%survey)
          block = block_size(case, team)
-         call reader%open(case%population_path(), error, case%solver%gravity, checks_names=.false.)
+         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
          if (.not. allocated(error)) call reader%skip(file%done, error)
          do while (file%done < survey%last .and. .not. allocated(error))
             count = min(block, survey%last - file%done)

@@ -7,7 +7,7 @@ module dondolo_survey
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
-   use dondolo_population, only : check_weight, member_type, population_reader_type
+   use dondolo_population, only : member_type, population_reader_type
    use dondolo_record, only : record_type
    use dondolo_records_group, only : records_input_type
    use dondolo_simulate, only : check_history
@@ -75,19 +75,17 @@ contains
       type(member_type) :: member
       type(stripes_type) :: plan
       type(problems_type) :: problems
-      logical :: found, has_weight
+      logical :: found
 
       call reader%open(file, error, solver_input%gravity)
       if (allocated(error)) return
       survey%first = rows(1)
-      has_weight = .false.
       do
          call reader%next(member, found, error)
          if (.not. found) exit
          survey%rows = reader%row
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
-            has_weight = has_weight .or. member%weight > 0.0_wp
             call note_group(survey%groups, member%group, error)
             if (.not. allocated(error)) call check_limit(solver_input%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_history(solver_input%solver, member%wall%mechanism, .false., error)
@@ -109,7 +107,6 @@ contains
          call problems%take(error)
       end do
       survey%last = min(rows(2), survey%rows)
-      if (.not. allocated(error) .and. problems%count == 0) call check_weight(file, has_weight, error)
       call problems%take(error)
       call problems%raise(error)
       if (.not. allocated(error)) call fingerprint_lines(file, survey%fingerprint, error)
