@@ -60,7 +60,7 @@ def typology(
         File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
         results are the same to the bit. It stays when all is done.
     block : int, optional
-        Walls of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
+        Rows (mechanisms of walls) of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
         do not depend on it.
 
     Returns
