@@ -63,6 +63,7 @@ def check_replaced(path: Any, mark: str, kind: str) -> None:
     Parameters
     ----------
     path : path
+        The file.
     mark : str
         What stands near the beginning of every file of the kind.
     kind : str
