@@ -7,7 +7,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from dondolo import _binding
 from dondolo._files import whole_file
 from dondolo.catalogues import build_catalogue
 from dondolo.mean_functions import taxonomy_of
+from dondolo.nrml import Curve
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -141,14 +142,16 @@ def _nrml(options: argparse.Namespace) -> None:
     """Write the curves of a run for OpenQuake."""
     path = options.output or f"{options.prefix}_fragility.xml"
     results = dd.read_results(options.prefix)
+    functions: Mapping[str, Mapping[str, Curve]]
+    sentences: list[str] = []
     if results.typology is not None:
         functions, sentences = dd.nrml_functions(results.typology)
-        for sentence in sentences:
-            print(f"dondolo: {sentence}", file=sys.stderr)
     elif results.fragility is not None:
         functions = {taxonomy_of(results.population[0].name): {"collapse": results.fragility}}
     else:
         raise dd.InputError(f"{options.prefix}: is a single motion, which has no curves")
+    for sentence in sentences:
+        print(f"dondolo: {sentence}", file=sys.stderr)
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
     dd.write_nrml(path, functions, id=name)
     print(f"written: {path} ({len(functions)} function{'s' if len(functions) > 1 else ''})")

@@ -136,11 +136,12 @@ def write_nrml(
     Parameters
     ----------
     path : path
-        The file; its folder must exist.
+        The file; its folder must exist. An earlier model of dondolo is replaced, any other file is not.
     functions : mapping of mappings
         Taxonomy -> limit state -> curve. Each taxonomy has the same limit states, from the lightest to the heaviest;
         its curves are all `Fragility`, written as continuous, or all `DiscreteFragility` of the same levels, written as
-        discrete. Taxonomies may differ in that, and in the intensity measure.
+        discrete. Taxonomies may differ in that, and in the intensity measure. `nrml_functions` makes those of a
+        population.
     id : str
         Name of the model: letters, digits, - and _, at most 100.
     description : str
@@ -158,7 +159,7 @@ def write_nrml(
     Raises
     ------
     InputError
-        What the format does not hold: names, measures, curves that cross.
+        What the format does not hold: names, measures, curves that cross; a file that is no model of dondolo.
     DondoloError
         A curve without a fit; the file cannot be written.
 
