@@ -20,6 +20,7 @@ from dondolo.fragility import Fragility, fit_fragility
 from dondolo.hazard import HazardCurve
 from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.intensity import Spectrum, intensity_table, response_spectrum
+from dondolo.mean_functions import nrml_functions
 from dondolo.motion import Response, simulate
 from dondolo.nrml import DiscreteFragility, write_nrml
 from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
@@ -110,6 +111,7 @@ __all__ = [
     "mavroeidis_papageorgiou",
     "mean_annual_frequency",
     "multiple_stripe",
+    "nrml_functions",
     "one_cosine",
     "one_sine",
     "overturning_spectrum",

@@ -7,14 +7,16 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import dondolo as dd
 from dondolo import _binding
+from dondolo._files import whole_file
 from dondolo.catalogues import build_catalogue
-from dondolo.nrml import functions_of
+from dondolo.mean_functions import taxonomy_of
+from dondolo.nrml import Curve
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -28,6 +30,11 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError as error:
+        # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"dondolo: standard output: cannot be written: {error.strerror}", file=sys.stderr)
+        return 1
     except dd.InputError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         return 2
@@ -50,9 +57,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     plot = commands.add_parser(
         "plot",
-        help="draw the figures of a run of the executable",
-        description="Draw the figures of a run of the executable from its CSV files: the histories and the curve "
-        "of a wall, the curves of a population, or a motion and the wall at its peak.",
+        help="draw the figures of a run",
+        description="Draw the figures of a run from its CSV files, those of the executable or of Typology.save: the "
+        "histories and the curve of a wall, the curves of a population, or a motion and the wall at its peak.",
     )
     plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     plot.add_argument(
@@ -62,9 +69,9 @@ def _parser() -> argparse.ArgumentParser:
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",
-        help="write a report of a run of the executable: one HTML file",
-        description="Write a report of a run of the executable from its CSV files: one HTML file with figures, tables, "
-        "inputs, checks and versions, which opens offline.",
+        help="write a report of a run: one HTML file",
+        description="Write a report of a run from its CSV files, those of the executable or of Typology.save: one HTML "
+        "file with figures, tables, inputs, checks and versions, which opens offline.",
     )
     report.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     report.add_argument("-o", "--output", help="the report; PREFIX_report.html if left out", metavar="FILE")
@@ -77,10 +84,10 @@ def _parser() -> argparse.ArgumentParser:
     report.set_defaults(run=_report)
     nrml = commands.add_parser(
         "nrml",
-        help="write the curves of a run of the executable for OpenQuake",
-        description="Write the fragility curves of a run of the executable as a fragility model of OpenQuake, NRML "
-        "0.5: one function a group and mechanism, or of the wall, with its damage states. What has no fit "
-        "is written as fractions at the levels, and named on stderr.",
+        help="write the curves of a run for OpenQuake",
+        description="Write the fragility curves of a run, read from its CSV files, as a fragility model of OpenQuake, "
+        "NRML 0.5: of a population the mean curves, one function a group and mechanism, with its damage states; of a "
+        "wall its curve. Where a mean curve had to be raised is told on stderr.",
     )
     nrml.add_argument("prefix", help="what the names of the result files begin with, for example out/population")
     nrml.add_argument("-o", "--output", help="the file; PREFIX_fragility.xml if left out", metavar="FILE")
@@ -135,14 +142,16 @@ def _nrml(options: argparse.Namespace) -> None:
     """Write the curves of a run for OpenQuake."""
     path = options.output or f"{options.prefix}_fragility.xml"
     results = dd.read_results(options.prefix)
-    curves = results.typology or results.fragility
-    if curves is None:
+    functions: Mapping[str, Mapping[str, Curve]]
+    sentences: list[str] = []
+    if results.typology is not None:
+        functions, sentences = dd.nrml_functions(results.typology)
+    elif results.fragility is not None:
+        functions = {taxonomy_of(results.population[0].name): {"collapse": results.fragility}}
+    else:
         raise dd.InputError(f"{options.prefix}: is a single motion, which has no curves")
-    functions, sentences = functions_of(curves)
     for sentence in sentences:
         print(f"dondolo: {sentence}", file=sys.stderr)
-    if not functions:
-        raise dd.DondoloError(f"{options.prefix}: there is no curve that NRML can hold")
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
     dd.write_nrml(path, functions, id=name)
     print(f"written: {path} ({len(functions)} function{'s' if len(functions) > 1 else ''})")
@@ -186,19 +195,14 @@ def _save(options: argparse.Namespace, name: str, draw: Callable[[], Any]) -> No
     import matplotlib.pyplot as plt
 
     figure = draw().figure
-    path = Path(f"{options.prefix}_{name}.{options.format}")
-    part = path.with_name(f"{path.name}.part")
+    path = f"{options.prefix}_{name}.{options.format}"
     try:
-        figure.savefig(part, format=options.format)
-        part.replace(path)
+        with whole_file(path) as part:
+            figure.savefig(part, format=options.format)
     except ValueError as error:
         raise dd.InputError(f"--format {options.format}: {str(error).splitlines()[0]}") from None
-    except OSError as error:
-        raise dd.DondoloError(f"{path}: cannot be written: {error.strerror}") from error
     finally:
         plt.close(figure)
-        if part.exists():
-            os.unlink(part)
     print(f"drawn: {path}")
 
 

@@ -79,7 +79,7 @@ def run_walls(
     with nullcontext() if checkpoint is None else Checkpoint(checkpoint, _study(request, states)) as file:
         if file is not None:
             for stored in file.blocks():
-                run.add(stored.first, Part(stored.walls, stored.flags, stored.work, 0.0, False))
+                run.add(stored.first, Part(stored.rows, stored.flags, stored.work, 0.0, False))
             if not run.complete.all():
                 file.claim()
         try:
@@ -90,7 +90,7 @@ def run_walls(
         except CrewError as error:
             later = "a checkpoint would keep them" if file is None else "the same call goes on from there"
             raise DondoloError(
-                f"executor: {error}; {run.complete.sum()} of {walls} walls are complete, {later}"
+                f"executor: {error}; {run.complete.sum()} of {walls} rows are complete, {later}"
             ) from error.__cause__
     return run
 
@@ -123,7 +123,7 @@ def _run_rest(
             yield first, count, part
 
     with (
-        progress_bar(int(sizes.sum()), progress, f"{len(histories)} walls", "history", done) as bar,
+        progress_bar(int(sizes.sum()), progress, f"{len(histories)} rows", "history", done) as bar,
         nullcontext() if executor is None else Crew(executor, shared) as crew,
     ):
         for first, count, part in parts_here() if crew is None else parts_there(crew):
@@ -150,7 +150,7 @@ def _study(request: Request, states: FloatArray) -> dict[str, str]:
     return {
         "dondolo": _binding.constants().version,
         "build variant": _binding.build_variant(),
-        "number of walls": str(len(request.walls)),
+        "number of rows": str(len(request.walls)),
         "walls": digest(flat.texts, *(np.ascontiguousarray(values).tobytes() for values in flat[1:])),
         "records": digest(records.names, *(values.tobytes() for values in records[1:])),
         "im": request.im,

@@ -16,30 +16,37 @@ from dataclasses import astuple
 from types import TracebackType
 from typing import NamedTuple
 
+from dondolo._files import as_file
 from dondolo.errors import DondoloError, InputError
 from dondolo.work import Work
 
 # What marks a database as a checkpoint ('ddlo'), and the number of its layout
 _APPLICATION = 0x64646C6F
-_LAYOUT = 1
+_LAYOUT = 2
+# How long another run may hold the file while it opens it, or a reader while it is written [ms]
+_OPENING, _WRITING = 1000, 60000
 
-_TABLES = """
-CREATE TABLE study (what TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+_TABLES = (
+    "CREATE TABLE study (what TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+    """
 CREATE TABLE block (
-   first INTEGER PRIMARY KEY, walls INTEGER NOT NULL, work TEXT NOT NULL, flags BLOB NOT NULL, checksum INTEGER NOT NULL
-);
+   first INTEGER PRIMARY KEY, rows INTEGER NOT NULL, work TEXT NOT NULL, flags BLOB NOT NULL, checksum INTEGER NOT NULL
+)""",
+    """
 CREATE VIEW progress AS
-   SELECT complete, of_walls, CASE complete WHEN of_walls THEN 'complete' ELSE 'incomplete' END AS state
-   FROM (SELECT (SELECT coalesce(sum(walls), 0) FROM block) AS complete,
-                (SELECT CAST(value AS INTEGER) FROM study WHERE what = 'number of walls') AS of_walls);
-"""
+   SELECT complete, of_rows, CASE complete WHEN of_rows THEN 'complete' ELSE 'incomplete' END AS state
+   FROM (SELECT (SELECT coalesce(sum(rows), 0) FROM block) AS complete,
+                (SELECT CAST(value AS INTEGER) FROM study WHERE what = 'number of rows') AS of_rows)""",
+    f"PRAGMA application_id = {_APPLICATION}",
+    f"PRAGMA user_version = {_LAYOUT}",
+)
 
 
 class Stored(NamedTuple):
-    """A finished block."""
+    """A finished block; a row is one mechanism of one wall."""
 
     first: int
-    walls: int
+    rows: int
     work: Work
     flags: bytes
 
@@ -47,12 +54,15 @@ class Stored(NamedTuple):
 class Checkpoint:
     """The finished blocks of one study in a file.
 
+    The file is this run's from the beginning, before it is read, if no other run has it: who reads first and takes the
+    lock later may find that another one, which reads too, keeps it from that. A file that cannot be had can be read.
+
     Parameters
     ----------
     path : path
         The file; made if there is none.
     study : mapping of str to str
-        All that results depend on, by name; 'number of walls' among it.
+        All that results depend on, by name; 'number of rows' among it.
 
     Raises
     ------
@@ -63,19 +73,20 @@ class Checkpoint:
     """
 
     def __init__(self, path: str | os.PathLike[str], study: Mapping[str, str]) -> None:
-        if not isinstance(path, (str, os.PathLike)):
-            raise InputError(f"checkpoint = {path!r}: must be the path of a file")
-        self._name = f"checkpoint = {os.fspath(path)!r}"
-        self._walls = int(study["number of walls"])
+        target = as_file("checkpoint", path)
+        self._name = f"checkpoint = {str(target)!r}"
+        self._rows = int(study["number of rows"])
         self._done = 0
+        self._refusal: sqlite3.Error | None = None
         try:
             # An absolute path, since SQLite gives a meaning of its own to some names
-            self._file = sqlite3.connect(os.path.abspath(path), timeout=0.0, isolation_level=None)
+            self._file = sqlite3.connect(os.path.abspath(target), isolation_level=None)
         except sqlite3.Error as error:
             raise self._failure(error) from error
         try:
-            self._file.execute("PRAGMA locking_mode = EXCLUSIVE")
+            self._file.execute(f"PRAGMA busy_timeout = {_OPENING}")
             self._open(study)
+            self._take()
         except sqlite3.Error as error:
             self._file.close()
             raise self._failure(error) from error
@@ -83,17 +94,27 @@ class Checkpoint:
             self._file.close()
             raise
 
+    def _take(self) -> None:
+        """Take the lock of who will write, while others can read; a refusal is kept for who wants to write."""
+        try:
+            self._file.execute("BEGIN IMMEDIATE")
+        except sqlite3.OperationalError as error:
+            self._refusal = error
+        else:
+            # Locks are not given back from now on, not after a block either.
+            self._file.execute("PRAGMA locking_mode = EXCLUSIVE")
+
     def _open(self, study: Mapping[str, str]) -> None:
+        if not self._is_used():
+            # Of two runs that begin together one makes the tables.
+            self._file.execute("BEGIN IMMEDIATE")
+            if not self._is_used():
+                for statement in _TABLES:
+                    self._file.execute(statement)
+                self._file.executemany("INSERT INTO study VALUES (?, ?)", study.items())
+            self._file.execute("COMMIT")
         ((application,),) = self._file.execute("PRAGMA application_id")
         ((layout,),) = self._file.execute("PRAGMA user_version")
-        ((tables,),) = self._file.execute("SELECT count(*) FROM sqlite_master")
-        if not tables and not application:
-            self._file.executescript(
-                f"BEGIN; PRAGMA application_id = {_APPLICATION}; PRAGMA user_version = {_LAYOUT}; {_TABLES}"
-            )
-            self._file.executemany("INSERT INTO study VALUES (?, ?)", study.items())
-            self._file.execute("COMMIT")
-            return
         if application != _APPLICATION:
             raise InputError(f"{self._name}: is a database, but no checkpoint of dondolo")
         if layout != _LAYOUT:
@@ -107,39 +128,50 @@ class Checkpoint:
         if differing:
             raise InputError(f"{self._name}: belongs to another study: {'; '.join(differing)}")
 
+    def _is_used(self) -> bool:
+        """Does anything stand in the file?"""
+        ((application,),) = self._file.execute("PRAGMA application_id")
+        ((tables,),) = self._file.execute("SELECT count(*) FROM sqlite_master")
+        return bool(tables or application)
+
     def blocks(self) -> Iterator[Stored]:
-        """The blocks that are finished, in the order of walls."""
+        """The blocks that are finished, in the order of rows."""
         end = 0
         try:
-            for first, walls, work, flags, checksum in self._file.execute(
-                "SELECT first, walls, work, flags, checksum FROM block ORDER BY first"
+            for first, rows, work, flags, checksum in self._file.execute(
+                "SELECT first, rows, work, flags, checksum FROM block ORDER BY first"
             ):
-                fits = end <= first and 1 <= walls <= self._walls - first
-                if not fits or _checksum(first, walls, work, flags) != checksum:
-                    raise InputError(f"{self._name}: is damaged (the block of wall {first + 1}): delete it")
-                end = first + walls
-                self._done += walls
-                yield Stored(first, walls, Work(*json.loads(work)), flags)
+                fits = end <= first and 1 <= rows <= self._rows - first
+                if not fits or _checksum(first, rows, work, flags) != checksum:
+                    raise InputError(f"{self._name}: is damaged (the block of row {first + 1}): delete it")
+                end = first + rows
+                self._done += rows
+                yield Stored(first, rows, Work(*json.loads(work)), flags)
         except sqlite3.Error as error:
             raise self._failure(error) from error
 
     def claim(self) -> None:
-        """Keep other runs from writing the file, until it is closed or this process ends."""
+        """Keep other runs from reading and writing the file, until it is closed or this process ends."""
+        if self._refusal is not None:
+            raise self._failure(self._refusal) from self._refusal
         try:
+            # Others may be reading it at this moment.
+            self._file.execute(f"PRAGMA busy_timeout = {_WRITING}")
             # Any change takes the lock, which the exclusive mode then keeps.
             self._file.execute(f"PRAGMA user_version = {_LAYOUT}")
+            self._file.execute("COMMIT")
         except sqlite3.Error as error:
             raise self._failure(error) from error
 
-    def keep(self, first: int, walls: int, work: Work, flags: bytes) -> None:
+    def keep(self, first: int, rows: int, work: Work, flags: bytes) -> None:
         """Write a finished block."""
         counts = json.dumps(astuple(work))
-        row = (first, walls, counts, flags, _checksum(first, walls, counts, flags))
+        block = (first, rows, counts, flags, _checksum(first, rows, counts, flags))
         try:
-            self._file.execute("INSERT INTO block VALUES (?, ?, ?, ?, ?)", row)
+            self._file.execute("INSERT INTO block VALUES (?, ?, ?, ?, ?)", block)
         except sqlite3.Error as error:
             raise self._failure(error) from error
-        self._done += walls
+        self._done += rows
 
     def __enter__(self) -> Checkpoint:
         return self
@@ -156,7 +188,7 @@ class Checkpoint:
             return InputError(f"{self._name}: is no checkpoint, or damaged ({error})")
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
             return DondoloError(f"{self._name}: is being written by another run")
-        kept = f"; it holds {self._done} of {self._walls} walls" if self._done else ""
+        kept = f"; it holds {self._done} of {self._rows} rows" if self._done else ""
         return DondoloError(f"{self._name}: cannot be written: {error}{kept}")
 
 
@@ -176,5 +208,5 @@ def _difference(what: str, there: str, here: str) -> str:
     return f"{what} {there} there, {here} here"
 
 
-def _checksum(first: int, walls: int, work: str, flags: bytes) -> int:
-    return zlib.crc32(flags, zlib.crc32(f"{first} {walls} {work}".encode()))
+def _checksum(first: int, rows: int, work: str, flags: bytes) -> int:
+    return zlib.crc32(flags, zlib.crc32(f"{first} {rows} {work}".encode()))

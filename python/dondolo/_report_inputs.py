@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import platform
-import re
 from collections.abc import Sequence
 from importlib.metadata import version
 from typing import Any
@@ -27,10 +26,11 @@ from dondolo._page import (
     tag,
     whole,
 )
-from dondolo._report_run import LARGE_SCALE, Run, heads, quoted
-from dondolo._report_words import BETA, THETA, date_in_words, quiet, state_name, status_table
+from dondolo._report_run import Run, quoted
+from dondolo._report_words import BETA, THETA, date_in_words, state_name, status_table
 from dondolo.motion import Response
 from dondolo.records import Record
+from dondolo.results import heads
 from dondolo.stripes import Stripes
 from dondolo.style import mechanism_name
 from dondolo.typology import Typology
@@ -184,10 +184,10 @@ def checks_chapter(run: Run) -> Markup:
     pieces = []
     if isinstance(results, Typology):
         limit = float(results.edp_thresholds[-1])
-        states = {state_name(float(edp), limit): quiet(results.at, float(edp)).curves for edp in results.edp_thresholds}
+        states = {state_name(float(edp), limit): results.at(float(edp)).curves for edp in results.edp_thresholds}
         pieces.append(status_table(states))
     elif isinstance(results, Stripes):
-        states = {state_name(float(edp), results.edp_limit): [quiet(results.fit, float(edp))] for edp in run.thresholds}
+        states = {state_name(float(edp), results.edp_limit): [results.fit(float(edp))] for edp in run.thresholds}
         pieces.append(status_table(states))
     pairs: list[tuple[Any, Any]] = [("scale factors above 10", _scales(run))] if pieces else []
     error = getattr(results, "edp_error", None)
@@ -218,16 +218,10 @@ def _rows_of(motion: Response) -> Markup:
 
 def _scales(run: Run) -> Markup:
     """Share of the histories whose records are scaled by a lot."""
-    if isinstance(run.results, Stripes):
-        large = float(np.mean(run.results.scale > LARGE_SCALE))
-        return joined(percent(large), " of the histories, the largest ", number(float(run.results.scale.max())))
-    pattern = r"scale factors above 10 in (\d+) of (\d+) histories, the largest ([0-9.eE+-]+)"
-    for line in run.warnings:
-        found = re.match(pattern, line)
-        if found:
-            share = int(found.group(1)) / int(found.group(2))
-            return joined(percent(share), " of the histories, the largest ", number(float(found.group(3))))
-    return Markup("none" if run.comments or run.records else "not known: results in Python do not hold the factors")
+    if run.scales is None:
+        return Markup("none")
+    share = run.scales.many / run.scales.histories
+    return joined(percent(share), " of the histories, the largest ", number(run.scales.largest))
 
 
 def limits_chapter(results: Any) -> Markup:

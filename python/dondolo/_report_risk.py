@@ -8,7 +8,7 @@ from typing import Any
 from dondolo import _binding
 from dondolo._page import figure, joined, number, paragraph, percent, table
 from dondolo._report_typology import combined
-from dondolo._report_words import Chapter, quiet, state_name
+from dondolo._report_words import Chapter, state_name
 from dondolo.errors import DondoloWarning
 from dondolo.hazard import HazardCurve
 from dondolo.typology import Typology
@@ -25,7 +25,7 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
     if population:
         limit = float(results.edp_thresholds[-1])
         cases = [
-            (f"whole population, {state_name(edp, limit)}", quiet(results.at, float(edp)).mean)
+            (f"whole population, {state_name(edp, limit)}", results.at(float(edp)).mean)
             for edp in results.edp_thresholds
         ]
         cases += [

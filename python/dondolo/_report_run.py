@@ -7,23 +7,55 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo._request import new_request
 from dondolo.cases import Results
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.fragility import Fragility
 from dondolo.motion import Response
 from dondolo.population import Population
 from dondolo.records import Record
-from dondolo.results import StoredResults
+from dondolo.results import StoredResults, heads
 from dondolo.stripes import Stripes
-from dondolo.typology import Typology, combine
+from dondolo.typology import Typology
 
 _STATES = (0.1, 0.4, 1.0)
-LARGE_SCALE = 10.0
+
+
+class LargeScales(NamedTuple):
+    """Histories whose record is scaled by more than 10.
+
+    Attributes
+    ----------
+    many : int
+    histories : int
+        Of these.
+    largest : float
+        Scale factor.
+    """
+
+    many: int
+    histories: int
+    largest: float
+
+    @classmethod
+    def of(cls, stripes: Stripes) -> LargeScales | None:
+        """Those of a wall, if there are any."""
+        many = int(np.sum(stripes.scale > 10.0))
+        return cls(many, stripes.scale.size, float(stripes.scale.max())) if many else None
+
+    @classmethod
+    def told(cls, sentences: Sequence[str]) -> LargeScales | None:
+        """Those that a run of a population warns of, if it does."""
+        for line in sentences:
+            if found := re.match(r"scale factors above 10 in (\d+) of (\d+) histories, the largest (\S+)", line):
+                return cls(int(found.group(1)), int(found.group(2)), float(found.group(3)))
+        return None
+
+    def __str__(self) -> str:
+        return f"scale factors above 10 in {self.many} of {self.histories} histories, the largest {self.largest:.4g}"
 
 
 @dataclass
@@ -48,6 +80,8 @@ class Run:
     written : datetime or None
         Their date.
     warnings : list of str
+    scales : LargeScales or None
+        None if there are none.
     """
 
     results: Typology | Stripes | Response
@@ -60,6 +94,7 @@ class Run:
     comments: tuple[str, ...] = ()
     written: datetime | None = None
     warnings: list[str] = field(default_factory=list)
+    scales: LargeScales | None = None
 
 
 def run_of(results: Any) -> Run:
@@ -88,31 +123,22 @@ def run_of(results: Any) -> Run:
             ("rtol, atol", f"{case.rtol:g}, {case.atol:g}"),
             ("edp_limit", f"{case.edp_limit:g}"),
         ]
-        if case.task == "typology":
-            solver = (case.engine, case.rtol, case.atol, case.edp_limit, 1)
-            plan = new_request(case.population.walls, case.records, case.levels, case.im, case.polarity, *solver).plan()
-            run.warnings = _merged(plan.warnings, run.warnings)
         if case.task == "stripes" and len(case.edp_thresholds) > 1:
             run.thresholds = case.edp_thresholds
         return run
     if isinstance(results, Typology):
-        everyone = np.ones(len(results.population), dtype=bool)
-        counts = (results.edp_thresholds[-1:], results.exceedances[-1:], results.histories)
-        _, found = combine(results.population, results.im, results.levels, *counts, everyone, results.work)
         walls = len(results.combined)
         title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.walls[0].name}"
-        return Run(results, results.population, title, warnings=found)
+        found = list(results.warnings)
+        return Run(results, results.population, title, warnings=found, scales=LargeScales.told(found))
     if isinstance(results, Stripes):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always", DondoloWarning)
             curve = results.fit()
-        large = float(np.mean(results.scale > LARGE_SCALE))
         found = [str(one.message) for one in caught if issubclass(one.category, DondoloWarning)]
-        if large:
-            many, most = int(np.sum(results.scale > LARGE_SCALE)), results.scale.max()
-            found.insert(
-                0, f"scale factors above 10 in {many} of {results.scale.size} histories, the largest {most:.4g}"
-            )
+        scales = LargeScales.of(results)
+        if scales:
+            found.insert(0, str(scales))
         settings = [
             ("engine", results.engine),
             ("rtol, atol", f"{results.rtol:g}, {results.atol:g}"),
@@ -120,16 +146,12 @@ def run_of(results: Any) -> Run:
         ]
         thresholds = [share * results.edp_limit for share in _STATES]
         title = f"Fragility of {results.wall.name}"
-        return Run(results, Population((results.wall,)), title, curve, thresholds, settings=settings, warnings=found)
+        people = Population((results.wall,))
+        return Run(results, people, title, curve, thresholds, settings=settings, warnings=found, scales=scales)
     if isinstance(results, Response):
         title = f"{results.wall.name} in {results.record.name}"
         return Run(results, Population((results.wall,)), title, records=(results.record,))
     raise InputError(f"results: {type(results).__name__} is nothing that a report can be made of")
-
-
-def heads(start: str, comments: Sequence[str]) -> list[str]:
-    """What stands in the comments after a word."""
-    return [line[len(start) :].strip() for line in comments if line.startswith(start)]
 
 
 def quoted(name: str, comments: Sequence[str]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,8 +29,8 @@ from dondolo._report_words import (
     LOGNORMAL,
     THETA,
     Chapter,
+    crossings,
     level_head,
-    quiet,
     state_name,
     with_unit,
 )
@@ -121,16 +122,30 @@ def _typology_figures(people: Typology) -> Markup:
             )
         )
     if len(people.edp_thresholds) > 1:
-        states = [quiet(people.at, edp).group() for edp in people.edp_thresholds]
+        states = [people.at(edp).group() for edp in people.edp_thresholds]
         pieces.append(
             figure(
-                lambda: quiet(lambda _: plot_damage_states(people), 0.0),
+                lambda: plot_damage_states(people),
                 "Probability to reach each damage state. " + _in_words(states),
                 "Damage states of the whole population. EDP is the largest rotation over the capacity, the rotation at"
                 " which the wall overturns; a history reaches a state if its EDP comes to the threshold.",
             )
         )
+        pieces.append(_crossings(people))
     return joined(*pieces)
+
+
+def _crossings(people: Typology) -> Markup:
+    """Mean curves of damage states that cross."""
+    limit = float(people.edp_thresholds[-1])
+    curves = {
+        f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
+            partial(people.at(edp).mean, mechanism=curve.mechanism, group=curve.group) for edp in people.edp_thresholds
+        ]
+        for curve in people.groups
+    }
+    names = [state_name(float(edp), limit) for edp in people.edp_thresholds]
+    return crossings(curves, names, people.levels, people.im)
 
 
 def combined(people: Typology) -> list[Group]:
@@ -161,7 +176,11 @@ def _typology_tables(people: Typology) -> Markup:
             symbol("β", "walls"),
             " and ",
             symbol("β", "records"),
-            " part the dispersion between walls from that between records; they add in squares."
+            " part the dispersion between walls from that between records; they add in squares to ",
+            symbol("β", "total"),
+            ", the dispersion of the mixture of the walls' own lognormals, which ",
+            BETA,
+            " of the one lognormal fitted to it need not equal."
             " The misfit is the greatest distance between the fitted curve and the mean fractions at the"
             " levels: a lognormal only approximates a mixture of walls, the less so where some walls cannot collapse."
             " Fitted is the weight of the walls that have a curve of their own.",
@@ -171,7 +190,7 @@ def _typology_tables(people: Typology) -> Markup:
     pieces += [
         details(
             f"Curves of the damage state EDP ≥ {edp:g}",
-            _curves_table(quiet(people.at, edp), f"Damage state EDP ≥ {edp:g}"),
+            _curves_table(people.at(edp), f"Damage state EDP ≥ {edp:g}"),
         )
         for edp in people.edp_thresholds[:-1]
     ]
@@ -182,7 +201,7 @@ def _typology_tables(people: Typology) -> Markup:
         )
     )
     for edp in people.edp_thresholds[::-1]:
-        state = quiet(people.at, float(edp))
+        state = people.at(float(edp))
         text = f"Whole population, {state_name(edp, limit)}"
         content = _levels_table(state, state.group(), text)
         pieces.append(content if edp == limit else details(text, content))
@@ -217,6 +236,7 @@ def _curves_table(people: Typology, caption: str) -> Markup:
         BETA: [parameter(curve.fit.beta) for curve in curves],
         symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
         symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
+        symbol("β", "total"): [parameter(curve.beta_total) for curve in curves],
         "misfit": [number(misfit(curve), 2) for curve in curves],
         "fitted": [percent(curve.fitted) for curve in curves],
         "status": [curve.fit.status for curve in curves],

@@ -22,7 +22,17 @@ from dondolo._page import (
     table,
     whole,
 )
-from dondolo._report_words import BETA, LOGNORMAL, STATUSES, THETA, Chapter, level_head, quiet, state_name, with_unit
+from dondolo._report_words import (
+    BETA,
+    LOGNORMAL,
+    STATUSES,
+    THETA,
+    Chapter,
+    crossings,
+    level_head,
+    state_name,
+    with_unit,
+)
 from dondolo.fragility import Fragility
 from dondolo.motion import Response
 from dondolo.stripes import Stripes
@@ -91,7 +101,7 @@ def _stripes_figures(stripes: Stripes, curve: Fragility, thresholds: Sequence[fl
     if len(thresholds) > 1:
         pieces.append(
             figure(
-                lambda: quiet(lambda _: plot_damage_states(stripes, edp=thresholds), 0.0),
+                lambda: plot_damage_states(stripes, edp=thresholds),
                 f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
                 "Damage states: a history reaches a state if its EDP comes to the threshold.",
             )
@@ -112,7 +122,7 @@ def _stripes_tables(stripes: Stripes, curve: Fragility, thresholds: Sequence[flo
         columns["95 % band from"] = [probability(p) for p in low]
         columns["to"] = [probability(p) for p in high]
     columns["median EDP"] = [number(value, 3) for value in np.median(stripes.edp, axis=1)]
-    states = [curve if edp == stripes.edp_limit else quiet(stripes.fit, float(edp)) for edp in thresholds]
+    states = [curve if edp == stripes.edp_limit else stripes.fit(float(edp)) for edp in thresholds]
     fits: dict[Any, Any] = {
         "damage state": [state_name(edp, stripes.edp_limit) for edp in thresholds],
         joined(THETA, f" [{_binding.unit_of(stripes.im) or '-'}]"): [parameter(one.theta) for one in states],
@@ -122,8 +132,15 @@ def _stripes_tables(stripes: Stripes, curve: Fragility, thresholds: Sequence[flo
         "log likelihood": [parameter(one.log_likelihood) for one in states],
         "status": [one.status for one in states],
     }
+    names = fits["damage state"]
+    crossed = (
+        crossings({stripes.wall.name: states}, names, stripes.levels, stripes.im)
+        if all(one.has_fit for one in states)
+        else ""
+    )
     return joined(
         table("Curves of the damage states.", fits, ("status",)),
+        crossed,
         table("Stripes: what happens at each level.", columns),
     )
 

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import warnings
 from collections import Counter
 from collections.abc import Sequence
 from datetime import datetime
+from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from dondolo import _binding, style
+from dondolo._arguments import FloatArray
 from dondolo._page import Markup, facts, joined, number, symbol, table, tag, whole
-from dondolo.errors import DondoloWarning
 from dondolo.fragility import Fragility
 
 Chapter = tuple[str, str, Markup]
 THETA = symbol("θ")
 BETA = symbol("β")
+# What is said of damage states that cross
+_CROSSING = 1e-3
 STATUSES = {
     "ok": "a curve",
     "extrapolated": "a curve whose median θ lies outside the levels of the analysis: to be used with care",
@@ -30,13 +34,6 @@ LOGNORMAL = (
     " the probability is one half, and β the dispersion, the standard deviation of ln IM at collapse. Where"
     " mechanisms may not occur it is that of the walls that can collapse, times their share."
 )
-
-
-def quiet(state: Any, edp: float) -> Any:
-    """A damage state of a population or of a wall; the report counts what the warnings would say."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DondoloWarning)
-        return state(edp)
 
 
 def state_name(edp: float, limit: float) -> str:
@@ -62,6 +59,42 @@ def status_table(states: dict[str, Sequence[Fragility]]) -> Markup:
     columns |= {name: [whole(count[status]) for status in found] for name, count in counts.items()}
     columns["meaning"] = [STATUSES[status] for status in found]
     return table("Fits of the single walls and mechanisms by their status.", columns, ("meaning",))
+
+
+def crossings(curves: dict[str, Sequence[Any]], names: Sequence[str], levels: FloatArray, im: str) -> Markup:
+    """Where a more severe damage state is more probable than a less severe one: fitted curves may cross.
+
+    Parameters
+    ----------
+    curves : dict
+        Whose -> functions of the intensity, from the least severe state to collapse.
+    names : sequence of str
+        Of the states.
+    levels : ndarray
+        Of the analysis; looked at is what lies up to the highest.
+    im : str
+        Intensity measure.
+    """
+    x = np.linspace(0.0, levels[-1], 201)[1:]
+    rows = []
+    for whose, states in curves.items():
+        values = [state(x) for state in states]
+        for i, (lighter, heavier) in enumerate(pairwise(values)):
+            most = int(np.argmax(heavier - lighter))
+            if heavier[most] - lighter[most] > _CROSSING:
+                rows.append((whose, names[i + 1], names[i], number(heavier[most] - lighter[most], 2), number(x[most])))
+    if not rows:
+        return Markup("")
+    heads = ("curve", "more probable is", "than", "by up to", f"at {level_head(im)}")
+    return joined(
+        tag(
+            "p",
+            "The curves of the damage states are fitted each on its own, and cross: a more severe state seems more"
+            " probable than a less severe one, which cannot be. Where they do the larger of both probabilities is on"
+            " the safe side.",
+        ),
+        table("Damage states that cross.", dict(zip(heads, zip(*rows, strict=True), strict=True)), heads[:3]),
+    )
 
 
 def symbols(im: str) -> Markup:

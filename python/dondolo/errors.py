@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 
@@ -15,6 +18,14 @@ class InputError(DondoloError, ValueError):
 
 class DondoloWarning(UserWarning):
     """Results that are correct but may mislead."""
+
+
+@contextmanager
+def silent() -> Iterator[None]:
+    """No warnings of dondolo, where what they would say is said in another way."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DondoloWarning)
+        yield
 
 
 class Interrupted(KeyboardInterrupt):

@@ -28,7 +28,8 @@ Continuous
     weak shaking is frequent: of the risk under a hazard x^-k the share Phi(k beta - 6) is cut off.
 Discrete
     Probabilities at levels, straight lines in between, constant above the last level. Without noDamageLimit OpenQuake
-    draws a line from 0 at no intensity to the first level, as the mean of a typology does.
+    draws a line from 0 at no intensity to the first level. `nrml_functions` writes the mean curves of a population so,
+    at levels that reach far enough down and stand close enough.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
     cross somewhere; between minIML and maxIML they must not. A range that is not given ends where curves cross, if they
@@ -45,26 +46,25 @@ from __future__ import annotations
 
 import os
 import re
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from itertools import pairwise
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo import _binding
+from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_number
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo._files import check_replaced
+from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 
-if TYPE_CHECKING:
-    from dondolo.typology import Typology
-
 _NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
+# What stands in the second line of every file
+_MARK = "<!-- dondolo "
 _LOSS_CATEGORIES = ("structural", "nonstructural", "contents", "business_interruption")
 _NAME = re.compile(r"[A-Za-z0-9_-]{1,100}")
 # What the engine's reader accepts, and the GEM taxonomy needs: ASCII without blanks, quotes and the number sign
@@ -136,11 +136,12 @@ def write_nrml(
     Parameters
     ----------
     path : path
-        The file; its folder must exist.
+        The file; its folder must exist. An earlier model of dondolo is replaced, any other file is not.
     functions : mapping of mappings
         Taxonomy -> limit state -> curve. Each taxonomy has the same limit states, from the lightest to the heaviest;
         its curves are all `Fragility`, written as continuous, or all `DiscreteFragility` of the same levels, written as
-        discrete. Taxonomies may differ in that, and in the intensity measure.
+        discrete. Taxonomies may differ in that, and in the intensity measure. `nrml_functions` makes those of a
+        population.
     id : str
         Name of the model: letters, digits, - and _, at most 100.
     description : str
@@ -158,7 +159,7 @@ def write_nrml(
     Raises
     ------
     InputError
-        What the format does not hold: names, measures, curves that cross.
+        What the format does not hold: names, measures, curves that cross; a file that is no model of dondolo.
     DondoloError
         A curve without a fit; the file cannot be written.
 
@@ -166,12 +167,11 @@ def write_nrml(
     --------
     >>> write_nrml("fragility.xml", {"parapets": {"collapse": stripes.fit()}})  # doctest: +SKIP
     """
-    if not _NAME.fullmatch(id):
+    check_replaced(path, _MARK, "fragility model")
+    if not isinstance(id, str) or not _NAME.fullmatch(id):
         raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
-    if not description.strip() or not description.isascii():
-        raise InputError(f"description = {description!r}: must be a text in ASCII")
-    if not asset_category.strip() or not asset_category.isascii():
-        raise InputError(f"asset_category = {asset_category!r}: must be a text in ASCII")
+    description = _words("description", description)
+    asset_category = _words("asset_category", asset_category)
     if loss_category not in _LOSS_CATEGORIES:
         allowed = ", ".join(map(repr, _LOSS_CATEGORIES))
         raise InputError(f"loss_category = {loss_category!r}: must be one of {allowed}")
@@ -183,7 +183,7 @@ def write_nrml(
     root = ElementTree.Element("nrml", {"xmlns": _NAMESPACE})
     attributes = {"id": id, "assetCategory": asset_category, "lossCategory": loss_category}
     model = ElementTree.SubElement(root, "fragilityModel", attributes)
-    ElementTree.SubElement(model, "description").text = " ".join(description.split())
+    ElementTree.SubElement(model, "description").text = description
     ElementTree.SubElement(model, "limitStates").text = " ".join(states)
     for taxonomy, curves in functions.items():
         _check_curves(taxonomy, curves)
@@ -192,83 +192,16 @@ def write_nrml(
         else:
             _discrete(model, taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
     ElementTree.indent(root)
-    root.tail = "\n"
-    target = Path(path)
-    part = target.with_name(target.name + ".part")
-    try:
-        ElementTree.ElementTree(root).write(part, encoding="utf-8", xml_declaration=True)
-        part.replace(target)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
+    head = ["<?xml version='1.0' encoding='utf-8'?>", f"{_MARK}{_binding.constants().version} -->"]
+    tables.write_lines(path, [*head, ElementTree.tostring(root, encoding="unicode")])
 
 
-def functions_of(results: Typology | Fragility) -> tuple[dict[str, dict[str, Curve]], list[str]]:
-    """Fragility functions of a population, one a group and mechanism with its damage states, or of a wall.
-
-    Parameters
-    ----------
-    results : Typology or Fragility
-        A population; or the curve of a wall with its stripes.
-
-    Returns
-    -------
-    functions : dict of dict
-        For `write_nrml`: continuous where every state has a fit and the curves do not cross, else the mean fractions.
-    sentences : list of str
-        What is written as fractions, or is left out, and why.
-    """
-    if isinstance(results, Fragility):
-        wall = results.wall.name if results.wall else "wall"
-        return {_taxonomy(wall): {"collapse": results}}, []
-    functions: dict[str, dict[str, Curve]] = {}
-    sentences = []
-    with warnings.catch_warnings():
-        # What has no fit is said by the sentences.
-        warnings.simplefilter("ignore", DondoloWarning)
-        states = {_state_name(float(edp)): results.at(float(edp)) for edp in results.edp_thresholds[:-1]}
-    states["collapse"] = results
-    for curve in results.groups:
-        name = _taxonomy(f"{curve.group or 'population'}/{curve.mechanism}")
-        if name in functions:
-            sentences.append(f"'{name}': left out: another group has the same name in letters of ASCII")
-            continue
-        of_states = {state: people.group(curve.mechanism, curve.group) for state, people in states.items()}
-        try:
-            smooth: dict[str, Curve] = {state: one.fit for state, one in of_states.items()}
-            _check_curves(name, smooth)
-            _continuous(ElementTree.Element("trial"), name, smooth, None, None, None)  # type: ignore[arg-type]
-            functions[name] = smooth
-            continue
-        except (InputError, DondoloError) as error:
-            reason = _reason(error)
-        try:
-            points: dict[str, Curve] = {
-                state: DiscreteFragility(results.levels, one.mean_fraction, results.im)
-                for state, one in of_states.items()
-            }
-            _discrete(ElementTree.Element("trial"), name, points, None)  # type: ignore[arg-type]
-            functions[name] = points
-            sentences.append(f"'{name}': written as fractions at the levels: {reason}")
-        except InputError as error:
-            sentences.append(f"'{name}': left out: {reason}; its fractions: {_reason(error)}")
-    return functions, sentences
-
-
-def _reason(error: Exception) -> str:
-    """What is wrong, without whose it is and what else could be done."""
-    text = re.sub(r"^taxonomy '[^']*'(?:, |: )", "", str(error))
-    return re.split(r"; its fractions|: choose min|: choose max", text)[0]
-
-
-def _taxonomy(text: str) -> str:
-    """A name as the format takes it."""
-    return re.sub(r"[^!$-&(-~]", "_", text)[:100]
-
-
-def _state_name(edp: float) -> str:
-    """Name of a damage state: the format takes no point."""
-    return f"edp_{edp:g}".replace(".", "p").replace("+", "")
+def _words(name: str, text: Any) -> str:
+    """A text as the format takes it, and XML."""
+    words = " ".join(text.split()) if isinstance(text, str) else ""
+    if not words or not words.isascii() or not words.isprintable():
+        raise InputError(f"{name} = {text!r}: must be a text in printable ASCII")
+    return words
 
 
 def _states(functions: Mapping[str, Mapping[str, Curve]]) -> tuple[str, ...]:
@@ -315,12 +248,12 @@ def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
             )
 
 
-def _measure(taxonomy: str, im: str) -> tuple[str, float]:
+def _measure(taxonomy: str, im: str) -> tuple[str, int]:
     """OpenQuake's name of an intensity measure, and its unit in that of dondolo."""
     spectral = re.fullmatch(r"sa\((.+)\)", im)
     if spectral:
-        return f"SA({float(spectral.group(1))!r})", 1.0
-    known = {"pga": ("PGA", 1.0), "pgv": ("PGV", 100.0)}
+        return f"SA({float(spectral.group(1))!r})", 1
+    known = {"pga": ("PGA", 1), "pgv": ("PGV", 100)}
     if im not in known:
         raise InputError(f"taxonomy '{taxonomy}': im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")
     return known[im]
@@ -349,12 +282,14 @@ def _continuous(
     )
     limits = {"noDamageLimit": none, "minIML": low, "maxIML": high}
     ElementTree.SubElement(
-        function, "imls", {"imt": imt, **{name: _text(unit * value) for name, value in limits.items()}}
+        function, "imls", {"imt": imt, **{name: _text(value, unit) for name, value in limits.items()}}
     )
     for state, curve in curves.items():
-        mean = unit * curve.theta * np.exp(0.5 * curve.beta**2)
+        mean = curve.theta * np.exp(0.5 * curve.beta**2)
         deviation = mean * np.sqrt(np.expm1(curve.beta**2))
-        ElementTree.SubElement(function, "params", {"ls": state, "mean": _text(mean), "stddev": _text(deviation)})
+        ElementTree.SubElement(
+            function, "params", {"ls": state, "mean": _text(mean, unit), "stddev": _text(deviation, unit)}
+        )
 
 
 def _range(curves: list[Fragility], min_iml: float | None, max_iml: float | None) -> tuple[float, float]:
@@ -424,14 +359,14 @@ def _discrete(
             f" {levels[0]:g}"
         )
     function = ElementTree.SubElement(model, "fragilityFunction", {"id": taxonomy, "format": "discrete"})
-    limit = {} if no_damage_limit is None else {"noDamageLimit": _text(unit * no_damage_limit)}
+    limit = {} if no_damage_limit is None else {"noDamageLimit": _text(no_damage_limit, unit)}
     imls = ElementTree.SubElement(function, "imls", {"imt": imt, **limit})
-    imls.text = " ".join(_text(unit * level) for level in levels)
+    imls.text = " ".join(_text(level, unit) for level in levels)
     for state, curve in curves.items():
         poes = ElementTree.SubElement(function, "poes", {"ls": state})
         poes.text = " ".join(map(_text, curve.probability))
 
 
-def _text(value: float) -> str:
-    """A number in as few digits as give it again."""
-    return repr(float(value))
+def _text(value: float, unit: int = 1) -> str:
+    """A number times a unit, in as few digits as give it again: 1.1 times 100 is 110."""
+    return repr(float(Decimal(repr(float(value))) * unit))

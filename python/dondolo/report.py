@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from datetime import datetime
-from pathlib import Path
 
 from dondolo import _binding, tables
 from dondolo import _report_inputs as asked
+from dondolo._arguments import as_text
+from dondolo._files import check_replaced
 from dondolo._page import Markup, joined, page, paragraph, tag, whole
 from dondolo._report_risk import risk_chapter
 from dondolo._report_run import Run, run_of
@@ -16,7 +17,7 @@ from dondolo._report_typology import typology_cards, typology_chapters, typology
 from dondolo._report_wall import response_cards, response_chapters, stripes_cards, stripes_chapters
 from dondolo._report_words import date_in_words, symbols
 from dondolo.cases import Results
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import InputError, silent
 from dondolo.hazard import HazardCurve
 from dondolo.motion import Response
 from dondolo.results import StoredResults
@@ -63,30 +64,17 @@ def report(
     """
     import matplotlib.pyplot as plt
 
-    _check_target(Path(path))
+    check_replaced(path, _GENERATOR, "report")
     run = run_of(results)
     if title is not None:
-        run.title = title
+        run.title = as_text("title", title).decode()
     if hazard is not None and not isinstance(hazard, HazardCurve):
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
-    with plt.ioff():
+    with plt.ioff(), silent():
         text = _text(run, hazard)
     tables.write_lines(path, [text.rstrip("\n")])
-
-
-def _check_target(path: Path) -> None:
-    """Only a report may be replaced: a slip of the pen must not cost results."""
-    try:
-        with path.open(encoding="utf-8", errors="replace") as file:
-            start = file.read(500)
-    except FileNotFoundError:
-        return
-    except OSError as error:
-        raise DondoloError(f"{path}: cannot be written: {error.strerror}") from error
-    if _GENERATOR not in start:
-        raise InputError(f"{path}: exists, and is no report of dondolo")
 
 
 def _text(run: Run, hazard: HazardCurve | None) -> str:
@@ -139,7 +127,10 @@ def _lead(run: Run) -> str:
     parts = []
     if isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
+        counted = results.group().walls
         parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
+        if counted < walls:
+            parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"
     else:
         parts.append(f"{results.wall.name}: {mechanism_name(results.wall.mechanism)}")
     if isinstance(results, Response):

@@ -1,10 +1,11 @@
-"""Result files of the executable, read back into objects."""
+"""Result files, read back into objects."""
 
 from __future__ import annotations
 
 import csv
 import os
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._files import as_file
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
 from dondolo.motion import Response, sides
@@ -67,7 +69,7 @@ class StoredResults:
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
-    """Read the result files of the executable.
+    """Read the result files of the executable, or those that `Typology.save` wrote.
 
     Parameters
     ----------
@@ -84,6 +86,7 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     InputError
         There are no such files, or they are not result files of dondolo.
     """
+    as_file("prefix", prefix)
     prefix = os.fspath(prefix)
     walls, comments = _read(prefix + "_walls.csv")
     gravity = _setting(comments, "gravity", 9.81)
@@ -103,6 +106,11 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
         if isinstance(error, InputError):
             raise
         raise InputError(f"{prefix}_*.csv: not result files of dondolo ({error})") from error
+
+
+def heads(start: str, comments: Sequence[str]) -> list[str]:
+    """What stands in the comments after a word."""
+    return [line[len(start) :].strip() for line in comments if line.startswith(start)]
 
 
 def _read(path: str) -> tuple[Rows, list[str]]:
@@ -228,4 +236,5 @@ def _typology(path: str, population: Population) -> Typology:
     counts = _numbers(rows, "collapses").reshape(shape).astype(np.int32).transpose(1, 2, 0)
     histories = _numbers(rows, "histories").reshape(shape)[:, 0, 0].astype(np.int32)
     everyone = np.ones(len(population), dtype=bool)
-    return combine(population, rows["im"][0], levels, thresholds, counts, histories, everyone, _work(comments))[0]
+    result = combine(population, rows["im"][0], levels, thresholds, counts, histories, everyone, _work(comments))
+    return replace(result, warnings=tuple(dict.fromkeys([*heads("warning:", comments), *result.warnings])))

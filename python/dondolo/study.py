@@ -59,8 +59,8 @@ def typology(
         File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
         results are the same to the bit. It stays when all is done.
     block : int, optional
-        Walls of a block, the unit of checkpoints and executors; as many as take one to two seconds if left out. Results
-        do not depend on it.
+        Rows of a block (a row is one mechanism of a wall), the unit of checkpoints and executors; as many as take one
+        to two seconds if left out. Results do not depend on it.
 
     Returns
     -------
@@ -99,9 +99,10 @@ def typology(
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
     work = Work.total(run.works)
-    result, sentences = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
-    result = dataclasses.replace(result, flags=run.flags.chosen(np.flatnonzero(rows)))
+    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
+    known = {"flags": run.flags.chosen(np.flatnonzero(rows)), "warnings": (*plan.warnings, *result.warnings)}
+    result = dataclasses.replace(result, **known)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
-    _binding.warn([*plan.warnings, *sentences])
+    _binding.warn(result.warnings)
     return result

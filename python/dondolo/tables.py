@@ -5,13 +5,13 @@ from __future__ import annotations
 import html
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo import _binding
 from dondolo._arguments import FloatArray
+from dondolo._files import whole_file
 from dondolo.errors import DondoloError, InputError
 
 if TYPE_CHECKING:
@@ -78,14 +78,8 @@ def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], s
 
 def write_lines(path: str | os.PathLike[str], lines: Sequence[str]) -> None:
     """Write a text file; it appears whole or not at all."""
-    target = Path(path)
-    part = target.with_name(target.name + ".part")
-    try:
+    with whole_file(path) as part:
         part.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        part.replace(target)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
 
 
 def frame(table: Table) -> Any:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_levels, as_number, as_text, shaped
+from dondolo._files import as_file
 from dondolo._flags import Flags
 from dondolo._members import Members
 from dondolo.errors import DondoloError, InputError, Interrupted
@@ -112,6 +113,8 @@ class Typology:
     flags : Flags
         The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
         read back.
+    warnings : tuple of str
+        What was warned of: by the run, and of the curves of this state.
     """
 
     population: Population
@@ -125,6 +128,7 @@ class Typology:
     groups: tuple[Group, ...]
     work: Work
     flags: Flags | None = None
+    warnings: tuple[str, ...] = ()
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -224,12 +228,10 @@ class Typology:
             self._states[value] = dataclasses.replace(self, **last, _states={})
         if value not in self._states:
             counts, threshold = self.exceedances[place], self.edp_thresholds[place]
-            state, sentences = _combine(
-                self.population, self.im, self.levels, threshold, counts, self.histories, self.work
-            )
+            state = _combine(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             flags = None if self.flags is None else self.flags.at(int(place[0]))
             self._states[value] = dataclasses.replace(state, flags=flags)
-            _binding.warn(f"damage state {value:g}: {sentence}" for sentence in sentences)
+            _binding.warn(f"damage state {value:g}: {sentence}" for sentence in state.warnings)
         return self._states[value]
 
     def probabilities(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> FloatArray:
@@ -415,8 +417,41 @@ class Typology:
 
     def to_csv(self, path: str | os.PathLike[str], table: str = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
-        comments = [f"unit of im_level and theta: {_binding.unit_of(self.im) or '1'}"]
+        counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
+        comments = [
+            *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
+            f"unit of im_level and theta: {_binding.unit_of(self.im) or '1'}",
+            f"work: {counts}",
+            *(f"warning: {sentence}" for sentence in self.warnings),
+        ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
+
+    def save(self, prefix: str | os.PathLike[str]) -> None:
+        """Write all tables into files of the names that the executable gives them.
+
+        They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of
+        these names are replaced.
+
+        Parameters
+        ----------
+        prefix : path
+            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; the folder must exist.
+
+        Raises
+        ------
+        InputError
+            Walls of different gravity, for which the files have no place.
+        DondoloError
+            A file cannot be written.
+        """
+        pulls = {wall.gravity for wall in self.walls}
+        if len(pulls) > 1:
+            raise InputError(
+                f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
+            )
+        start = as_file("prefix", prefix)
+        for table in self._tables():
+            self.to_csv(start.with_name(f"{start.name}_{table}.csv"), table)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
@@ -449,8 +484,8 @@ def combine(
     histories: IntArray,
     complete: np.ndarray[Any, Any],
     work: Work,
-) -> tuple[Typology, list[str]]:
-    """The curves of the walls whose rows are all complete, and what to warn of.
+) -> Typology:
+    """The curves of the walls whose rows are all complete.
 
     Exceedances are (thresholds, levels, rows); thresholds increase, and the last is that of collapse.
     """
@@ -476,7 +511,7 @@ def _combine(
     exceedances: IntArray,
     histories: IntArray,
     work: Work,
-) -> tuple[Typology, list[str]]:
+) -> Typology:
     """The curves of the last state."""
     walls = people.walls
     origin = {"im": im, "edp": float(edp_thresholds[-1])}
@@ -525,5 +560,7 @@ def _combine(
         )
     for array in (edp_thresholds, exceedances, histories):
         array.flags.writeable = False
-    result = Typology(people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work)
-    return result, data.warnings
+    found = {"warnings": tuple(data.warnings)}
+    return Typology(
+        people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work, **found
+    )

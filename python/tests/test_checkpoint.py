@@ -8,12 +8,13 @@ import sqlite3
 import subprocess
 import sys
 import time
-from contextlib import closing
+from contextlib import closing, suppress
 
 import numpy as np
 import pytest
 import study
 from dondolo._checkpoint import Checkpoint
+from dondolo.work import Work
 
 import dondolo as dd
 from dondolo import _binding, _blocks, _core
@@ -50,13 +51,20 @@ def whole(tmp_path_factory):
 def kept(path):
     """Numbers of the walls that a checkpoint holds."""
     with closing(sqlite3.connect(path)) as file:
-        rows = file.execute("SELECT first, walls FROM block").fetchall()
+        rows = file.execute("SELECT first, rows FROM block").fetchall()
     return {wall for first, walls in rows for wall in range(first, first + walls)}
 
 
 def of(result, folder):
     study.write(result, folder)
     return study.contents(folder)
+
+
+def rows_of(contents):
+    """What was written but for what was computed: more than the walls that are complete."""
+    tables = {name: content.splitlines() for name, content in contents.items() if name.endswith(".csv")}
+    rows = {name: [line for line in lines if not line.startswith(b"#")] for name, lines in tables.items()}
+    return contents | rows | {"work": b""}
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -118,7 +126,7 @@ def test_ctrl_c(whole, tmp_path, monkeypatch):
     partial = caught.value.partial
     assert len(kept(path)) <= len(partial.walls) <= len(kept(path)) + 3
     alone = dd.typology(**study.arguments(population=partial.population))
-    assert of(partial, tmp_path / "partial") | {"work": b""} == of(alone, tmp_path / "alone") | {"work": b""}
+    assert rows_of(of(partial, tmp_path / "partial")) == rows_of(of(alone, tmp_path / "alone"))
     assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
 
 
@@ -149,7 +157,7 @@ def test_another_study(finished, sentence):
     with pytest.raises(dd.InputError) as caught:
         dd.typology(**study.arguments(checkpoint=finished, **CHANGES[sentence]))
     assert str(caught.value).startswith(f"checkpoint = '{finished}': belongs to another study: ")
-    assert sentence in str(caught.value).replace("number of walls", "")
+    assert sentence in str(caught.value).replace("number of rows", "")
     if sentence not in ("other walls", "edp_limit 1.0 there, 0.9 here"):
         assert str(caught.value).endswith(f"study: {sentence}")
 
@@ -179,6 +187,10 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
     with closing(sqlite3.connect(path)) as file:
         file.execute("CREATE TABLE mine (x)")
     refused("is a database, but no checkpoint of dondolo")
+    path.write_bytes(finished.read_bytes())
+    with closing(sqlite3.connect(path)) as file:
+        file.execute("PRAGMA user_version = 1")
+    refused("was written by another version of dondolo")
     content = finished.read_bytes()
     path.write_bytes(content[: len(content) // 2])
     refused("is no checkpoint, or damaged")
@@ -186,9 +198,10 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
         ((flags,),) = file.execute("SELECT flags FROM block ORDER BY first LIMIT 1")
     place = content.index(flags[200:240]) + 5
     path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
-    refused(r"is damaged \(the block of wall 1\)")
-    with pytest.raises(dd.InputError, match="checkpoint = 3: must be the path of a file"):
-        dd.typology(**study.arguments(checkpoint=3))
+    refused(r"is damaged \(the block of row 1\)")
+    for wrong in (3, "", "a\0b", b"a"):
+        with pytest.raises(dd.InputError, match=r"checkpoint = .*: must be the path of a file"):
+            dd.typology(**study.arguments(checkpoint=wrong))
     path.unlink()
     path.mkdir()
     refused("cannot be written: unable to open", dd.DondoloError)
@@ -202,15 +215,90 @@ def test_two_runs(tmp_path, monkeypatch):
     with pytest.raises(dd.Interrupted):
         dd.typology(**study.arguments(checkpoint=path, block=5))
     monkeypatch.undo()
-    with closing(sqlite3.connect(path)) as file:
-        study_of = dict(file.execute("SELECT what, value FROM study"))
-    with Checkpoint(path, study_of) as first:
+    with Checkpoint(path, of_study(path)) as first:
         assert len(list(first.blocks())) == 1
         monkeypatch.setattr(_blocks.Shared, "run", None)
         with pytest.raises(dd.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))
     monkeypatch.undo()
     dd.typology(**study.arguments(checkpoint=path))
+
+
+def test_rows_are_counted_and_called_so(few, tmp_path):
+    """Two walls with three mechanisms"""
+    path = tmp_path / "study.sqlite"
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.TwoBlockWall(3.0, 0.25, name="a"),
+        dd.OneSidedWall(2, 0.3, name="b"),
+    ]
+    dd.typology(walls, few, [0.4, 0.8], checkpoint=path, progress=False)
+    with closing(sqlite3.connect(path)) as file:
+        assert file.execute("SELECT * FROM progress").fetchall() == [(3, 3, "complete")]
+    with pytest.raises(dd.InputError, match="another study: number of rows 3 there, 2 here"):
+        dd.typology(walls[:2], few, [0.4, 0.8], checkpoint=path, progress=False)
+
+
+def of_study(path):
+    """What a checkpoint says of its study."""
+    with closing(sqlite3.connect(path)) as file:
+        return dict(file.execute("SELECT what, value FROM study"))
+
+
+def claimed(file):
+    """Is a checkpoint this run's?"""
+    with suppress(dd.DondoloError):
+        file.claim()
+        return True
+    return False
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_of_two_runs_that_begin_together_one_goes_on(tmp_path, monkeypatch, first):
+    path = tmp_path / "study.sqlite"
+    monkeypatch.setattr(_blocks.Run, "add", interrupt)
+    with pytest.raises(dd.Interrupted):
+        dd.typology(**study.arguments(checkpoint=path, block=5))
+    given = of_study(path)
+    with Checkpoint(path, given) as one, Checkpoint(path, given) as other:
+        # Both read what is there, and then both want to write, in either order.
+        assert len(list(one.blocks())) == len(list(other.blocks())) == 1
+        files = [one, other] if first == 0 else [other, one]
+        refused = [file for file in files if not claimed(file)]
+        assert len(refused) == 1
+        files.remove(refused[0])
+        files[0].keep(20, 1, Work(), b"flags")
+    assert kept(path) == {0, 1, 2, 3, 4, 20}
+
+
+def test_two_processes_that_begin_together(whole, tmp_path):
+    """On a file that is not there, and on one that is not finished."""
+    path = tmp_path / "study.sqlite"
+    for turn in range(2):
+        command = [sys.executable, "-c", RUN, str(path), str(tmp_path / "out"), "3"]
+        options = {"cwd": os.path.dirname(__file__), "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        processes = [subprocess.Popen(command, **options) for _ in range(2)]
+        ends = [process.communicate()[1] for process in processes]
+        codes = [process.returncode for process in processes]
+        # The second one may find it finished.
+        assert 0 in codes, ends
+        for code, said in zip(codes, ends, strict=True):
+            assert code == 0 or "is being written by another run" in said
+        assert study.contents(tmp_path / "out") == whole
+        if turn == 0:
+            with closing(sqlite3.connect(path)) as file, file:
+                file.execute("DELETE FROM block WHERE first > 30")
+
+
+def test_a_file_that_cannot_be_written_can_be_read(finished, whole, tmp_path, monkeypatch):
+    connect = sqlite3.connect
+    monkeypatch.setattr(
+        sqlite3, "connect", lambda path, **options: connect(f"file:{path}?mode=ro", uri=True, **options)
+    )
+    assert of(dd.typology(**study.arguments(checkpoint=finished)), tmp_path / "out") == whole
+    monkeypatch.undo()
+    with Checkpoint(finished, of_study(finished)), closing(sqlite3.connect(finished)) as file:
+        assert file.execute("SELECT * FROM progress").fetchall() == [(60, 60, "complete")]
 
 
 def interrupt(*given):
@@ -229,7 +317,7 @@ def test_full_disk(whole, tmp_path, monkeypatch):
         return file
 
     monkeypatch.setattr(sqlite3, "connect", small)
-    with pytest.raises(dd.DondoloError, match=r"cannot be written: .*full; it holds \d+ of 60 walls"):
+    with pytest.raises(dd.DondoloError, match=r"cannot be written: .*full; it holds \d+ of 60 rows"):
         dd.typology(**study.arguments(checkpoint=path, block=5))
     monkeypatch.undo()
     assert 0 < len(kept(path)) < 60

@@ -195,7 +195,7 @@ def test_a_broken_pool(whole, tmp_path):
         for process in list(executor._processes):
             os.kill(process, signal.SIGKILL)
 
-    sentence = r"executor: BrokenProcessPool: .*; \d+ of 60 walls are complete, "
+    sentence = r"executor: BrokenProcessPool: .*; \d+ of 60 rows are complete, "
     with ProcessPoolExecutor(2, mp_context=SPAWN) as executor:
         disturbed = Disturbed(executor, 20, kill)
         with pytest.raises(dd.DondoloError, match=sentence + "the same call goes on from there"):

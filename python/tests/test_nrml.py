@@ -145,6 +145,28 @@ def test_units(path):
             dd.write_nrml(path, {"a": {"collapse": lognormal(0.4, 0.3, im)}})
 
 
+def test_levels_in_other_units_are_exact(path):
+    """1.1 m/s are 110 cm/s, not 110.00000000000001."""
+    dd.write_nrml(
+        path, {"a": {"c": DiscreteFragility([0.07, 0.29, 1.1], [0.1, 0.2, 0.3], "pgv")}}, no_damage_limit=0.01
+    )
+    imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
+    assert (imls.get("noDamageLimit"), imls.text) == ("1.0", "7.0 29.0 110.0")
+
+
+def test_only_models_of_dondolo_are_replaced(path):
+    functions = {"a": {"collapse": lognormal(0.4, 0.3)}}
+    dd.write_nrml(path, functions)
+    dd.write_nrml(path, functions, id="again")
+    text = path.read_text()
+    assert 'id="again"' in text
+    other = text.replace("<!-- dondolo ", "<!-- another ")
+    path.write_text(other)
+    with pytest.raises(dd.InputError, match=r"model\.xml: exists, and is no fragility model of dondolo"):
+        dd.write_nrml(path, functions)
+    assert path.read_text() == other
+
+
 def test_range(path):
     curves = {"collapse": lognormal(0.6, 0.4, "pgv")}
     dd.write_nrml(path, {"a": curves}, min_iml=0.1, max_iml=2.0, no_damage_limit=0.15)
@@ -230,6 +252,10 @@ def test_names(path):
         ({"id": 101 * "a"}, "id = "),
         ({"description": " "}, "description"),
         ({"description": "città"}, "description"),
+        ({"description": "a\x01b"}, r"description = 'a\\x01b': must be a text in printable ASCII"),
+        ({"description": None}, "description = None: must be a text in printable ASCII"),
+        ({"asset_category": "a\x08b"}, r"asset_category = 'a\\x08b': must be a text in printable ASCII"),
+        ({"id": 5}, "id = 5: must be of letters"),
         ({"asset_category": ""}, "asset_category"),
         ({"loss_category": "walls"}, "loss_category = 'walls': must be one of 'structural', 'nonstructural'"),
     ):

@@ -16,7 +16,6 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
-from dondolo.nrml import functions_of
 
 import dondolo as dd
 from dondolo import _page
@@ -339,6 +338,8 @@ def test_only_reports_are_replaced(stripes, tmp_path):
     assert path.read_text() == "wall\n"
     with pytest.raises(dd.DondoloError, match="cannot be written"):
         dd.report(stripes, tmp_path / "nowhere" / "report.html")
+    with pytest.raises(dd.DondoloError, match="cannot be written: Not a directory"):
+        dd.report(stripes, path / "report.html")
     with pytest.raises(dd.DondoloError, match="cannot be written"):
         dd.report(stripes, tmp_path)
 
@@ -347,6 +348,19 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     path = tmp_path / "report.html"
     with pytest.raises(dd.InputError, match="results: str is nothing"):
         dd.report("out/parapet", path)
+    for title, sentence in (
+        (5, "title = 5: must be a text"),
+        ("a\udc80b", r"title = 'a\\udc80b': must be a text"),
+        ("a\0b", "title: must stand on one line"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
+            dd.report(stripes, path, title=title)
+    for wrong in (3, None, "", "a\0b", "\ud800"):
+        with pytest.raises(dd.InputError, match=r"path = .*: must be the path of a file"):
+            dd.report(stripes, wrong)
+        with pytest.raises(dd.InputError, match=r"prefix = .*: must be the path of a file"):
+            dd.read_results(wrong)
+    assert not list(tmp_path.iterdir())
     with pytest.raises(dd.InputError, match="hazard: float is no hazard curve"):
         dd.report(stripes, path, 0.1)
     with pytest.raises(dd.InputError, match="hazard: must be left out"):
@@ -375,6 +389,61 @@ def test_bootstrap_over_walls_needs_counts_only(people):
         counts.bootstrap(50)
 
 
+def test_damage_states_that_cross_are_told(few, tmp_path):
+    """Where, and by how much; elsewhere nothing is said."""
+    levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
+    walls = [dd.TwoBlockWall(3.0, 0.38, overburden=1600.0, restitution_factor=0.88, name="folds")]
+    people = dd.typology(walls, few, levels, edp_thresholds=[0.1, 0.4], progress=False)
+    dd.report(people, tmp_path / "report.html")
+    table = read(tmp_path / "report.html").table("Damage states that cross")
+    x = np.linspace(0.0, 1.2, 201)[1:]
+    gap = people.at(0.4).mean(x) - people.at(0.1).mean(x)
+    assert gap.max() > 1e-3
+    assert table["curve"] == ["whole population, two-block"]
+    assert (table["more probable is"], table["than"]) == (["EDP ≥ 0.4"], ["EDP ≥ 0.1"])
+    assert float(table["by up to"][0]) == pytest.approx(gap.max(), rel=0.05)
+    assert float(table["at pga [g]"][0]) == pytest.approx(x[np.argmax(gap)], rel=1e-3)
+    stripes = dd.multiple_stripe(walls[0], few, levels, progress=False)
+    dd.report(stripes, tmp_path / "report.html")
+    assert read(tmp_path / "report.html").table("Damage states that cross")["by up to"] == table["by up to"]
+
+
+def test_no_state_is_said_to_cross(pages):
+    for kind in KINDS:
+        assert "states that cross" not in read(pages / f"{kind}.html").text
+
+
+def test_walls_of_no_weight_are_told(few, tmp_path):
+    walls = [dd.OneSidedWall(1.5, 0.25, name=name) for name in "abc"]
+    people = dd.typology(dd.Population(walls, [1.0, 0.0, 2.0]), few, [0.3, 0.5, 0.7, 0.9], progress=False)
+    dd.report(people, tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    assert "3 walls, 1 of them of weight 0 and in no curve of the population;" in page.text
+    assert page.table("Collapse: parameters")["walls"] == ["2"]
+
+
+def test_the_total_dispersion_is_what_the_parts_add_up_to(people, pages):
+    table = read(pages / "typology.html").table("Collapse: parameters")
+    assert table["βtotal"] == four(curve.beta_total for curve in people.groups)
+    assert table["βtotal"] != table["β"]
+
+
+def test_scale_factors_of_a_population_are_known(people, records, tmp_path):
+    """From objects as from files: they are among what was warned of."""
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a")]
+    with pytest.warns(dd.DondoloWarning) as caught:
+        large = dd.typology(walls, records, [0.4, 0.8, 1.2, 1.6], progress=False)
+    assert list(large.warnings) == [str(one.message) for one in caught]
+    dd.report(large, tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    many, histories, most = re.search(r"above 10 in (\d+) of (\d+) histories, the largest (\S+)", page.text).groups()
+    share = f"{100.0 * int(many) / int(histories):.3g}"
+    assert f"scale factors above 10{share} % of the histories, the largest {most}" in page.text
+    small = dd.typology(walls, records, [0.02, 0.05], progress=False)
+    dd.report(small, tmp_path / "report.html")
+    assert "scale factors above 10none" in read(tmp_path / "report.html").text
+
+
 def command(*arguments):
     return subprocess.run(
         [sys.executable, "-m", "dondolo", *map(str, arguments)], capture_output=True, text=True, check=False
@@ -393,6 +462,16 @@ def test_command_report(runs, hazard, tmp_path):
     assert done.stderr.count("\n") == 1
 
 
+def test_a_full_disk_behind_standard_output_is_told(root):
+    if not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full here")
+    with open("/dev/full", "w") as full:
+        arguments = [sys.executable, "-m", "dondolo", "records", root / "data/records/synthetic44.csv"]
+        done = subprocess.run(arguments, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == "dondolo: standard output: cannot be written: No space left on device\n"
+
+
 def test_command_nrml(runs):
     done = command("nrml", runs / "two_block")
     assert done.returncode == 0, done.stderr
@@ -401,36 +480,17 @@ def test_command_nrml(runs):
     params = ElementTree.parse(path).getroot().find(".//{*}params")
     curve = dd.read_results(runs / "two_block").fragility
     assert float(params.get("mean")) == pytest.approx(curve.theta * np.exp(curve.beta**2 / 2), rel=1e-12)
+    # Again, but over no other file
+    assert command("nrml", runs / "two_block").returncode == 0
+    survey = runs / "survey.csv"
+    survey.write_text("name,height\n")
+    done = command("nrml", runs / "two_block", "-o", survey)
+    assert done.returncode == 2
+    assert done.stderr == f"dondolo: {survey}: exists, and is no fragility model of dondolo\n"
+    assert survey.read_text() == "name,height\n"
     done = command("nrml", runs / "history")
     assert done.returncode == 2
     assert "single motion" in done.stderr
-
-
-def test_functions_of_a_population(people, tmp_path):
-    functions, sentences = functions_of(people)
-    expected = [f"{curve.group or 'population'}/{curve.mechanism}" for curve in people.groups]
-    assert list(functions) == expected
-    assert all(list(states) == ["edp_0p3", "collapse"] for states in functions.values())
-    for curve in people.groups:
-        collapse = functions[f"{curve.group or 'population'}/{curve.mechanism}"]["collapse"]
-        if isinstance(collapse, dd.Fragility):
-            assert collapse.theta == curve.fit.theta
-        else:
-            np.testing.assert_array_equal(collapse.probability, curve.mean_fraction)
-    discrete = [name for name, states in functions.items() if isinstance(states["collapse"], dd.DiscreteFragility)]
-    assert [sentence.split("'")[1] for sentence in sentences] == discrete
-    dd.write_nrml(tmp_path / "model.xml", functions)
-
-
-def test_functions_without_a_fit_are_fractions(records):
-    walls = [dd.OneSidedWall(0.5, 1.0, name="a"), dd.OneSidedWall(0.5, 1.2, name="b")]
-    people = dd.typology(dd.Population(walls), records[:3], [0.1, 0.2], progress=False)
-    functions, sentences = functions_of(people)
-    assert isinstance(functions["population/one_sided"]["collapse"], dd.DiscreteFragility)
-    assert sentences == [
-        "'population/one_sided': written as fractions at the levels: limit state 'collapse': has no curve (status"
-        " 'no_collapse')"
-    ]
 
 
 # --- In a browser

@@ -1,0 +1,81 @@
+"""Files that are written: their paths, whole or not at all, and none that holds something else."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from dondolo.errors import DondoloError, InputError
+
+
+def as_file(name: str, path: Any) -> Path:
+    """Turn what a user gives for the path of a file into one."""
+    try:
+        target = Path(path)
+        valid = bool(target.name) and b"\0" not in os.fsencode(target)
+    except (TypeError, UnicodeEncodeError):
+        valid = False
+    if not valid:
+        raise InputError(f"{name} = {path!r}: must be the path of a file")
+    return target
+
+
+@contextmanager
+def whole_file(path: Any) -> Iterator[Path]:
+    """A file that appears whole or not at all: gives the part to write, which then takes the file's place.
+
+    Parameters
+    ----------
+    path : path
+        The file; its folder must exist.
+
+    Yields
+    ------
+    Path
+        Beside the file, gone at the end whatever happens.
+
+    Raises
+    ------
+    InputError
+        No path.
+    DondoloError
+        The file cannot be written.
+    """
+    target = as_file("path", path)
+    part = target.with_name(target.name + ".part")
+    try:
+        yield part
+        part.replace(target)
+    except OSError as error:
+        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
+    finally:
+        # What is in the way of this is in the way of writing, too, and has been said.
+        with suppress(OSError):
+            part.unlink()
+
+
+def check_replaced(path: Any, mark: str, kind: str) -> None:
+    """May a file be replaced? Only one of its kind: a slip of the pen must not cost results.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    mark : str
+        What stands near the beginning of every file of the kind.
+    kind : str
+        What it is, for the message.
+    """
+    target = as_file("path", path)
+    try:
+        with target.open(encoding="utf-8", errors="replace") as file:
+            start = file.read(500)
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
+    if mark not in start:
+        raise InputError(f"{target}: exists, and is no {kind} of dondolo")
