@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from typing import Any
 
@@ -29,11 +30,10 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
             for edp in results.edp_thresholds
         ]
         cases += [
-            (f"{one.group}, collapse", lambda x, name=one.group: results.mean(x, group=name))
+            (f"{one.group}, collapse", functools.partial(results.mean, group=one.group))
             for one in combined(results)
             if one.group
         ]
-        # The measure is checked against that of the population first, by its own method.
         main = len(results.edp_thresholds) - 1
     else:
         cases, main = [("collapse", curve)], 0
@@ -57,9 +57,14 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "curve": [name for name, _ in cases],
         "annual frequency from": [number(one.bounds[0], 3) for one in risks],
         "to [1/year]": [number(one.bounds[1], 3) for one in risks],
-        "return period [years]": [number(one.return_period, 3) for one in risks],
-        f"probability in {_YEARS:g} years": [number(one.probability(_YEARS), 3) for one in risks],
     }
+    if not population:
+        columns |= {
+            "return period from": [number(one.return_period_bounds[0], 3) for one in risks],
+            "to [years]": [number(one.return_period_bounds[1], 3) for one in risks],
+            f"probability in {_YEARS:g} years from": [number(one.probability_bounds(_YEARS)[0], 3) for one in risks],
+            "to": [number(one.probability_bounds(_YEARS)[1], 3) for one in risks],
+        }
     edges = hazard.im_levels
     parts = risk.deaggregate(edges)
     unit = _binding.unit_of(hazard.im) or "-"
@@ -70,22 +75,22 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "contribution [1/year]": [number(part, 3) for part in parts],
         "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
     }
-    who = (
-        "For a population it is that of a wall drawn by weight: the share of the walls lost a year. "
+    meaning = (
+        "For a population it is that of a wall drawn by weight: the share of the walls lost a year. In t years no more"
+        " than the share λ t is lost, and less the more the walls differ; how much less the mean curve does not tell. "
         if population
-        else ""
+        else f"Return period and probability in {_YEARS:g} years take the events for a Poisson process. "
     )
     content = joined(
         paragraph(
             "The mean annual frequency of collapse is the integral of the fragility over the hazard of the site,"
             " λ = ∫ P(C | x) |dH(x)|, where H(x) is how often a year the intensity x is exceeded. ",
-            who,
+            meaning,
             "It lies between ",
             number(low, 3),
             " and ",
             number(high, 3),
-            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Return period and"
-            f" probability in {_YEARS:g} years (events as a Poisson process) belong to the lower bound.",
+            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for.",
         ),
         figure(
             lambda: plot_risk(risk),

@@ -7,8 +7,8 @@ collapse is (Cornell and Krawinkler 2000; McGuire 2004)
 
 Hazard
     Levels and frequencies are joined by straight lines of ln H against ln x: between two levels H is a power law,
-    H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x), by Gauss's rule in panels that are
-    halved until the integral of each changes by less than its share of 10^-8 of the whole.
+    H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x): of a fitted lognormal in closed
+    form, of any other curve by Gauss's rule (dondolo._risk_integrals).
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n). Those below
@@ -23,8 +23,17 @@ Power laws
 
     For k > 0 and a P that falls more slowly than x^k towards x = 0, there is no finite frequency, and an error says so.
 Time
-    Events are a Poisson process: P(at least one collapse in t years) = 1 - exp(-lambda t); the return period is
-    1/lambda. What stands after a collapse is the same wall.
+    Events are a Poisson process: of one wall P(at least one collapse in t years) = 1 - exp(-lambda t), and the return
+    period is 1/lambda. What stands after a collapse is the same wall. A curve with the saturation s is of a wall in
+    which something can occur with the probability s, for all events: s (1 - exp(-lambda t/s)).
+Populations
+    The mean curve gives the mean frequency, lambda = sum(w_i lambda_i)/sum(w_i): the share of the walls lost a year.
+    The probability that a wall drawn by weight collapses in t years is another mean,
+
+        sum(w_i (1 - exp(-lambda_i t)))/sum(w_i) <= 1 - exp(-lambda t) <= lambda t:
+
+    walls that never collapse take no part however long the time is, and weak ones collapse once. The mean curve does
+    not tell it, only the curves of the walls do.
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
@@ -45,26 +54,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped
+from dondolo._arguments import FloatArray, as_levels, as_number, increasing, shaped
+from dondolo._risk_integrals import integrals, lognormal_integrals
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
+from dondolo.typology import Typology
 
 Curve = Fragility | Callable[[Any], Any]
 
-# Relative error that an integral aims at
-_TOLERANCE = 1e-8
-# The least part of that error that a panel is allowed
-_SMALLEST_SHARE = 1e-3
-# Points of Gauss's rule in a panel, and how often a panel is halved
-_NODES = 8
-_HALVINGS = 60
 # A range without end is cut so far away, in ln x, and into such steps; the lowest must not add more than this part
 _FAR = 50.0
 _STEP = 0.5
 _NEGLIGIBLE = 1e-12
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
+# A wall without a fit takes part in a mean with its counts, so that the mean may fall, by no more than this
+_FALL = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,7 +86,8 @@ class Risk:
     below, above : (float, float)
         Bounds of what intensities below and above that range contribute [1/year]; (0, 0) for a power law without end.
     error : float
-        Estimated error of the integration of `inside` [1/year].
+        Estimated error of the integration of `inside` [1/year]; 0 for a fitted curve, of which the integral has a
+        closed form.
     """
 
     fragility: Curve
@@ -97,30 +104,86 @@ class Risk:
 
     @property
     def frequency(self) -> float:
-        """Mean annual frequency of collapse, its lower bound [1/year]."""
+        """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
         return self.bounds[0]
 
     @property
     def return_period(self) -> float:
-        """Mean time between collapses [year]; inf where nothing collapses."""
-        return 1.0 / self.frequency if self.frequency > 0.0 else np.inf
+        """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
+
+        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends.
+        """
+        return self.return_period_bounds[1]
+
+    @property
+    def return_period_bounds(self) -> tuple[float, float]:
+        """Bounds of the return period [year], the shorter first; 0 where the frequency has no upper bound."""
+        low, high = (1.0 / value if value > 0.0 else np.inf for value in self.bounds)
+        return high, low
 
     def probability(self, years: float) -> float:
-        """Probability of a collapse within some years.
+        """Probability that one wall collapses within some years, that of `frequency`.
+
+        The least that is possible, which is not on the safe side: `probability_bounds` has both ends.
 
         Parameters
         ----------
         years : float
-            Length of time, not negative.
+            Length of time [year], not negative.
 
         Returns
         -------
         float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+        DondoloError
+            The curve is the mean of a population.
+        """
+        return self.probability_bounds(years)[0]
+
+    def probability_bounds(self, years: float) -> tuple[float, float]:
+        """Bounds of the probability that one wall collapses within some years.
+
+        Of a curve with a saturation, for a wall in which a mechanism can occur with that probability; the fit of a
+        population is taken for one of walls that are alike. The mean of a population does not tell such a probability:
+        see the docstring of the module dondolo.risk.
+
+        Parameters
+        ----------
+        years : float
+            Length of time [year], not negative.
+
+        Returns
+        -------
+        low, high : float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+        DondoloError
+            The curve is the mean of a population.
         """
         time = as_number("years", years)
         if not time >= 0.0:
             raise InputError(f"years = {time:g}: must not be negative")
-        return float(-np.expm1(-self.frequency * time))
+        if self._of_several:
+            raise DondoloError(
+                "probability: is of one wall, and this frequency is the mean of several; that of a population is the"
+                " weighted mean of the probabilities of its walls"
+            )
+        most = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
+        # No time is no collapse, whatever the frequency
+        low, high = (most * -np.expm1(-value / most * time) if time * value > 0.0 else 0.0 for value in self.bounds)
+        return float(low), float(high)
+
+    @property
+    def _of_several(self) -> bool:
+        """Is the curve the mean of a typology?"""
+        return isinstance(_object_of(self.fragility), Typology)
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
@@ -134,12 +197,18 @@ class Risk:
         -------
         float or ndarray, shape of x
             [1/year] a unit of ln x; 0 beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Intensities that are not positive or no numbers.
         """
         values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError("x: must be positive")
         flat = values.ravel()
-        return shaped(np.where(self.hazard._covers(flat), self._integrand(np.log(flat)), 0.0), values)
+        inside = self.hazard._covers(flat)
+        return shaped(np.where(inside, _integrand(self.fragility, self.hazard, np.log(flat)), 0.0), values)
 
     def deaggregate(self, edges: ArrayLike) -> FloatArray:
         """Deaggregation: what the intensities between edges contribute to the frequency.
@@ -153,29 +222,30 @@ class Risk:
         -------
         ndarray, shape (bins,)
             [1/year]. Without the part beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Edges that are less than two, not positive or do not increase.
         """
-        x = as_array("edges", edges)
-        if len(x) < 2 or not np.all(x > 0.0) or not np.all(np.diff(x) > 0.0) or not np.isfinite(x[-1]):
-            raise InputError("edges: must be two at least, positive and increasing")
+        x = increasing("edges", edges)
         levels = self.hazard.im_levels
         if not self.hazard.endless:
             x = np.clip(x, levels[0], levels[-1])
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
         if len(cuts) == 1:
             return np.zeros(len(x) - 1)
-        parts, _ = _integrals(self._integrand, np.log(cuts))
+        parts, _ = _integrals(self.fragility, self.hazard, np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
-    def _integrand(self, u: FloatArray) -> FloatArray:
-        return _integrand(self.fragility, self.hazard, u)
-
     def _facts(self) -> list[tuple[str, str]]:
-        low, high = self.bounds
-        text = f"{low:.6g} a year" if high == low else f"between {low:.4g} and {high:.4g} a year"
+        facts = [("mean annual frequency of collapse", _between(*self.bounds, "a year"))]
+        if self._of_several:
+            return facts
         return [
-            ("mean annual frequency of collapse", text),
-            ("return period", f"{self.return_period:.6g} years"),
-            ("probability in 50 years", f"{self.probability(50.0):.4g}"),
+            *facts,
+            ("return period", _between(*self.return_period_bounds, "years")),
+            ("probability in 50 years", _between(*self.probability_bounds(50.0))),
         ]
 
     def __repr__(self) -> str:
@@ -203,9 +273,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     Raises
     ------
     InputError
-        The measures differ; the function gives no probabilities.
+        The measures differ; the function gives no probabilities, or they fall by more than 0.01.
     DondoloError
-        The fragility has no curve; the frequency is not finite.
+        The fragility has no curve; the frequency is not finite; the function is too rough to be integrated.
 
     Warns
     -----
@@ -228,34 +298,30 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if not callable(fragility):
         raise InputError(f"fragility: {type(fragility).__name__} is no curve")
-    # A method knows the measure of its object, as the mean of a typology does; a plain function does not.
-    method = fragility.func if isinstance(fragility, functools.partial) else fragility
-    im = getattr(method, "im", "") or getattr(getattr(method, "__self__", None), "im", "")
+    # The object of a method knows its measure, as a typology does that of its mean; a plain function does not.
+    im = getattr(_object_of(fragility), "im", "")
     if im and im != hazard.im:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):
         fragility._need_fit()
 
-    def integrand(u: FloatArray) -> FloatArray:
-        return _integrand(fragility, hazard, u)
-
     if hazard.endless:
-        cuts = np.linspace(-_FAR, _FAR, round(2.0 * _FAR / _STEP) + 1)
-        parts, error = _integrals(integrand, cuts)
-        # What is still above: between the probability there and 1
-        p, h = float(_probability(fragility, np.exp(cuts[-1:]))[0]), float(hazard(np.exp(cuts[-1])))
-        total = float(parts.sum()) + p * h
-        if parts[0] > _NEGLIGIBLE * total:
+        top = np.inf if isinstance(fragility, Fragility) else _FAR
+        total, error = _from_zero(fragility, hazard, top, 2.0 * _FAR)
+        if np.isinf(total):
             raise DondoloError(
                 "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
                 " no faster than the power law rises; give levels of the hazard instead"
             )
-        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error + (1.0 - p) * h)
+        if np.isfinite(top):
+            # What is still above: between the probability there and 1
+            p, h = float(_probability(fragility, np.exp([top]))[0]), float(hazard(np.exp(top)))
+            total, error = total + p * h, error + (1.0 - p) * h
+        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error)
     cuts = np.log(hazard.im_levels)
-    parts, error = _integrals(integrand, cuts)
+    parts, error = _integrals(fragility, hazard, cuts)
     inside = float(parts.sum())
-    rest = _integrals(integrand, np.linspace(cuts[0] - _FAR, cuts[0], round(_FAR / _STEP) + 1))[0]
-    most = float(rest.sum()) if rest[0] <= _NEGLIGIBLE * (inside + rest.sum()) else np.inf
+    most, _ = _from_zero(fragility, hazard, cuts[0], _FAR, inside)
     last = float(hazard.annual_frequency[-1])
     surely = last * float(_probability(fragility, hazard.im_levels[-1:])[0])
     risk = Risk(fragility, hazard, inside, (0.0, most), (surely, last), error)
@@ -272,53 +338,64 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     return risk
 
 
+def _object_of(fragility: Curve) -> Any:
+    """What a curve is a method of; the curve itself if it is none."""
+    method = fragility.func if isinstance(fragility, functools.partial) else fragility
+    return getattr(method, "__self__", method)
+
+
 def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
     """Probabilities of collapse, checked."""
-    p = np.asarray(fragility(x), dtype=np.float64)
+    given = fragility(x)
+    try:
+        p = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("fragility: must give numbers for an array of intensities") from None
     if p.shape != x.shape:
         raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {x.shape}")
     if not np.all((p >= 0.0) & (p <= 1.0)):
         raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+    order = np.argsort(x, kind="stable")
+    risen = np.maximum.accumulate(p[order])
+    falls = p[order] < risen - _FALL
+    if falls.any():
+        i = int(np.argmax(falls))
+        at, now = x[order][i], p[order][i]
+        raise InputError(f"fragility = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity")
     return p
 
 
 def _integrand(fragility: Curve, hazard: HazardCurve, u: FloatArray) -> FloatArray:
     """P(C | x) |dH/d(ln x)| at u = ln x."""
-    h, slope = hazard._continued(u)
-    return _probability(fragility, np.exp(u)) * slope * h
+    k, start, frequency = hazard._power_laws(u)
+    # Below the levels H may overflow where P vanishes, but not their logarithms
+    with np.errstate(divide="ignore", over="ignore"):
+        return k * np.exp(np.log(_probability(fragility, np.exp(u))) + np.log(frequency) - k * (u - start))
 
 
-def _integrals(integrand: Callable[[FloatArray], FloatArray], cuts: FloatArray) -> tuple[FloatArray, float]:
-    """Integrals between cuts, and their estimated error.
+def _integrals(fragility: Curve, hazard: HazardCurve, cuts: FloatArray) -> tuple[FloatArray, float]:
+    """What intensities between cuts in ln x contribute, and the estimated error of the sum."""
+    if isinstance(fragility, Fragility):
+        return lognormal_integrals(fragility, hazard, cuts), 0.0
+    return integrals(lambda u: _integrand(fragility, hazard, u), cuts)
 
-    Panels are halved where that changes their integral, all at once: a call of the mean of many walls takes long,
-    whatever the number of points, and libraries call point by point.
+
+def _from_zero(
+    fragility: Curve, hazard: HazardCurve, top: float, width: float, beside: float = 0.0
+) -> tuple[float, float]:
+    """What intensities up to the top, in ln x, contribute if the first power law goes on; inf if that has no end.
+
+    Of a curve without a closed form, from the width below the top on; the lowest step of that must be nothing beside
+    the whole.
     """
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
+    if isinstance(fragility, Fragility):
+        return float(lognormal_integrals(fragility, hazard, np.array([-np.inf, top]))[0]), 0.0
+    parts, error = _integrals(fragility, hazard, np.linspace(top - width, top, round(width / _STEP) + 1))
+    total = float(parts.sum())
+    return (total if parts[0] <= _NEGLIGIBLE * (beside + total) < np.inf else np.inf), error
 
-    def gauss(low: FloatArray, high: FloatArray) -> FloatArray:
-        half = 0.5 * (high - low)
-        points = (low + half)[:, None] + half[:, None] * node
-        return integrand(points.ravel()).reshape(points.shape) @ weight * half
 
-    low, high = cuts[:-1], cuts[1:]
-    owner = np.arange(len(low))
-    coarse, done, error = gauss(low, high), np.zeros(len(low)), 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        fine = gauss(np.append(low, middle), np.append(middle, high)).reshape(2, -1)
-        off = np.abs(fine.sum(axis=0) - coarse)
-        share = (high - low) / (cuts[-1] - cuts[0])
-        total = done.sum() + fine.sum()
-        # A jump never earns the share of its panel
-        settled = off <= _TOLERANCE * total * np.maximum(share, _SMALLEST_SHARE)
-        np.add.at(done, owner[settled], fine.sum(axis=0)[settled])
-        error += float(off[settled].sum())
-        rough = ~settled
-        if not rough.any():
-            return done, error
-        low, high = np.append(low[rough], middle[rough]), np.append(middle[rough], high[rough])
-        owner, coarse = np.tile(owner[rough], 2), fine[:, rough].ravel()
-    # What is left are panels about jumps, too narrow to matter
-    np.add.at(done, owner, coarse)
-    return done, error + float(np.abs(coarse).sum())
+def _between(low: float, high: float, unit: str = "") -> str:
+    """One number where both are the same to the digits shown, else both ends."""
+    ends = f"{low:.4g}", f"{high:.4g}"
+    return f"{ends[0] if ends[0] == ends[1] else f'between {ends[0]} and {ends[1]}'} {unit}".rstrip()
