@@ -59,12 +59,11 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "to [1/year]": [number(one.bounds[1], 3) for one in risks],
     }
     if not population:
-        columns |= {
-            "return period from": [number(one.return_period_bounds[0], 3) for one in risks],
-            "to [years]": [number(one.return_period_bounds[1], 3) for one in risks],
-            f"probability in {_YEARS:g} years from": [number(one.probability_bounds(_YEARS)[0], 3) for one in risks],
-            "to": [number(one.probability_bounds(_YEARS)[1], 3) for one in risks],
-        }
+        columns["return period from"] = [number(one.return_period_bounds[0], 3) for one in risks]
+        columns["to [years]"] = [number(one.return_period_bounds[1], 3) for one in risks]
+    chances = [one.probability_bounds(_YEARS) for one in risks]
+    columns[f"probability in {_YEARS:g} years from"] = [number(low, 3) for low, _ in chances]
+    columns["to"] = [number(high, 3) for _, high in chances]
     edges = hazard.im_levels
     parts = risk.deaggregate(edges)
     unit = _binding.unit_of(hazard.im) or "-"
@@ -76,10 +75,10 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
     }
     meaning = (
-        "For a population it is that of a wall drawn by weight: the share of the walls lost a year. In t years no more"
-        " than the share λ t is lost, and less the more the walls differ; how much less the mean curve does not tell. "
+        "For a population it is that of a wall drawn by weight: the share of the walls lost a year; and the probability"
+        f" in {_YEARS:g} years is the share lost in that time, from the frequency of each wall. "
         if population
-        else f"Return period and probability in {_YEARS:g} years take the events for a Poisson process. "
+        else ""
     )
     content = joined(
         paragraph(
@@ -90,7 +89,8 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
             number(low, 3),
             " and ",
             number(high, 3),
-            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for.",
+            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Events are taken"
+            " for a Poisson process.",
         ),
         figure(
             lambda: plot_risk(risk),

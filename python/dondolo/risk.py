@@ -11,7 +11,8 @@ Hazard
     form, of any other curve by Gauss's rule (dondolo._risk_integrals).
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
-    fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n). Those below
+    fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
+    saturation where the curve has one. Those below
     the lowest, x_1, contribute at least 0, and at most the integral with the first power law continued to x = 0: hazard
     curves bend down on logarithmic axes, they are steeper at rare levels than at frequent ones. `Risk.frequency` is the
     lower bound. Hazard curves should begin where nothing collapses and end where nearly all does; a warning says when
@@ -32,8 +33,9 @@ Populations
 
         sum(w_i (1 - exp(-lambda_i t)))/sum(w_i) <= 1 - exp(-lambda t) <= lambda t:
 
-    walls that never collapse take no part however long the time is, and weak ones collapse once. The mean curve does
-    not tell it, only the curves of the walls do.
+    walls that never collapse take no part however long the time is, and weak ones collapse once. So it is computed
+    from the walls behind the mean of a typology; a wall with mechanisms that may not occur is itself a mixture
+    (dondolo._risk_walls). There is no return period of a population.
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
@@ -55,7 +57,8 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_levels, as_number, increasing, shaped
-from dondolo._risk_integrals import integrals, lognormal_integrals
+from dondolo._risk_integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
+from dondolo._risk_walls import WallFrequencies, wall_frequencies
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
@@ -63,10 +66,6 @@ from dondolo.typology import Typology
 
 Curve = Fragility | Callable[[Any], Any]
 
-# A range without end is cut so far away, in ln x, and into such steps; the lowest must not add more than this part
-_FAR = 50.0
-_STEP = 0.5
-_NEGLIGIBLE = 1e-12
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
 # A wall without a fit takes part in a mean with its counts, so that the mean may fall, by no more than this
@@ -111,7 +110,8 @@ class Risk:
     def return_period(self) -> float:
         """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
 
-        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends.
+        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
+        population it is no more than the inverse of the share lost a year.
         """
         return self.return_period_bounds[1]
 
@@ -122,9 +122,9 @@ class Risk:
         return high, low
 
     def probability(self, years: float) -> float:
-        """Probability that one wall collapses within some years, that of `frequency`.
+        """Probability that a wall collapses within some years, its lower bound.
 
-        The least that is possible, which is not on the safe side: `probability_bounds` has both ends.
+        The end that is not on the safe side: `probability_bounds` has both.
 
         Parameters
         ----------
@@ -139,17 +139,11 @@ class Risk:
         ------
         InputError
             Years that are negative or no number.
-        DondoloError
-            The curve is the mean of a population.
         """
         return self.probability_bounds(years)[0]
 
     def probability_bounds(self, years: float) -> tuple[float, float]:
-        """Bounds of the probability that one wall collapses within some years.
-
-        Of a curve with a saturation, for a wall in which a mechanism can occur with that probability; the fit of a
-        population is taken for one of walls that are alike. The mean of a population does not tell such a probability:
-        see the docstring of the module dondolo.risk.
+        """Bounds of the probability that a wall collapses within some years.
 
         Parameters
         ----------
@@ -164,21 +158,30 @@ class Risk:
         ------
         InputError
             Years that are negative or no number.
-        DondoloError
-            The curve is the mean of a population.
+
+        Notes
+        -----
+        For the `mean` of a typology it is that of a wall drawn by weight, the share of the walls that is lost, from the
+        frequencies of all walls. Any other function is taken for the curve of one wall, and the fit of a population for
+        that of walls that are alike, but for its saturation.
         """
         time = as_number("years", years)
-        if not time >= 0.0:
-            raise InputError(f"years = {time:g}: must not be negative")
+        if not 0.0 <= time < np.inf:
+            raise InputError(f"years = {time:g}: must be finite and not negative")
+        if time == 0.0:
+            # Whatever the frequency
+            return 0.0, 0.0
+        return self._walls.probability(time)
+
+    @functools.cached_property
+    def _walls(self) -> WallFrequencies:
+        """The walls behind the curve."""
         if self._of_several:
-            raise DondoloError(
-                "probability: is of one wall, and this frequency is the mean of several; that of a population is the"
-                " weighted mean of the probabilities of its walls"
-            )
-        most = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
-        # No time is no collapse, whatever the frequency
-        low, high = (most * -np.expm1(-value / most * time) if time * value > 0.0 else 0.0 for value in self.bounds)
-        return float(low), float(high)
+            options = self.fragility.keywords if isinstance(self.fragility, functools.partial) else {}
+            members = _object_of(self.fragility)._members(options.get("mechanism"), options.get("group", ""))
+            return wall_frequencies(members, self.hazard)
+        share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
+        return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
 
     @property
     def _of_several(self) -> bool:
@@ -208,7 +211,8 @@ class Risk:
             raise InputError("x: must be positive")
         flat = values.ravel()
         inside = self.hazard._covers(flat)
-        return shaped(np.where(inside, _integrand(self.fragility, self.hazard, np.log(flat)), 0.0), values)
+        found = integrand(functools.partial(_probability, self.fragility), self.hazard, np.log(flat))
+        return shaped(np.where(inside, found, 0.0), values)
 
     def deaggregate(self, edges: ArrayLike) -> FloatArray:
         """Deaggregation: what the intensities between edges contribute to the frequency.
@@ -235,18 +239,19 @@ class Risk:
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
         if len(cuts) == 1:
             return np.zeros(len(x) - 1)
-        parts, _ = _integrals(self.fragility, self.hazard, np.log(cuts))
+        if isinstance(self.fragility, Fragility):
+            curve = self.fragility
+            parts = curve.saturation * lognormal_integrals(curve.theta, curve.beta, self.hazard, np.log(cuts))
+        else:
+            probability = functools.partial(_probability, self.fragility)
+            parts, _ = integrals(lambda u: integrand(probability, self.hazard, u), np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("mean annual frequency of collapse", _between(*self.bounds, "a year"))]
-        if self._of_several:
-            return facts
-        return [
-            *facts,
-            ("return period", _between(*self.return_period_bounds, "years")),
-            ("probability in 50 years", _between(*self.probability_bounds(50.0))),
-        ]
+        if not self._of_several:
+            facts.append(("return period", _between(*self.return_period_bounds, "years")))
+        return [*facts, ("probability in 50 years", _between(*self.probability_bounds(50.0)))]
 
     def __repr__(self) -> str:
         return "<Risk: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
@@ -304,27 +309,19 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):
         fragility._need_fit()
-
+        one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
+        inside, below, above, error = (most * float(part) for part in one)
+    else:
+        one, most = of_function(functools.partial(_probability, fragility), hazard), 1.0
+        inside, below, above, error = map(float, one)
+    if np.isinf(inside):
+        raise DondoloError(
+            "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
+            " no faster than the power law rises; give levels of the hazard instead"
+        )
     if hazard.endless:
-        top = np.inf if isinstance(fragility, Fragility) else _FAR
-        total, error = _from_zero(fragility, hazard, top, 2.0 * _FAR)
-        if np.isinf(total):
-            raise DondoloError(
-                "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
-                " no faster than the power law rises; give levels of the hazard instead"
-            )
-        if np.isfinite(top):
-            # What is still above: between the probability there and 1
-            p, h = float(_probability(fragility, np.exp([top]))[0]), float(hazard(np.exp(top)))
-            total, error = total + p * h, error + (1.0 - p) * h
-        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error)
-    cuts = np.log(hazard.im_levels)
-    parts, error = _integrals(fragility, hazard, cuts)
-    inside = float(parts.sum())
-    most, _ = _from_zero(fragility, hazard, cuts[0], _FAR, inside)
-    last = float(hazard.annual_frequency[-1])
-    surely = last * float(_probability(fragility, hazard.im_levels[-1:])[0])
-    risk = Risk(fragility, hazard, inside, (0.0, most), (surely, last), error)
+        return Risk(fragility, hazard, inside, (0.0, 0.0), (0.0, 0.0), error)
+    risk = Risk(fragility, hazard, inside, (0.0, below), (above, most * float(hazard.annual_frequency[-1])), error)
     low, high = risk.bounds
     if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
@@ -363,36 +360,6 @@ def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
         at, now = x[order][i], p[order][i]
         raise InputError(f"fragility = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity")
     return p
-
-
-def _integrand(fragility: Curve, hazard: HazardCurve, u: FloatArray) -> FloatArray:
-    """P(C | x) |dH/d(ln x)| at u = ln x."""
-    k, start, frequency = hazard._power_laws(u)
-    # Below the levels H may overflow where P vanishes, but not their logarithms
-    with np.errstate(divide="ignore", over="ignore"):
-        return k * np.exp(np.log(_probability(fragility, np.exp(u))) + np.log(frequency) - k * (u - start))
-
-
-def _integrals(fragility: Curve, hazard: HazardCurve, cuts: FloatArray) -> tuple[FloatArray, float]:
-    """What intensities between cuts in ln x contribute, and the estimated error of the sum."""
-    if isinstance(fragility, Fragility):
-        return lognormal_integrals(fragility, hazard, cuts), 0.0
-    return integrals(lambda u: _integrand(fragility, hazard, u), cuts)
-
-
-def _from_zero(
-    fragility: Curve, hazard: HazardCurve, top: float, width: float, beside: float = 0.0
-) -> tuple[float, float]:
-    """What intensities up to the top, in ln x, contribute if the first power law goes on; inf if that has no end.
-
-    Of a curve without a closed form, from the width below the top on; the lowest step of that must be nothing beside
-    the whole.
-    """
-    if isinstance(fragility, Fragility):
-        return float(lognormal_integrals(fragility, hazard, np.array([-np.inf, top]))[0]), 0.0
-    parts, error = _integrals(fragility, hazard, np.linspace(top - width, top, round(width / _STEP) + 1))
-    total = float(parts.sum())
-    return (total if parts[0] <= _NEGLIGIBLE * (beside + total) < np.inf else np.inf), error
 
 
 def _between(low: float, high: float, unit: str = "") -> str:

@@ -239,11 +239,13 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     assert value(shown["high, collapse"]) == pytest.approx(high.frequency, rel=5e-3)
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
     np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
-    # The probability in some years is that of one wall.
-    assert list(table) == ["curve", "annual frequency from", "to [1/year]"]
+    # A population has no return period; what it loses in some years comes from its walls.
+    ends = ("probability in 50 years from", "to")
+    assert list(table) == ["curve", "annual frequency from", "to [1/year]", *ends]
+    assert [value(table[name][1]) for name in ends] == pytest.approx(risk.probability_bounds(50.0), rel=5e-3)
     table = read(pages / "stripes.html").table("Mean annual frequencies")
     one = dd.mean_annual_frequency(stripes.fit(), hazard)
-    ends = ("return period from", "to [years]", "probability in 50 years from", "to")
+    ends = ("return period from", "to [years]", *ends)
     expected = (*one.return_period_bounds, *one.probability_bounds(50.0))
     assert [value(table[name][0]) for name in ends] == pytest.approx(expected, rel=5e-3)
     assert value(table["to [1/year]"][0]) == pytest.approx(one.bounds[1], rel=5e-3)

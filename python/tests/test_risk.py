@@ -2,6 +2,7 @@
 
 import doctest
 import functools
+import itertools
 import warnings
 from dataclasses import replace
 
@@ -226,8 +227,9 @@ def test_time(hazard, curve):
     # As many collapses as a Poisson process has
     counts = np.random.default_rng(3).poisson(risk.frequency * 2000.0, 100_000)
     assert risk.probability(2000.0) == pytest.approx((counts > 0).mean(), abs=0.005)
-    with pytest.raises(dd.InputError, match="must not be negative"):
-        risk.probability(-1.0)
+    for wrong in (-1.0, np.nan, np.inf):
+        with pytest.raises(dd.InputError, match="must be finite and not negative"):
+            risk.probability(wrong)
 
 
 def test_both_ends_are_told(curve):
@@ -252,31 +254,92 @@ def test_both_ends_are_told(curve):
     assert "return period between 0 and 10 years" in repr(open_end)
 
 
-def test_time_of_a_population(records):
-    """Walls that never collapse take no part, however long the time is; the mean frequency does not tell which do."""
-    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
-    people = dd.Population(walls, p_occ=[1.0, 0.0])
+@pytest.fixture(scope="module")
+def people(records):
+    """Walls with a mechanism that cannot occur, with two that may or may not, and without a fit."""
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.OneSidedWall(1.5, 0.25, name="b"),
+        dd.OneSidedWall(2.0, 0.25, name="c"),
+        dd.TwoBlockWall(2.0, 0.12, name="c"),
+        dd.FreeStandingWall(2.0, 0.3, name="c"),
+        dd.OneSidedWall(1.5, 0.8, name="d"),
+        dd.OneSidedWall(6.0, 0.5, name="e"),
+        dd.TwoBlockWall(3.0, 0.6, name="e"),
+    ]
+    p_occ, groups = [1.0, 0.0, 0.5, 0.3, 0.2, 1.0, 0.25, 1.0], ["low"] * 6 + ["high"] * 2
+    weights = [1.0, 1.0, 2.0, 2.0, 2.0, 0.5, 3.0, 3.0]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
-        people = dd.typology(people, records[::4], [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6, 2.0], progress=False)
+        levels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6]
+        population = dd.Population(walls, weights, groups, p_occ)
+        made = dd.typology(population, records[::4], levels, progress=False)
+    assert {"no_collapse", "ok"} < {curve.status for curve in made.curves}
+    return made
+
+
+def losses(people, hazard, years, group=""):
+    """Bounds of the share lost in some years: walls, and combinations of what can occur in them, one by one."""
+    walls, rows = {}, people.population
+    for i, wall in enumerate(rows):
+        if group in ("", rows.groups[i]):
+            walls.setdefault(wall.name, []).append(i)
+    weight, sums = 0.0, np.zeros(2)
+    for one in walls.values():
+        weight += rows.weights[one[0]]
+        for occurs in itertools.product((False, True), repeat=len(one)):
+            share = rows.weights[one[0]] * np.prod(np.where(occurs, rows.p_occ[one], 1.0 - rows.p_occ[one]))
+            if share == 0.0 or not any(occurs):
+                continue
+
+            def probability(x, one=one, occurs=occurs):
+                stands = np.ones_like(x)
+                for i in itertools.compress(one, occurs):
+                    curve, counts = people.curves[i], people.collapses[:, i] / people.histories[i]
+                    stands *= 1.0 - (curve(x) if curve.has_fit else np.interp(x, people.levels, counts))
+                return 1.0 - stands
+
+            low, high = dd.mean_annual_frequency(probability, hazard).bounds
+            sums -= share * np.expm1(-years * np.array([low, high]))
+    return sums / weight
+
+
+@pytest.mark.parametrize("group", ["", "high"])
+@pytest.mark.parametrize("endless", [False, True])
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_time_of_a_population(people, hazard, endless, group):
+    """Each wall has its own frequency, and where a mechanism may not occur, several."""
+    hazard = dd.HazardCurve.power_law(2e-3, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
+    risk = dd.mean_annual_frequency(functools.partial(people.mean, group=group), hazard)
+    for years in (1e-3, 50.0, 475.0, 1e5):
+        bounds = risk.probability_bounds(years)
+        np.testing.assert_allclose(bounds, losses(people, hazard, years, group), rtol=1e-6)
+        # No more than if all walls were alike
+        for end, frequency in zip(bounds, risk.bounds, strict=True):
+            assert end <= -np.expm1(-years * frequency)
+    assert risk.probability(1e-3) == pytest.approx(1e-3 * risk.frequency, rel=1e-3)
+    assert "return period" not in repr(risk)
+    assert f"probability in 50 years {'between ' * (not endless)}{risk.probability(50.0):.4g}" in repr(risk)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_time_ends_at_the_saturation(people, records):
+    """Walls that never collapse take no part, however long the time is."""
     hazard = dd.HazardCurve.power_law(8e-3, 2.5)
-    mean = dd.mean_annual_frequency(people.mean, hazard)
-    one = dd.mean_annual_frequency(people.combined["a"], hazard)
-    assert mean.frequency == pytest.approx(0.5 * one.frequency, rel=1e-7)
-    exact = 0.5 * one.probability(200.0)
-    assert exact < 0.5 < 1.0 - np.exp(-200.0 * mean.frequency)
-    for risk in (mean, dd.mean_annual_frequency(functools.partial(people.mean, mechanism="all"), hazard)):
-        with pytest.raises(dd.DondoloError, match="is of one wall, and this frequency is the mean of several"):
-            risk.probability(200.0)
-        assert "50 years" not in repr(risk)
-        assert "return period" not in repr(risk)
-    # The fit knows which share can collapse at all
-    fit = dd.mean_annual_frequency(people.fit(), hazard)
-    assert people.fit().saturation == 0.5
-    assert fit.probability(200.0) == pytest.approx(exact, rel=0.01)
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
+    two = dd.typology(dd.Population(walls, p_occ=[1.0, 0.0]), records[::4], people.levels, progress=False)
+    risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two.mean, two.combined["a"]))
+    assert risk.frequency == pytest.approx(0.5 * one.frequency, rel=1e-7)
+    assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
+    assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.frequency)
+    assert risk.probability(1e6) == pytest.approx(0.5)
+    # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
+    fit = dd.mean_annual_frequency(two.fit(), hazard)
+    assert two.fit().saturation == 0.5
+    assert fit.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=0.01)
     assert fit.probability(1e6) == pytest.approx(0.5)
-    walls = [dd.mean_annual_frequency(curve, hazard) for curve in people.combined.values() if curve.has_fit]
-    assert sum(wall.probability(200.0) for wall in walls) / 2.0 == pytest.approx(exact, rel=1e-9)
+    alone = dd.mean_annual_frequency(functools.partial(two.mean, mechanism="one_sided"), hazard)
+    assert alone.probability(200.0) == pytest.approx(one.probability(200.0), rel=1e-7)
 
 
 def test_deaggregation(hazard, curve):
