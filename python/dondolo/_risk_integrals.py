@@ -18,6 +18,7 @@ Other curves
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -38,7 +39,7 @@ _SMALLEST_SHARE = 1e-3
 _NODES = 8
 _HALVINGS = 60
 _MOST_PANELS = 1_000_000
-# A range without end is cut so far away, in ln x, and into such steps; the lowest must not add more than this part
+# A range without end is cut there, in ln x, and into such steps; the lowest must not add more than this part
 _FAR = 50.0
 _STEP = 0.5
 _NEGLIGIBLE = 1e-12
@@ -79,28 +80,35 @@ def of_lognormal(theta: FloatArray, beta: FloatArray, hazard: HazardCurve) -> Co
     return Contributions(inside, below, above, nothing)
 
 
-def of_function(probability: Probability, hazard: HazardCurve) -> Contributions:
+def of_function(
+    probability: Probability, hazard: HazardCurve, ends: tuple[float, float] = (-_FAR, _FAR)
+) -> Contributions:
     """What intensities contribute where the probability is a function; an endless power law may give inf.
 
-    Ranges without end are those of the module. Raises DondoloError where the function is too rough.
+    The ends are those, in ln x, below which the probability does not count, and above which it stays. Raises
+    DondoloError where the function is too rough.
     """
 
     def parts_of(cuts: FloatArray) -> tuple[FloatArray, FloatArray]:
         return integrals(lambda u: integrand(probability, hazard, u), cuts)
 
+    def steps(low: float, high: float) -> FloatArray:
+        return np.linspace(low, high, math.ceil((high - low) / _STEP) + 1)
+
     def converged(parts: FloatArray, beside: FloatArray | float = 0.0) -> FloatArray:
         whole = beside + parts.sum(axis=-1)
         return np.where((parts[..., 0] <= _NEGLIGIBLE * whole) & (whole < np.inf), parts.sum(axis=-1), np.inf)
 
+    low, top = max(ends[0], -_FAR), min(ends[1], _FAR)
     if hazard.endless:
-        parts, error = parts_of(np.linspace(-_FAR, _FAR, round(2.0 * _FAR / _STEP) + 1))
+        parts, error = parts_of(steps(low, top))
         # What is still above: between the probability there and 1
-        p, h = probability(np.exp([_FAR]))[..., 0], float(hazard(np.exp(_FAR)))
+        p, h = probability(np.exp([top]))[..., 0], float(hazard(np.exp(top)))
         return Contributions(converged(parts) + p * h, 0.0 * p, 0.0 * p, error + (1.0 - p) * h)
     cuts = np.log(hazard.im_levels)
     parts, error = parts_of(cuts)
     inside = parts.sum(axis=-1)
-    below, _ = parts_of(np.linspace(cuts[0] - _FAR, cuts[0], round(_FAR / _STEP) + 1))
+    below, _ = parts_of(steps(min(low, cuts[0] - _STEP), cuts[0]))
     above = probability(hazard.im_levels[-1:])[..., 0] * hazard.annual_frequency[-1]
     return Contributions(inside, converged(below, inside), above, error)
 

@@ -11,6 +11,7 @@ and the mean frequency is the sum of share_is lambda_is.
 
 from __future__ import annotations
 
+import functools
 import itertools
 from typing import NamedTuple
 
@@ -23,6 +24,8 @@ from dondolo.hazard import HazardCurve
 
 # Walls that are integrated together: a few tens of MB
 _BLOCK = 100
+# So many dispersions away a normal distribution is 0 or 1 to all digits
+_DISPERSIONS = 10.0
 
 
 class WallFrequencies(NamedTuple):
@@ -62,7 +65,8 @@ def wall_frequencies(members: Members, hazard: HazardCurve) -> WallFrequencies:
     -------
     WallFrequencies
     """
-    found = []
+    # There may be nothing that can occur at all
+    found = [(np.zeros(0),) * 3]
     for occurs in itertools.product((True, False), repeat=len(members.rows)):
         share, chosen = members.weights / members.weights.sum(), []
         for there, (walls, rows) in zip(occurs, members.rows, strict=True):
@@ -79,11 +83,13 @@ def wall_frequencies(members: Members, hazard: HazardCurve) -> WallFrequencies:
             fitted = ~np.isnan(members.theta[mechanisms[0]])
             rows = mechanisms[0, fitted]
             parts = of_lognormal(members.theta[rows], members.beta[rows], hazard)
-            found.append((share[these[fitted]], *_ends(parts, hazard)))
+            found.append((share[these[fitted]], *_bounds(parts, hazard)))
         rest = np.flatnonzero(~fitted)
-        for block in np.array_split(rest, -(-len(rest) // _BLOCK) or 1):
-            parts = of_function(lambda x, rows=mechanisms[:, block]: _in_series(members, rows, x), hazard)
-            found.append((share[these[block]], *_ends(parts, hazard)))
+        for start in range(0, len(rest), _BLOCK):
+            block = rest[start : start + _BLOCK]
+            rows = mechanisms[:, block]
+            parts = of_function(functools.partial(_in_series, members, rows), hazard, _ends_of(members, rows, hazard))
+            found.append((share[these[block]], *_bounds(parts, hazard)))
     return WallFrequencies(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
 
@@ -95,7 +101,17 @@ def _in_series(members: Members, rows: np.ndarray, x: FloatArray) -> FloatArray:
     return whole
 
 
-def _ends(parts: Contributions, hazard: HazardCurve) -> tuple[FloatArray, FloatArray]:
+def _ends_of(members: Members, rows: np.ndarray, hazard: HazardCurve) -> tuple[float, float]:
+    """Where the integrals of fitted rows begin and end, in ln x: walls of a kind need little of the whole range."""
+    mean, beta = np.log(members.theta[rows]), members.beta[rows]
+    if np.isnan(mean).any():
+        return -np.inf, np.inf
+    # P H, with the power law H, is a normal density k beta dispersions below the median
+    low = mean - (hazard._slopes()[0] * beta + _DISPERSIONS) * beta
+    return float(low.min()), float((mean + _DISPERSIONS * beta).max())
+
+
+def _bounds(parts: Contributions, hazard: HazardCurve) -> tuple[FloatArray, FloatArray]:
     """Bounds of the frequencies."""
     beyond = 0.0 if hazard.endless else float(hazard.annual_frequency[-1])
     return parts.inside + parts.above, parts.inside + parts.below + beyond

@@ -178,6 +178,11 @@ class HazardCurve:
         -------
         float or ndarray, shape of x
             [1/year]; NaN beyond the levels, where nothing is known.
+
+        Raises
+        ------
+        InputError
+            Intensities that are negative or no numbers.
         """
         values = as_levels(x)
         flat = values.ravel()

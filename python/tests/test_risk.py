@@ -333,6 +333,8 @@ def test_time_ends_at_the_saturation(people, records):
     assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
     assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.frequency)
     assert risk.probability(1e6) == pytest.approx(0.5)
+    never = dd.typology(dd.Population(walls, p_occ=[0.0, 0.0]), records[::4], people.levels, progress=False)
+    assert dd.mean_annual_frequency(never.mean, hazard).probability_bounds(50.0) == (0.0, 0.0)
     # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
     fit = dd.mean_annual_frequency(two.fit(), hazard)
     assert two.fit().saturation == 0.5
