@@ -108,7 +108,8 @@ def of_function(
     cuts = np.log(hazard.im_levels)
     parts, error = parts_of(cuts)
     inside = parts.sum(axis=-1)
-    below, _ = parts_of(steps(min(low, cuts[0] - _STEP), cuts[0]))
+    # Far enough for its lowest step to tell whether there is an end
+    below, _ = parts_of(steps(min(low, cuts[0]) - 10.0 * _STEP, cuts[0]))
     above = probability(hazard.im_levels[-1:])[..., 0] * hazard.annual_frequency[-1]
     return Contributions(inside, converged(below, inside), above, error)
 
