@@ -3,7 +3,7 @@
 !> The small texts are written here, in the layout of each format; recorded files are read where there are any.
 program test_archives
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed
    use dondolo_kinds, only : wp
@@ -541,7 +541,7 @@ contains
 
    !> Recorded files, where there are any: peaks and steps as in their manifest, counts, first and last values
    subroutine test_samples()
-      type(csv_table_type) :: table
+      type(csv_reader_type) :: table
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder, file, channel
@@ -559,12 +559,15 @@ contains
          call skip('no recorded accelerograms in '//folder)
          return
       end if
-      call read_csv(folder//'/manifest.csv', table, error)
+      call table%open(folder//'/manifest.csv', error)
       call check_ok(error, 'manifest')
       if (allocated(error)) return
       tested = 0
-      do row = 1, table%rows()
-         file = table%get_text(row, table%column('file'))
+      do
+         call table%next(found, error)
+         call check_ok(error, 'row')
+         if (.not. found) exit
+         file = table%get_text(table%column('file'))
          if (index(file, 'formats/cosmos/') + index(file, 'formats/csmip_v2/') + index(file, 'formats/geonet/') + &
             & index(file, 'formats/smc/') == 0) cycle
          tested = tested + 1
@@ -574,11 +577,11 @@ contains
          call read_record(folder//'/'//before(file, ' ('), record, error, channel=channel)
          call check_ok(error, file)
          if (allocated(error)) cycle
-         call table%get_real(row, table%column('pga_m_s2'), number, error)
+         call table%get_real(table%column('pga_m_s2'), number, error)
          call check_close(record%pga(), number, 1.0e-3_wp, 'PGA of '//file)
-         call table%get_real(row, table%column('dt_s'), number, error)
+         call table%get_real(table%column('dt_s'), number, error)
          call check_close(record%dt, number, 1.0e-9_wp, 'dt of '//file)
-         call table%get_real(row, table%column('npts'), number, error)
+         call table%get_real(table%column('npts'), number, error)
          call check(size(record%acceleration) == nint(number), 'number of values of '//file)
          if (index(file, '.V2c') > 0) then
             call check_ends(record, 3.437285e-6_wp, 2.412614e-6_wp)

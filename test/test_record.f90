@@ -2,7 +2,7 @@
 program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
-   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
@@ -160,43 +160,59 @@ contains
 
    !> Tables that are right
    subroutine test_csv()
-      type(csv_table_type) :: table
+      type(csv_reader_type) :: table
       type(error_type), allocatable :: error
       real(wp) :: value
+      logical :: found
 
       call suite('csv')
       call write_file('good.csv', achar(239)//achar(187)//achar(191)//'# remark, with "one quote'//lf//lf// &
          & 'name, height_m ,"a ""b"", c"'// &
          & cr//lf//'x , 2.5,plain'//cr//lf//'  '//lf//'# again'//lf//'"two'//lf//'lines, one cell" , 1.0D-3 ,""'// &
          & lf//',,"say ""hi"""')
-      call read_csv(scratch//'/good.csv', table, error)
+      call table%open(scratch//'/good.csv', error)
       call check_ok(error, 'read')
       if (allocated(error)) return
       call check(size(table%columns) == 3, 'three columns')
-      call check(table%rows() == 3, 'three rows')
       call check(table%column('name') == 1 .and. table%column('HEIGHT_m') == 2 .and. table%column('a "b", c') == 3, &
          & 'columns')
       call check(table%column('a') == 0 .and. table%column('') == 0, 'no such column')
-      call check_text(table%get_text(1, 1), 'x', 'cell 1 1')
-      call check_text(table%get_text(1, 3), 'plain', 'cell 1 3')
-      call check_text(table%get_text(2, 1), 'two'//lf//'lines, one cell', 'cell 2 1')
-      call check_text(table%get_text(2, 3), '', 'cell 2 3')
-      call check_text(table%get_text(3, 1), '', 'cell 3 1')
-      call check_text(table%get_text(3, 3), 'say "hi"', 'cell 3 3')
-      call check_text(table%get_text(3, 0), '', 'cell of a column that is absent')
-      call check(all(table%line == [4, 7, 9]), 'line numbers')
-      call table%get_real(1, 2, value, error)
+      call next_row(4, 'x', 'plain')
+      call table%get_real(2, value, error)
       call check_close(value, 2.5_wp, 0.0_wp, 'number')
-      call table%get_real(2, 2, value, error)
+      call table%get_real(3, value, error)
+      call check_error(error, 'a "b", c = ''plain'': must be a number', 'word')
+      call next_row(7, 'two'//lf//'lines, one cell', '')
+      call table%get_real(2, value, error)
       call check_close(value, 1.0e-3_wp, 0.0_wp, 'number with D exponent')
-      call table%get_real(1, 3, value, error)
-      call check_error(error, scratch//'/good.csv: line 4: a "b", c = ''plain'': must be a number', 'word')
-      call table%get_real(3, 2, value, error)
-      call check_error(error, scratch//'/good.csv: line 9: height_m = '''': must be a number', 'empty cell')
+      call next_row(9, '', 'say "hi"')
+      call check_text(table%get_text(0), '', 'cell of a column that is absent')
+      call table%get_real(2, value, error)
+      call check_error(error, 'height_m = '''': must be a number', 'empty cell')
+      call table%next(found, error)
+      call check_ok(error, 'end')
+      call check(.not. found, 'three rows')
       call write_file('good.csv', 'a,b'//cr//lf)
-      call read_csv(scratch//'/good.csv', table, error)
+      call table%open(scratch//'/good.csv', error)
       call check_ok(error, 'header only')
-      call check(table%rows() == 0, 'no rows')
+      call table%next(found, error)
+      call check(.not. found, 'no rows')
+
+   contains
+
+      !> The next row of the table
+      subroutine next_row(line, first, last)
+         integer, intent(in) :: line
+         character(len=*), intent(in) :: first, last
+
+         call table%next(found, error)
+         call check_ok(error, 'row')
+         call check(found .and. table%line == line, 'line number')
+         call check_text(table%place(), scratch//'/good.csv: line '//to_text(line), 'place')
+         call check_text(table%get_text(1), first, 'first cell')
+         call check_text(table%get_text(3), last, 'last cell')
+      end subroutine next_row
+
    end subroutine test_csv
 
    !> Tables that are wrong
@@ -219,11 +235,16 @@ contains
    !> A table with an error
    subroutine check_csv(content, part)
       character(len=*), intent(in) :: content, part
-      type(csv_table_type) :: table
+      type(csv_reader_type) :: table
       type(error_type), allocatable :: error
+      logical :: found
 
       call write_file('bad.csv', content)
-      call read_csv(scratch//'/bad.csv', table, error)
+      call table%open(scratch//'/bad.csv', error)
+      found = .true.
+      do while (found .and. .not. allocated(error))
+         call table%next(found, error)
+      end do
       call check_error(error, scratch//'/bad.csv'//part, 'table '//content)
    end subroutine check_csv
 
@@ -585,7 +606,7 @@ contains
 
    !> Recorded accelerograms, where there are any: peaks and steps as in their manifest, and the catalogue italy44
    subroutine test_samples()
-      type(csv_table_type) :: table
+      type(csv_reader_type) :: table
       type(record_type), allocatable :: records(:)
       type(record_type) :: record
       type(error_type), allocatable :: error
@@ -604,15 +625,18 @@ contains
          call skip('no recorded accelerograms in '//folder)
          return
       end if
-      call read_csv(folder//'/manifest.csv', table, error)
+      call table%open(folder//'/manifest.csv', error)
       call check_ok(error, 'manifest')
       if (allocated(error)) return
       tested = 0
-      do row = 1, table%rows()
-         file = table%get_text(row, table%column('file'))
+      do
+         call table%next(found, error)
+         call check_ok(error, 'row')
+         if (.not. found) exit
+         file = table%get_text(table%column('file'))
          if (.not. is_read(file)) cycle
          tested = tested + 1
-         call table%get_real(row, table%column('dt_s'), dt, error)
+         call table%get_real(table%column('dt_s'), dt, error)
          call check_ok(error, 'dt of '//file)
          if (index(file, '.VEL.') > 0) then
             call read_record(folder//'/'//file, record, error)
@@ -629,8 +653,8 @@ contains
          call check_ok(error, file)
          if (allocated(error)) cycle
          call check_close(record%dt, dt, 1.0e-6_wp, 'dt of '//file)
-         if (len(table%get_text(row, table%column('pga_m_s2'))) == 0) cycle
-         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+         if (len(table%get_text(table%column('pga_m_s2'))) == 0) cycle
+         call table%get_real(table%column('pga_m_s2'), pga, error)
          call check_close(record%pga(), pga, 1.0e-3_wp, 'PGA of '//file)
       end do
       call check(tested >= 97, to_text(tested)//' files tested')
@@ -638,9 +662,11 @@ contains
       call check_ok(error, 'italy44')
       if (allocated(error)) return
       call check(size(records) == 44, '44 records')
-      call read_csv(folder//'/italy44.csv', table, error)
-      do row = 1, min(size(records), table%rows())
-         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+      call table%open(folder//'/italy44.csv', error)
+      do row = 1, size(records)
+         call table%next(found, error)
+         call check(found, 'as many rows')
+         call table%get_real(table%column('pga_m_s2'), pga, error)
          call check_close(records(row)%pga(), pga, 1.0e-3_wp, 'PGA of '//records(row)%name)
       end do
    end subroutine test_samples

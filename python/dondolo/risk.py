@@ -12,10 +12,10 @@ Hazard
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
-    saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral with
-    the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare levels
-    than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing collapses and
-    end where nearly all does; a warning says when the bounds differ by more than 1 %.
+    saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
+    with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
+    levels than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing
+    collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
 Power laws
     With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
 

@@ -14,7 +14,6 @@ module dondolo_csv_reader
    private
 
    public :: csv_reader_type, cell_type
-   public :: column_named, number_of
 
    !> Blanks around cells
    character(len=*), parameter :: blanks = ' '//achar(9)
@@ -290,10 +289,12 @@ contains
    pure integer function column(self, name)
       !> Reader
       class(csv_reader_type), intent(in) :: self
-      !> Name, in upper or lower case
+      !> Name, in upper or lower case; there is none with number 0
       character(len=*), intent(in) :: name
 
-      column = column_named(self%columns, name)
+      do column = size(self%columns), 1, -1
+         if (lower(self%columns(column)%text) == lower(name)) exit
+      end do
    end function column
 
    !> Where the row is, for messages
@@ -323,14 +324,20 @@ contains
    subroutine get_real(self, column, value, error)
       !> Reader
       class(csv_reader_type), intent(in) :: self
-      !> Number of the column
+      !> Number of the column, from 1
       integer, intent(in) :: column
       !> Number in the cell
       real(wp), intent(out) :: value
       !> The cell is not one finite decimal number; the place is left to be added
       type(error_type), allocatable, intent(out) :: error
 
-      call number_of(self%cells(column)%text, self%columns(column)%text, value, error)
+      logical :: ok
+
+      associate (cell => self%cells(column)%text)
+         call parse_real(cell, value, ok)
+         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell// &
+            & ''': must be a number, with a decimal point')
+      end associate
    end subroutine get_real
 
    !> Close the file before the end is reached
@@ -340,36 +347,5 @@ contains
 
       call self%lines%close()
    end subroutine close_table
-
-   !> The column of a name
-   pure function column_named(columns, name) result(column)
-      !> Names of the columns
-      type(cell_type), intent(in) :: columns(:)
-      !> Name, in upper or lower case
-      character(len=*), intent(in) :: name
-      !> Number of the column, 0 if there is none
-      integer :: column
-
-      do column = size(columns), 1, -1
-         if (lower(columns(column)%text) == lower(name)) exit
-      end do
-   end function column_named
-
-   !> The number in a cell
-   subroutine number_of(cell, column, value, error)
-      !> Text of the cell
-      character(len=*), intent(in) :: cell
-      !> Name of its column
-      character(len=*), intent(in) :: column
-      !> The number
-      real(wp), intent(out) :: value
-      !> The cell is not one finite decimal number
-      type(error_type), allocatable, intent(out) :: error
-
-      logical :: ok
-
-      call parse_real(cell, value, ok)
-      if (.not. ok) call raise_input(error, column//' = '''//cell//''': must be a number, with a decimal point')
-   end subroutine number_of
 
 end module dondolo_csv_reader

@@ -4,9 +4,10 @@
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
 module dondolo_catalogue
    use dondolo_channel, only : stem
-   use dondolo_csv, only : csv_table_type, read_csv
+   use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
    implicit none
@@ -25,35 +26,66 @@ contains
       !> The catalogue or one of its records is wrong
       type(error_type), allocatable, intent(out) :: error
 
-      type(csv_table_type) :: table
-      integer :: row
+      type(csv_reader_type) :: table
+      type(lines_type) :: paths, places, names
+      integer :: rows, row
+      logical :: found
 
-      call read_csv(file, table, error)
+      call count_rows(file, rows, error)
+      if (.not. allocated(error)) call table%open(file, error)
+      if (allocated(error)) return
+      allocate (records(rows))
+      do row = 1, rows
+         call table%next(found, error)
+         if (.not. allocated(error) .and. .not. found) call raise_input(error, file//': has changed while it was read')
+         if (.not. allocated(error)) call read_row(table, records(row), error)
+         if (allocated(error)) exit
+         call paths%add(table%get_text(table%column('file')))
+         call places%add(table%place())
+         call names%add(trim(adjustl(table%get_text(table%column('name')))))
+      end do
+      call table%close()
+      if (.not. allocated(error)) call name_records(paths, places, names, records, error)
+      if (allocated(error)) deallocate (records)
+   end subroutine read_catalogue
+
+   !> Look through a catalogue before its records are read
+   subroutine count_rows(file, rows, error)
+      !> Path of the catalogue
+      character(len=*), intent(in) :: file
+      !> Number of its rows
+      integer, intent(out) :: rows
+      !> It is no table, or not of records
+      type(error_type), allocatable, intent(out) :: error
+
+      type(csv_reader_type) :: table
+      logical :: found
+
+      rows = 0
+      call table%open(file, error)
       if (allocated(error)) return
       if (table%column('file') == 0) then
          call raise_input(error, file//': no column ''file'': must have file, and dt_s and units '// &
             & 'where the files do not state them')
-         return
+      else
+         do
+            call table%next(found, error)
+            if (allocated(error) .or. .not. found) exit
+            rows = rows + 1
+         end do
+         if (rows == 0 .and. .not. allocated(error)) call raise_input(error, file//': no records')
       end if
-      if (table%rows() == 0) then
-         call raise_input(error, file//': no records')
-         return
-      end if
-      allocate (records(table%rows()))
-      do row = 1, table%rows()
-         call read_row(table, row, records(row), error)
-         if (.not. allocated(error)) cycle
-         deallocate (records)
-         return
-      end do
-      call name_records(table, records, error)
-      if (allocated(error)) deallocate (records)
-   end subroutine read_catalogue
+      call table%close()
+   end subroutine count_rows
 
    !> Give every record a name of its own
-   subroutine name_records(table, records, error)
-      !> The catalogue
-      type(csv_table_type), intent(in) :: table
+   subroutine name_records(paths, places, names, records, error)
+      !> Path of each file as the catalogue writes it
+      type(lines_type), intent(in) :: paths
+      !> Where each row is
+      type(lines_type), intent(in) :: places
+      !> Name of each that is given, or nothing
+      type(lines_type), intent(in) :: names
       !> The records, named by the stems of their files
       type(record_type), intent(inout) :: records(:)
       !> Two records are the same, or have the same name given
@@ -64,17 +96,16 @@ contains
       integer :: length(size(records)), row, k, level
 
       do row = 1, size(records)
-         path = trim(adjustl(table%get_text(row, table%column('name'))))
-         is_given(row) = len(path) > 0
-         if (is_given(row)) records(row)%name = path
+         is_given(row) = len(names%line(row)%text) > 0
+         if (is_given(row)) records(row)%name = names%line(row)%text
          ! What follows is the channel
-         length(row) = len(stem(table%get_text(row, table%column('file'))))
+         length(row) = len(stem(paths%line(row)%text))
       end do
       do level = 1, 2
          again = [(stands_twice(row), row=1, size(records))]
          do row = 1, size(records)
             if (is_given(row) .or. .not. again(row)) cycle
-            path = trim(table%get_text(row, table%column('file')))
+            path = trim(paths%line(row)%text)
             file = path(scan(path, '/\', back=.true.) + 1:)
             if (level == 2) file = path
             records(row)%name = file//records(row)%name(length(row) + 1:)
@@ -84,7 +115,7 @@ contains
       do row = 1, size(records)
          do k = 1, row - 1
             if (records(k)%name /= records(row)%name) cycle
-            call raise_input(error, table%place(row)//': record '''//records(row)%name//''' stands there twice')
+            call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
             return
          end do
       end do
@@ -109,12 +140,10 @@ contains
 
    end subroutine name_records
 
-   !> Read the record of one row
-   subroutine read_row(table, row, record, error)
-      !> The catalogue
-      type(csv_table_type), intent(in) :: table
-      !> Number of the row
-      integer, intent(in) :: row
+   !> Read the record of a row
+   subroutine read_row(table, record, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
       !> The record
       type(record_type), intent(out) :: record
       !> What is wrong
@@ -123,22 +152,23 @@ contains
       character(len=:), allocatable :: path, units
       real(wp), allocatable :: dt
 
-      path = table%get_text(row, table%column('file'))
+      path = table%get_text(table%column('file'))
       if (len_trim(path) == 0) then
-         call raise_input(error, table%place(row)//': file is empty: must name a file')
+         call raise_input(error, table%place()//': file is empty: must name a file')
          return
       end if
-      if (.not. is_absolute(path)) path = table%file(:scan(table%file, '/\', back=.true.))//path
-      units = table%get_text(row, table%column('units'))
-      if (len_trim(table%get_text(row, table%column('dt_s'))) > 0) then
+      associate (file => table%lines%file)
+         if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
+      end associate
+      units = table%get_text(table%column('units'))
+      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
          allocate (dt)
-         call table%get_real(row, table%column('dt_s'), dt, error)
-         if (allocated(error)) return
+         call table%get_real(table%column('dt_s'), dt, error)
       end if
       ! A dt that is not allocated is an argument that is not present
-      call read_record(path, record, error, dt, units, table%get_text(row, table%column('channel')), &
-         & table%get_text(row, table%column('format')))
-      call add_place(error, table%place(row))
+      if (.not. allocated(error)) call read_record(path, record, error, dt, units, &
+         & table%get_text(table%column('channel')), table%get_text(table%column('format')))
+      call add_place(error, table%place())
    end subroutine read_row
 
    !> Does a path begin at the root?
