@@ -405,8 +405,11 @@ def risk(study):
     alone = dd.mean_annual_frequency(replace(study.typology.fit(), saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
-    for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (1.0, 2.0), (2.0, 10.0)):
-        print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.2f}")
+    for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (0.2, 1.0), (1.0, 2.0), (2.0, 10.0)):
+        print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.3f}")
+    for years in (50.0, 475.0, 2475.0):
+        alike = -np.expm1(-years * one.frequency)
+        print(f"   lost in {years:g} years: {one.probability(years):.4g}; if all walls were alike {alike:.4g}")
 
 
 def draw(studies):

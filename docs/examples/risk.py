@@ -14,7 +14,7 @@ out.mkdir(parents=True, exist_ok=True)
 # %% Stripes that are close to each other, read record by record
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
-stripes = dd.multiple_stripe(wall, records, levels=np.arange(0.1, 1.61, 0.05), polarity="both")
+stripes = dd.multiple_stripe(wall, records, levels=0.05 * np.arange(2, 33), polarity="both")
 ida = dd.incremental(stripes)
 print(ida)
 print("fitted to first collapses:", ida.fit())

@@ -50,6 +50,22 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
     return array
 
 
+def increasing(name: str, values: ArrayLike) -> FloatArray:
+    """Turn what a user gives for levels of a curve into positive numbers that increase: a copy that nobody changes."""
+    levels = as_array(name, values).copy()
+    if len(levels) < 2:
+        raise InputError(f"{name}: must be two at least, positive and increasing")
+    wrong = ~((levels > 0.0) & (levels < np.inf))
+    if wrong.any():
+        raise InputError(f"{name} = {levels[wrong][0]:g}: must be positive")
+    falls = levels[1:] <= levels[:-1]
+    if falls.any():
+        i = int(np.argmax(falls))
+        raise InputError(f"{name} = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly")
+    levels.flags.writeable = False
+    return levels
+
+
 def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a word into the bytes Fortran takes."""
     if not isinstance(value, str):

@@ -30,7 +30,6 @@ class Members:
         self.weights, self.p_occ = weights, p_occ
         self.theta = np.array([curve.theta for curve in curves])
         self.beta = np.array([curve.beta for curve in curves])
-        self.without = np.flatnonzero(np.isnan(self.theta))
         # Of each wall its first row, its second row, ...
         number = np.diff(np.append(first, len(curves)))
         self.rows = [(np.flatnonzero(number > k), first[number > k] + k) for k in range(max(number, default=0))]
@@ -41,14 +40,18 @@ class Members:
 
     def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Probabilities (walls, x) and weights (walls,)."""
-        from scipy.special import ndtr
-
-        with np.errstate(divide="ignore"):
-            rows = ndtr((np.log(x) - np.log(self.theta)[:, None]) / self.beta[:, None])
-        for i in self.without:
-            rows[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, i]))
-        rows *= self.p_occ[:, None]
+        rows = self.rows_at(np.arange(len(self.theta)), x) * self.p_occ[:, None]
         whole = np.zeros((len(self.weights), len(x)))
         for walls, row in self.rows:
             whole[walls] += (1.0 - whole[walls]) * rows[row]
         return whole, self.weights
+
+    def rows_at(self, rows: np.ndarray[Any, Any], x: FloatArray) -> FloatArray:
+        """Probabilities (rows, x) of some rows, if their mechanisms can occur."""
+        from scipy.special import ndtr
+
+        with np.errstate(divide="ignore"):
+            found = ndtr((np.log(x) - np.log(self.theta[rows])[:, None]) / self.beta[rows][:, None])
+        for i in np.flatnonzero(np.isnan(self.theta[rows])):
+            found[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, rows[i]]))
+        return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import warnings
 from typing import Any
 
@@ -29,11 +30,10 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
             for edp in results.edp_thresholds
         ]
         cases += [
-            (f"{one.group}, collapse", lambda x, name=one.group: results.mean(x, group=name))
+            (f"{one.group}, collapse", functools.partial(results.mean, group=one.group))
             for one in combined(results)
             if one.group
         ]
-        # The measure is checked against that of the population first, by its own method.
         main = len(results.edp_thresholds) - 1
     else:
         cases, main = [("collapse", curve)], 0
@@ -57,9 +57,13 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "curve": [name for name, _ in cases],
         "annual frequency from": [number(one.bounds[0], 3) for one in risks],
         "to [1/year]": [number(one.bounds[1], 3) for one in risks],
-        "return period [years]": [number(one.return_period, 3) for one in risks],
-        f"probability in {_YEARS:g} years": [number(one.probability(_YEARS), 3) for one in risks],
     }
+    if not population:
+        columns["return period from"] = [number(one.return_period_bounds[0], 3) for one in risks]
+        columns["to [years]"] = [number(one.return_period_bounds[1], 3) for one in risks]
+    chances = [one.probability_bounds(_YEARS) for one in risks]
+    columns[f"probability in {_YEARS:g} years from"] = [number(low, 3) for low, _ in chances]
+    columns["to"] = [number(high, 3) for _, high in chances]
     edges = hazard.im_levels
     parts = risk.deaggregate(edges)
     unit = _binding.unit_of(hazard.im) or "-"
@@ -70,8 +74,9 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         "contribution [1/year]": [number(part, 3) for part in parts],
         "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
     }
-    who = (
-        "For a population it is that of a wall drawn by weight: the share of the walls lost a year. "
+    meaning = (
+        "For a population it is that of a wall drawn by weight: the share of the walls lost a year; and the probability"
+        f" in {_YEARS:g} years is the share lost in that time, from the frequency of each wall. "
         if population
         else ""
     )
@@ -79,13 +84,13 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         paragraph(
             "The mean annual frequency of collapse is the integral of the fragility over the hazard of the site,"
             " λ = ∫ P(C | x) |dH(x)|, where H(x) is how often a year the intensity x is exceeded. ",
-            who,
+            meaning,
             "It lies between ",
             number(low, 3),
             " and ",
             number(high, 3),
-            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Return period and"
-            f" probability in {_YEARS:g} years (events as a Poisson process) belong to the lower bound.",
+            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Events are taken"
+            " for a Poisson process.",
         ),
         figure(
             lambda: plot_risk(risk),

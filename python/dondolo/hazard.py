@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped
+from dondolo._arguments import FloatArray, as_array, as_levels, as_number, increasing, shaped
 from dondolo.errors import InputError
 
 
@@ -36,9 +36,17 @@ class HazardCurve:
     im : str
         Intensity measure.
 
+    Raises
+    ------
+    InputError
+        Levels and frequencies that are no hazard curve; a measure that is not known.
+
     Attributes
     ----------
-    im_levels, annual_frequency : ndarray, shape (levels,)
+    im_levels : ndarray, shape (levels,)
+        In the unit of the measure: accelerations in g, all else in SI units.
+    annual_frequency : ndarray, shape (levels,)
+        [1/year].
     im : str
     endless : bool
         Do the power laws of the first and the last step go on beyond the levels? Only those of `power_law` do.
@@ -56,26 +64,19 @@ class HazardCurve:
     endless: bool
 
     def __init__(self, im_levels: ArrayLike, annual_frequency: ArrayLike, im: str = "pga") -> None:
-        x = as_array("im_levels", im_levels).copy()
+        x = increasing("im_levels", im_levels)
         h = as_array("annual_frequency", annual_frequency).copy()
         if len(x) != len(h):
             raise InputError(f"{len(x)} im_levels, {len(h)} annual_frequency: must be as many")
-        if len(x) < 2:
-            raise InputError("im_levels: must be two at least")
-        for what, values in (("im_levels", x), ("annual_frequency", h)):
-            wrong = ~((values > 0.0) & (values < np.inf))
-            if wrong.any():
-                hint = "; leave out the levels that are never exceeded" if what == "annual_frequency" else ""
-                raise InputError(f"{what} = {values[wrong][0]:g}: must be positive{hint}")
-        for what, values, falls in (
-            ("im_levels = {:g}, {:g}: must increase strictly", x, x[1:] <= x[:-1]),
-            ("annual_frequency = {:g}, {:g}: must not increase with the level", h, h[1:] > h[:-1]),
-        ):
-            if falls.any():
-                i = int(np.argmax(falls))
-                raise InputError(what.format(values[i], values[i + 1]))
-        for array in (x, h):
-            array.flags.writeable = False
+        wrong = ~((h > 0.0) & (h < np.inf))
+        if wrong.any():
+            hint = "; leave out the levels that are never exceeded" if h[wrong][0] == 0.0 else ""
+            raise InputError(f"annual_frequency = {h[wrong][0]:g}: must be positive{hint}")
+        rises = h[1:] > h[:-1]
+        if rises.any():
+            i = int(np.argmax(rises))
+            raise InputError(f"annual_frequency = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level")
+        h.flags.writeable = False
         for what, value in (
             ("im_levels", x),
             ("annual_frequency", h),
@@ -100,6 +101,12 @@ class HazardCurve:
         Returns
         -------
         HazardCurve
+            `endless`: the power law itself, without a lowest and a highest level.
+
+        Raises
+        ------
+        InputError
+            k0 or k is not positive; a measure that is not known.
         """
         for what, value in (("k0", k0), ("k", k)):
             if not 0.0 < as_number(what, value) < np.inf:
@@ -127,28 +134,35 @@ class HazardCurve:
         Returns
         -------
         HazardCurve
+
+        Raises
+        ------
+        InputError
+            The file cannot be read; its first line is no such head, another no two numbers; what it holds is no hazard
+            curve.
         """
+        if not isinstance(path, (str, os.PathLike)):
+            raise InputError(f"path = {path!r}: must be the path of a file")
         name = os.fspath(path)
         try:
             lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
             raise InputError(f"{name}: cannot be read: {reason}") from error
-        rows = [
-            (number, row)
-            for number, line in enumerate(lines, 1)
-            if line.strip() and not line.startswith("#")
-            for row in csv.reader([line])
-        ]
-        head = [cell.strip() for cell in rows[0][1]] if rows else []
+        told = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
+        rows = csv.reader(line for _, line in told)
+        head = [cell.strip() for cell in next(rows, [])]
         if len(head) != 2 or head[1] != "annual_frequency":
             raise InputError(f"{name}: the first line must be the name of an intensity measure and 'annual_frequency'")
-        for number, row in rows[1:]:
-            if not _is_pair(row):
-                raise InputError(f"{name}: line {number}: must be two numbers")
-        values = np.array([row for _, row in rows[1:]], dtype=np.float64).reshape(-1, 2)
+        pairs = []
+        for row in rows:
+            try:
+                x, h = map(_number, row)
+            except ValueError:
+                raise InputError(f"{name}: line {told[rows.line_num - 1][0]}: must be two numbers") from None
+            pairs.append((x, h))
         try:
-            return cls(values[:, 0], values[:, 1], head[0])
+            return cls([x for x, _ in pairs], [h for _, h in pairs], head[0])
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
 
@@ -164,22 +178,29 @@ class HazardCurve:
         -------
         float or ndarray, shape of x
             [1/year]; NaN beyond the levels, where nothing is known.
+
+        Raises
+        ------
+        InputError
+            Intensities that are negative or no numbers.
         """
         values = as_levels(x)
         flat = values.ravel()
         with np.errstate(divide="ignore", over="ignore"):
-            h, _ = self._continued(np.log(flat))
+            u = np.log(flat)
+            k, start, frequency = self._power_laws(u)
+            h = frequency * np.exp(-k * (u - start))
         return shaped(np.where(self._covers(flat), h, np.nan), values)
 
     def _covers(self, x: FloatArray) -> Any:
         """Where is the curve given?"""
         return ((x >= self.im_levels[0]) & (x <= self.im_levels[-1])) | self.endless
 
-    def _continued(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Frequency and exponent at u = ln x; those of the first and the last step go on beyond the levels."""
+    def _power_laws(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of the step at u = ln x: exponent, and ln level and frequency where it begins; the outer ones go on."""
         known, slope = np.log(self.im_levels), self._slopes()
         step = np.clip(np.searchsorted(known, u, side="right") - 1, 0, len(slope) - 1)
-        return self.annual_frequency[step] * np.exp(-slope[step] * (u - known[step])), slope[step]
+        return slope[step], known[step], self.annual_frequency[step]
 
     def _slopes(self) -> FloatArray:
         """Exponents k of the power laws of each step."""
@@ -212,9 +233,8 @@ class HazardCurve:
         return tables.html_of("HazardCurve", self._facts())
 
 
-def _is_pair(row: list[str]) -> bool:
-    """Are these two numbers?"""
-    try:
-        return len([float(cell) for cell in row]) == 2
-    except ValueError:
-        return False
+def _number(cell: str) -> float:
+    """A cell as a number; Python alone would take 1_0 for 10."""
+    if "_" in cell:
+        raise ValueError
+    return float(cell)

@@ -5,36 +5,33 @@ drawn against the intensity. Multiple stripes hold all of that: every record at 
 the records instead of along the levels; nothing is run again.
 
 First collapse
-    IM_i, the lowest level at which history i collapses, is its capacity. A rocking wall may survive a level above that
-    (a *resurrection*): impacts and the phase of the motion decide, not the intensity alone.
+    IM_i, the lowest level at which history i collapses. A rocking wall may survive a level above that (a
+    *resurrection*): impacts and the phase of the motion decide, not the intensity alone.
 Fractiles
     The EDP of a share s of the histories at a level is the smallest value that at least the share s does not exceed,
     a collapse counting as infinite. The fractiles of the first collapse are the same of IM_i, a history without a
     collapse counting as infinite. Both are values of the data, without interpolation.
 Fragility
-    P(C | IM = x) is the share of histories with IM_i <= x. Its lognormal, where all n histories collapse, has the
-    moments of the logarithms (Baker 2015)::
+    P(C | IM = x) is the share of histories that have collapsed on the way up to x. The levels are a grid: the
+    intensity at which a history first collapses, its capacity, lies between the level before IM_i and IM_i; below the
+    lowest level, it lies above 0; without a collapse, above the highest. So the capacities, which are lognormal, are
+    censored in intervals. With n_j histories that first collapse at x_j and m that stand to the end, the likelihood
 
-        ln theta = sum(ln IM_i) / n,    beta^2 = sum((ln IM_i - ln theta)^2) / (n - 1)
+        product over levels of (P_j - P_(j-1))^n_j,  times  (1 - P_J)^m,    P_j = Phi(ln(x_j/theta)/beta),  P_0 = 0
 
-    Where the analysis ends at the level L with m histories standing, these are censored, and the likelihood
+    is maximised. In (1/beta, ln theta/beta) its logarithm is concave, so the maximum is the only one. (The moments of
+    ln IM_i, and the likelihood of Baker 2015 for an analysis that ends before all collapse, take IM_i itself for the
+    capacity, which is too large by half a step.)
 
-        product over collapses of phi(z_i)/beta,  times  (1 - Phi(z_L))^m,    z = (ln IM - ln theta)/beta
-
-    is maximised (Baker 2015, truncated IDA). In (1/beta, ln theta/beta) its logarithm is concave (Olsen 1978, for the
-    Tobit model of the same form), so the maximum is the only one.
-
-The levels are a grid, and the curve depends on it. A wall that collapses at a level might have done so anywhere above
-the level before: IM_i is too large by half a step on average. And where walls are resurrected, the closer the levels,
-the sooner one of them is met that brings the wall down: IM_i falls on and on. A free-standing wall of 2 m by 0.5 m,
-under 44 components recorded in Italy, has theta = 0.88, 0.84 and 0.78 g with steps of 0.1, 0.05 and 0.0125 g up to 3 g;
-27, 32 and 40 of its 44 histories are resurrected. `Stripes.fit` has 0.94 g with all three: it uses the collapses of
-each level, and counts a resurrection as the survival it is. For rocking walls it is the better estimate of P(C | IM);
-this one answers when a record first brings the wall down on the way up. The lowest level should be below the first
-collapse.
+Where walls are resurrected the curve still depends on the step: the closer the levels, the sooner one of them is met
+that brings the wall down. A free-standing wall of 2 m by 0.5 m, under 44 components recorded in Italy, has theta =
+0.83, 0.81 and 0.78 g with steps of 0.1, 0.05 and 0.0125 g up to 3 g; 27, 32 and 40 of its 44 histories are resurrected.
+`Stripes.fit` has 0.94 g with all three: it uses the collapses of each level, and counts a resurrection as the survival
+it is. For rocking walls it is the better estimate of P(C | IM); this one answers when a record first brings the wall
+down on the way up.
 
 References: Vamvatsikos and Cornell (2002), Earthquake Engineering and Structural Dynamics 31, 491-514; Baker (2015),
-Earthquake Spectra 31, 579-599; Olsen (1978), Econometrica 46, 1211-1215.
+Earthquake Spectra 31, 579-599.
 """
 
 from __future__ import annotations
@@ -53,15 +50,17 @@ from dondolo.stripes import Stripes
 
 # Shares of the histories that fractiles are given for
 SHARES = (0.16, 0.50, 0.84)
+# Of Newton's method, and of halvings of a step
+_MOST_STEPS = 100
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FirstCollapseFragility(Fragility):
-    """A lognormal fitted to levels of first collapse.
+    """A lognormal fitted to first collapses.
 
-    As `Fragility`, but its covariance is that of a sample of levels, and its collapses count each history at all levels
-    from its first collapse on. It has no binomial likelihood: `log_likelihood` is NaN, and there are no intervals by
-    the profile.
+    As `Fragility`, but its covariance is that of a sample of capacities, and its collapses count each history at all
+    levels from its first collapse on. It has no binomial likelihood: `log_likelihood` is NaN, and there are no
+    intervals by the profile.
     """
 
     def _likelihood(self) -> Any:
@@ -80,7 +79,8 @@ class Incremental:
     stripes : Stripes
         The analysis; `stripes.edp[:, i]` is the EDP curve of history i.
     first_collapse : ndarray, shape (histories,)
-        The lowest level at which each history collapses; inf where none does.
+        The lowest level at which each history collapses; inf where none does. The intensity at which it does lies
+        between the level before and this one.
     last_survival : ndarray, shape (histories,)
         The highest level that each history survives; 0 where there is none.
     edp_fractiles : ndarray, shape (3, levels)
@@ -114,35 +114,31 @@ class Incremental:
         return self.counted / len(self.first_collapse)
 
     def fit(self) -> FirstCollapseFragility:
-        """Fit a lognormal to the levels of first collapse.
+        """Fit a lognormal to the intensities of first collapse, each known to lie between two levels.
 
         Returns
         -------
         FirstCollapseFragility
-            By moments where all histories collapse, else by maximum likelihood. Its status is 'ok' or 'extrapolated'
-            (theta above the levels); without a curve it is 'no_collapse', 'single_level', 'all_collapse' (all at the
-            lowest level) or 'separated' (all at one level, or none before the highest).
+            By maximum likelihood of capacities between two levels. Its status is 'ok' or 'extrapolated' (theta outside
+            the levels); without a curve it is 'no_collapse', 'all_collapse' (all at the lowest level), 'single_level',
+            'decreasing' (some collapse at the lowest level and no other at any) or 'separated' (else, where at most one
+            level has both histories that have collapsed and histories that have not).
         """
         levels, n = self.levels, len(self.first_collapse)
-        collapsed = np.isfinite(self.first_collapse)
-        x = np.log(self.first_collapse[collapsed])
-        top = float(np.log(levels[-1]))
         theta = beta = np.nan
         covariance = np.full((2, 2), np.nan)
         if len(levels) == 1:
             status = "single_level"
-        elif not len(x):
+        elif self.counted[-1] == 0:
             status = "no_collapse"
-        elif len(x) == n and x.max() == np.log(levels[0]):
+        elif self.counted[0] == n:
             status = "all_collapse"
-        elif (x == x[0]).all() and (len(x) == n or x[0] == top):
+        elif self.counted[0] == self.counted[-1]:
+            status = "decreasing"
+        elif np.count_nonzero((self.counted > 0) & (self.counted < n)) < 2:
             status = "separated"
         else:
-            if len(x) == n:
-                mean, beta = float(x.mean()), float(x.std(ddof=1))
-                covariance = beta**2 * np.diag([1.0 / n, 0.5 / (n - 1)])
-            else:
-                mean, beta, covariance = _censored(x, top, n - len(x))
+            mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
             theta = float(np.exp(mean))
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
         half = self.fraction >= 0.5
@@ -228,6 +224,11 @@ def incremental(stripes: Stripes) -> Incremental:
     -------
     Incremental
 
+    Raises
+    ------
+    InputError
+        What is given is no stripes.
+
     Notes
     -----
     Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
@@ -249,42 +250,58 @@ def fractiles(values: FloatArray) -> FloatArray:
     return np.quantile(values, SHARES, axis=-1, method="inverted_cdf")
 
 
-def _censored(x: FloatArray, top: float, standing: int) -> tuple[float, float, FloatArray]:
-    """Mean and deviation of a normal sample of which some values are only known to lie above the top; covariance.
+def _censored(x: FloatArray, counts: np.ndarray[Any, np.dtype[np.int64]]) -> tuple[float, float, FloatArray]:
+    """Mean and deviation of a normal sample of which only the intervals are known, and their covariance.
 
-    In a = mean/deviation and c = 1/deviation the logarithm of the likelihood is concave:
-    k ln c - sum((c x - a)^2)/2 + m ln Phi(a - c top), with k values and m above.
+    Between the values x, which increase, below and above them lie so many of the sample. In c = 1/deviation and
+    a = mean/deviation the logarithm of the likelihood, sum(n ln(Phi(z_j) - Phi(z_(j-1)))) with z = c x - a, is concave.
     """
-    from scipy.optimize import minimize
     from scipy.special import log_ndtr
 
-    k, shift = len(x), float(x.mean())
-    y, end = x - shift, top - shift
+    some = counts > 0
+    n, shift = counts[some], float(np.average(x, weights=counts[:-1]))
+    y = x - shift
+    ends = np.stack([np.append(-np.inf, y)[some], np.append(y, np.inf)[some]])
+    finite = np.isfinite(ends)
+    # 0 instead of the infinite ends, whose density vanishes
+    y = np.where(finite, ends, 0.0)
 
-    def slope_and_curvature(eta: float) -> tuple[float, float]:
-        # Of ln Phi: the inverse Mills ratio r, and -r (eta + r)
-        ratio = float(np.exp(-0.5 * eta**2 - 0.5 * np.log(2.0 * np.pi) - log_ndtr(eta)))
-        return ratio, -ratio * (eta + ratio)
+    def intervals(p: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Of each interval the logarithm of its probability, its ends, and their densities / probability."""
+        z = np.where(finite, p[1] * y - p[0], ends)
+        # The tail that is the smaller one keeps its digits
+        low, high = np.where(z[0] > 0.0, -z[::-1], z)
+        tail = log_ndtr(high)
+        log_p = tail + np.log1p(-np.exp(log_ndtr(low) - tail))
+        z = np.where(finite, z, 0.0)
+        return log_p, z, np.where(finite, np.exp(-0.5 * z**2 - 0.5 * np.log(2.0 * np.pi) - log_p), 0.0)
 
     def height(p: FloatArray) -> float:
-        if p[1] <= 0.0:
-            return np.inf
-        return -k * np.log(p[1]) + 0.5 * np.sum((p[1] * y - p[0]) ** 2) - standing * float(log_ndtr(p[0] - p[1] * end))
+        return float(n @ intervals(p)[0]) if p[1] > 0.0 else -np.inf
 
-    def gradient(p: FloatArray) -> FloatArray:
-        off, (ratio, _) = p[1] * y - p[0], slope_and_curvature(p[0] - p[1] * end)
-        return np.array([-off.sum() - standing * ratio, -k / p[1] + off @ y + standing * ratio * end])
+    def slope_and_curvature(p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        _, (low, high), (below, above) = intervals(p)
+        slope = np.array([n @ (below - above), n @ (above * y[1] - below * y[0])])
+        # Minus the second derivatives of ln(Phi(high) - Phi(low)) with respect to the ends
+        ll, hh, lh = n * below * (below - low), n * above * (above + high), -n * below * above
+        across = -(ll * y[0] + hh * y[1] + lh * (y[0] + y[1])).sum()
+        steep = (ll * y[0] ** 2 + hh * y[1] ** 2 + 2.0 * lh * y[0] * y[1]).sum()
+        return slope, np.array([[(ll + hh + 2.0 * lh).sum(), across], [across, steep]])
 
-    def hessian(p: FloatArray) -> FloatArray:
-        bend = -standing * slope_and_curvature(p[0] - p[1] * end)[1]
-        both = -y.sum() - bend * end
-        return np.array([[k + bend, both], [both, k / p[1] ** 2 + y @ y + bend * end**2]])
-
-    # From a deviation that no sample between its lowest value and the top exceeds by much
-    start = np.array([0.0, 1.0 / max(end - y.min(), 1e-3)])
-    found = minimize(height, start, jac=gradient, hess=hessian, method="trust-exact", options={"gtol": 1e-10 * k})
-    a, c = found.x
+    # Newton's method; a step that does not rise is halved
+    p = np.array([0.0, 1.0 / (x[-1] - x[0])])
+    for _ in range(_MOST_STEPS):
+        slope, curvature = slope_and_curvature(p)
+        step = np.linalg.solve(curvature, slope)
+        for _ in range(_MOST_STEPS):
+            if height(p + step) >= height(p) + 1e-4 * float(slope @ step) - 1e-13 * abs(height(p)):
+                break
+            step *= 0.5
+        p = p + step
+        if np.all(np.abs(step) <= 1e-10 * (1.0 + np.abs(p))):
+            break
+    a, c = p
     # (mean, deviation) = (a/c, 1/c)
     jacobian = np.array([[1.0 / c, -a / c**2], [0.0, -1.0 / c**2]])
-    covariance = jacobian @ np.linalg.inv(hessian(found.x)) @ jacobian.T
+    covariance = jacobian @ np.linalg.inv(slope_and_curvature(p)[1]) @ jacobian.T
     return float(a / c) + shift, float(1.0 / c), covariance

@@ -57,7 +57,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._arguments import FloatArray, as_array, as_number
+from dondolo._arguments import FloatArray, as_array, as_number, increasing
 from dondolo._files import check_replaced
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
@@ -100,19 +100,16 @@ class DiscreteFragility:
     im: str
 
     def __init__(self, levels: ArrayLike, probability: ArrayLike, im: str = "pga") -> None:
-        x = as_array("levels", levels).copy()
+        x = increasing("levels", levels)
         p = as_array("probability", probability).copy()
         if len(x) != len(p):
             raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
-        if len(x) < 2 or not x[0] > 0.0 or not np.all(np.diff(x) > 0.0) or not np.isfinite(x[-1]):
-            raise InputError("levels: must be two at least, positive and increasing")
         if not np.all((p >= 0.0) & (p <= 1.0)):
             raise InputError(f"probability = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
         if np.any(np.diff(p) < 0.0):
             i = int(np.argmax(np.diff(p) < 0.0))
             raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
-        for array in (x, p):
-            array.flags.writeable = False
+        p.flags.writeable = False
         for what, value in (("levels", x), ("probability", p), ("im", _binding.describe_measure(im).name)):
             object.__setattr__(self, what, value)
 

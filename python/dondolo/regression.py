@@ -72,12 +72,40 @@ class Logistic:
     count: int
 
     def __call__(self, x: ArrayLike) -> Any:
-        """Probability at intensities, not negative: a float or an ndarray of the shape of x."""
+        """Probability at intensities.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, not negative, in the unit of those it was fitted to.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+            NaN where the data do not say: see `status`.
+
+        Raises
+        ------
+        InputError
+            Intensities that are negative or no numbers.
+        """
         values = as_levels(x)
         return shaped(self.at(values.ravel()), values)
 
     def at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
-        """Probabilities, with a value for the gap of a separated sample."""
+        """Probabilities, with a value for the gap of a separated sample.
+
+        Parameters
+        ----------
+        x : ndarray, shape (points,)
+            Intensities, not negative.
+        gap : float
+            What stands for the probability within the bracket of a separated sample.
+
+        Returns
+        -------
+        ndarray, shape (points,)
+        """
         from scipy.special import expit
 
         if self.status == "ok":

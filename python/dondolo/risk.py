@@ -7,15 +7,15 @@ collapse is (Cornell and Krawinkler 2000; McGuire 2004)
 
 Hazard
     Levels and frequencies are joined by straight lines of ln H against ln x: between two levels H is a power law,
-    H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x), by Gauss's rule in panels that are
-    halved until the integral of each changes by less than its share of 10^-8 of the whole.
+    H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x): of a fitted lognormal in closed
+    form, of any other curve by Gauss's rule (dondolo._risk_integrals).
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
-    fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n). Those below
-    the lowest, x_1, contribute at least 0, and at most the integral with the first power law continued to x = 0: hazard
-    curves bend down on logarithmic axes, they are steeper at rare levels than at frequent ones. `Risk.frequency` is the
-    lower bound. Hazard curves should begin where nothing collapses and end where nearly all does; a warning says when
-    the bounds differ by more than 1 %.
+    fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
+    saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
+    with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
+    levels than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing
+    collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
 Power laws
     With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
 
@@ -23,8 +23,18 @@ Power laws
 
     For k > 0 and a P that falls more slowly than x^k towards x = 0, there is no finite frequency, and an error says so.
 Time
-    Events are a Poisson process: P(at least one collapse in t years) = 1 - exp(-lambda t); the return period is
-    1/lambda. What stands after a collapse is the same wall.
+    Events are a Poisson process: of one wall P(at least one collapse in t years) = 1 - exp(-lambda t), and the return
+    period is 1/lambda. What stands after a collapse is the same wall. A curve with the saturation s is of a wall in
+    which something can occur with the probability s, for all events: s (1 - exp(-lambda t/s)).
+Populations
+    The mean curve gives the mean frequency, lambda = sum(w_i lambda_i)/sum(w_i): the share of the walls lost a year.
+    The probability that a wall drawn by weight collapses in t years is another mean,
+
+        sum(w_i (1 - exp(-lambda_i t)))/sum(w_i) <= 1 - exp(-lambda t) <= lambda t:
+
+    walls that never collapse take no part however long the time is, and weak ones collapse once. So it is computed
+    from the walls behind the mean of a typology; a wall with mechanisms that may not occur is itself a mixture
+    (dondolo._risk_walls). There is no return period of a population.
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
@@ -45,26 +55,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped
+from dondolo._arguments import FloatArray, as_levels, as_number, increasing, shaped
+from dondolo._risk_integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
+from dondolo._risk_walls import WallFrequencies, wall_frequencies
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
+from dondolo.typology import Typology
 
 Curve = Fragility | Callable[[Any], Any]
 
-# Relative error that an integral aims at
-_TOLERANCE = 1e-8
-# The least part of that error that a panel is allowed
-_SMALLEST_SHARE = 1e-3
-# Points of Gauss's rule in a panel, and how often a panel is halved
-_NODES = 8
-_HALVINGS = 60
-# A range without end is cut so far away, in ln x, and into such steps; the lowest must not add more than this part
-_FAR = 50.0
-_STEP = 0.5
-_NEGLIGIBLE = 1e-12
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
+# A wall without a fit takes part in a mean with its counts, so that the mean may fall, by no more than this
+_FALL = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,7 +84,8 @@ class Risk:
     below, above : (float, float)
         Bounds of what intensities below and above that range contribute [1/year]; (0, 0) for a power law without end.
     error : float
-        Estimated error of the integration of `inside` [1/year].
+        Estimated error of the integration of `inside` [1/year]; 0 for a fitted curve, of which the integral has a
+        closed form.
     """
 
     fragility: Curve
@@ -97,30 +102,90 @@ class Risk:
 
     @property
     def frequency(self) -> float:
-        """Mean annual frequency of collapse, its lower bound [1/year]."""
+        """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
         return self.bounds[0]
 
     @property
     def return_period(self) -> float:
-        """Mean time between collapses [year]; inf where nothing collapses."""
-        return 1.0 / self.frequency if self.frequency > 0.0 else np.inf
+        """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
+
+        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
+        population it is no more than the inverse of the share lost a year.
+        """
+        return self.return_period_bounds[1]
+
+    @property
+    def return_period_bounds(self) -> tuple[float, float]:
+        """Bounds of the return period [year], the shorter first; 0 where the frequency has no upper bound."""
+        low, high = (1.0 / value if value > 0.0 else np.inf for value in self.bounds)
+        return high, low
 
     def probability(self, years: float) -> float:
-        """Probability of a collapse within some years.
+        """Probability that a wall collapses within some years, its lower bound.
+
+        The end that is not on the safe side: `probability_bounds` has both.
 
         Parameters
         ----------
         years : float
-            Length of time, not negative.
+            Length of time [year], not negative.
 
         Returns
         -------
         float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+        """
+        return self.probability_bounds(years)[0]
+
+    def probability_bounds(self, years: float) -> tuple[float, float]:
+        """Bounds of the probability that a wall collapses within some years.
+
+        Parameters
+        ----------
+        years : float
+            Length of time [year], not negative.
+
+        Returns
+        -------
+        low, high : float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+
+        Notes
+        -----
+        For the `mean` of a typology it is that of a wall drawn by weight, the share of the walls that is lost, from the
+        frequencies of all walls. Any other function is taken for the curve of one wall, and the fit of a population for
+        that of walls that are alike, but for its saturation.
         """
         time = as_number("years", years)
-        if not time >= 0.0:
-            raise InputError(f"years = {time:g}: must not be negative")
-        return float(-np.expm1(-self.frequency * time))
+        if not 0.0 <= time < np.inf:
+            raise InputError(f"years = {time:g}: must be finite and not negative")
+        if time == 0.0:
+            # Whatever the frequency
+            return 0.0, 0.0
+        return self._walls.probability(time)
+
+    @functools.cached_property
+    def _walls(self) -> WallFrequencies:
+        """The walls behind the curve."""
+        if self._of_several:
+            options = self.fragility.keywords if isinstance(self.fragility, functools.partial) else {}
+            members = _object_of(self.fragility)._members(options.get("mechanism"), options.get("group", ""))
+            return wall_frequencies(members, self.hazard)
+        share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
+        return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
+
+    @property
+    def _of_several(self) -> bool:
+        """Is the curve the mean of a typology?"""
+        return isinstance(_object_of(self.fragility), Typology)
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
@@ -134,12 +199,19 @@ class Risk:
         -------
         float or ndarray, shape of x
             [1/year] a unit of ln x; 0 beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Intensities that are not positive or no numbers.
         """
         values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError("x: must be positive")
         flat = values.ravel()
-        return shaped(np.where(self.hazard._covers(flat), self._integrand(np.log(flat)), 0.0), values)
+        inside = self.hazard._covers(flat)
+        found = integrand(functools.partial(_probability, self.fragility), self.hazard, np.log(flat))
+        return shaped(np.where(inside, found, 0.0), values)
 
     def deaggregate(self, edges: ArrayLike) -> FloatArray:
         """Deaggregation: what the intensities between edges contribute to the frequency.
@@ -153,30 +225,32 @@ class Risk:
         -------
         ndarray, shape (bins,)
             [1/year]. Without the part beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Edges that are less than two, not positive or do not increase.
         """
-        x = as_array("edges", edges)
-        if len(x) < 2 or not np.all(x > 0.0) or not np.all(np.diff(x) > 0.0) or not np.isfinite(x[-1]):
-            raise InputError("edges: must be two at least, positive and increasing")
+        x = increasing("edges", edges)
         levels = self.hazard.im_levels
         if not self.hazard.endless:
             x = np.clip(x, levels[0], levels[-1])
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
         if len(cuts) == 1:
             return np.zeros(len(x) - 1)
-        parts, _ = _integrals(self._integrand, np.log(cuts))
+        if isinstance(self.fragility, Fragility):
+            curve = self.fragility
+            parts = curve.saturation * lognormal_integrals(curve.theta, curve.beta, self.hazard, np.log(cuts))
+        else:
+            probability = functools.partial(_probability, self.fragility)
+            parts, _ = integrals(lambda u: integrand(probability, self.hazard, u), np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
-    def _integrand(self, u: FloatArray) -> FloatArray:
-        return _integrand(self.fragility, self.hazard, u)
-
     def _facts(self) -> list[tuple[str, str]]:
-        low, high = self.bounds
-        text = f"{low:.6g} a year" if high == low else f"between {low:.4g} and {high:.4g} a year"
-        return [
-            ("mean annual frequency of collapse", text),
-            ("return period", f"{self.return_period:.6g} years"),
-            ("probability in 50 years", f"{self.probability(50.0):.4g}"),
-        ]
+        facts = [("mean annual frequency of collapse", _between(*self.bounds, "a year"))]
+        if not self._of_several:
+            facts.append(("return period", _between(*self.return_period_bounds, "years")))
+        return [*facts, ("probability in 50 years", _between(*self.probability_bounds(50.0)))]
 
     def __repr__(self) -> str:
         return "<Risk: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
@@ -203,9 +277,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     Raises
     ------
     InputError
-        The measures differ; the function gives no probabilities.
+        The measures differ; the function gives no probabilities, or they fall by more than 0.01.
     DondoloError
-        The fragility has no curve; the frequency is not finite.
+        The fragility has no curve; the frequency is not finite; the function is too rough to be integrated.
 
     Warns
     -----
@@ -228,37 +302,25 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if not callable(fragility):
         raise InputError(f"fragility: {type(fragility).__name__} is no curve")
-    # A method knows the measure of its object, as the mean of a typology does; a plain function does not.
-    method = fragility.func if isinstance(fragility, functools.partial) else fragility
-    im = getattr(method, "im", "") or getattr(getattr(method, "__self__", None), "im", "")
+    # The object of a method knows its measure, as a typology does that of its mean; a plain function does not.
+    im = getattr(_object_of(fragility), "im", "")
     if im and im != hazard.im:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):
         fragility._need_fit()
-
-    def integrand(u: FloatArray) -> FloatArray:
-        return _integrand(fragility, hazard, u)
-
+        one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
+        inside, below, above, error = (most * float(part) for part in one)
+    else:
+        one, most = of_function(functools.partial(_probability, fragility), hazard), 1.0
+        inside, below, above, error = map(float, one)
+    if np.isinf(inside):
+        raise DondoloError(
+            "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
+            " no faster than the power law rises; give levels of the hazard instead"
+        )
     if hazard.endless:
-        cuts = np.linspace(-_FAR, _FAR, round(2.0 * _FAR / _STEP) + 1)
-        parts, error = _integrals(integrand, cuts)
-        # What is still above: between the probability there and 1
-        p, h = float(_probability(fragility, np.exp(cuts[-1:]))[0]), float(hazard(np.exp(cuts[-1])))
-        total = float(parts.sum()) + p * h
-        if parts[0] > _NEGLIGIBLE * total:
-            raise DondoloError(
-                "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
-                " no faster than the power law rises; give levels of the hazard instead"
-            )
-        return Risk(fragility, hazard, total, (0.0, 0.0), (0.0, 0.0), error + (1.0 - p) * h)
-    cuts = np.log(hazard.im_levels)
-    parts, error = _integrals(integrand, cuts)
-    inside = float(parts.sum())
-    rest = _integrals(integrand, np.linspace(cuts[0] - _FAR, cuts[0], round(_FAR / _STEP) + 1))[0]
-    most = float(rest.sum()) if rest[0] <= _NEGLIGIBLE * (inside + rest.sum()) else np.inf
-    last = float(hazard.annual_frequency[-1])
-    surely = last * float(_probability(fragility, hazard.im_levels[-1:])[0])
-    risk = Risk(fragility, hazard, inside, (0.0, most), (surely, last), error)
+        return Risk(fragility, hazard, inside, (0.0, 0.0), (0.0, 0.0), error)
+    risk = Risk(fragility, hazard, inside, (0.0, below), (above, most * float(hazard.annual_frequency[-1])), error)
     low, high = risk.bounds
     if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
@@ -272,53 +334,34 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     return risk
 
 
+def _object_of(fragility: Curve) -> Any:
+    """What a curve is a method of; the curve itself if it is none."""
+    method = fragility.func if isinstance(fragility, functools.partial) else fragility
+    return getattr(method, "__self__", method)
+
+
 def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
     """Probabilities of collapse, checked."""
-    p = np.asarray(fragility(x), dtype=np.float64)
+    given = fragility(x)
+    try:
+        p = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("fragility: must give numbers for an array of intensities") from None
     if p.shape != x.shape:
         raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {x.shape}")
     if not np.all((p >= 0.0) & (p <= 1.0)):
         raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+    order = np.argsort(x, kind="stable")
+    risen = np.maximum.accumulate(p[order])
+    falls = p[order] < risen - _FALL
+    if falls.any():
+        i = int(np.argmax(falls))
+        at, now = x[order][i], p[order][i]
+        raise InputError(f"fragility = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity")
     return p
 
 
-def _integrand(fragility: Curve, hazard: HazardCurve, u: FloatArray) -> FloatArray:
-    """P(C | x) |dH/d(ln x)| at u = ln x."""
-    h, slope = hazard._continued(u)
-    return _probability(fragility, np.exp(u)) * slope * h
-
-
-def _integrals(integrand: Callable[[FloatArray], FloatArray], cuts: FloatArray) -> tuple[FloatArray, float]:
-    """Integrals between cuts, and their estimated error.
-
-    Panels are halved where that changes their integral, all at once: a call of the mean of many walls takes long,
-    whatever the number of points, and libraries call point by point.
-    """
-    node, weight = np.polynomial.legendre.leggauss(_NODES)
-
-    def gauss(low: FloatArray, high: FloatArray) -> FloatArray:
-        half = 0.5 * (high - low)
-        points = (low + half)[:, None] + half[:, None] * node
-        return integrand(points.ravel()).reshape(points.shape) @ weight * half
-
-    low, high = cuts[:-1], cuts[1:]
-    owner = np.arange(len(low))
-    coarse, done, error = gauss(low, high), np.zeros(len(low)), 0.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        fine = gauss(np.append(low, middle), np.append(middle, high)).reshape(2, -1)
-        off = np.abs(fine.sum(axis=0) - coarse)
-        share = (high - low) / (cuts[-1] - cuts[0])
-        total = done.sum() + fine.sum()
-        # A jump never earns the share of its panel
-        settled = off <= _TOLERANCE * total * np.maximum(share, _SMALLEST_SHARE)
-        np.add.at(done, owner[settled], fine.sum(axis=0)[settled])
-        error += float(off[settled].sum())
-        rough = ~settled
-        if not rough.any():
-            return done, error
-        low, high = np.append(low[rough], middle[rough]), np.append(middle[rough], high[rough])
-        owner, coarse = np.tile(owner[rough], 2), fine[:, rough].ravel()
-    # What is left are panels about jumps, too narrow to matter
-    np.add.at(done, owner, coarse)
-    return done, error + float(np.abs(coarse).sum())
+def _between(low: float, high: float, unit: str = "") -> str:
+    """One number where both are the same to the digits shown, else both ends."""
+    ends = f"{low:.4g}", f"{high:.4g}"
+    return f"{ends[0] if ends[0] == ends[1] else f'between {ends[0]} and {ends[1]}'} {unit}".rstrip()

@@ -189,8 +189,8 @@ def plot_risk(risk: Risk, axes: Sequence[Axes] | None = None) -> Any:
     above.set_yscale("log")
     above.set_ylabel("exceeded\n[1/year]")
     low, high = risk.bounds
-    text = f"{low:.3g} a year" if high - low <= 0.005 * high else f"{low:.3g} to {high:.3g} a year"
-    above.set_title(f"mean annual frequency of collapse: {text}", loc="left")
+    text = f"{low:.3g}" if high - low <= 0.005 * high else f"{low:.3g} to {high:.3g}"
+    above.set_title(f"mean annual frequency of collapse:\n{text} a year", loc="left")
     middle.plot(grid, risk.fragility(grid), color=style.BLUE)
     middle.set_ylim(-0.02, 1.02)
     middle.set_ylabel("probability\nof collapse")

@@ -443,7 +443,7 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
             assert beside.get_linewidth() < 0.5 * lines[i].get_linewidth()
     counts = people.exceedances * 0
     complete = np.ones(len(people.walls), dtype=bool)
-    none, _ = combine(people.population, "pga", LEVELS, np.ones(1), counts, people.histories, complete, Work())
+    none = combine(people.population, "pga", LEVELS, np.ones(1), counts, people.histories, complete, Work())
     labels = dd.plot_groups(none).get_legend_handles_labels()[1]
     assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
 

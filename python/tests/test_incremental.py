@@ -10,7 +10,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.incremental import SHARES, _censored, fractiles
+from dondolo.incremental import SHARES, fractiles
 from scipy import optimize, stats
 
 import dondolo as dd
@@ -73,15 +73,30 @@ def test_fractiles_are_exact():
             assert value == -((-share * n) // 1)
 
 
-def test_moments(stripes):
-    ida = dd.incremental(made(stripes, ["x....", "xx...", "xxxx.", "xxxxx"]))
-    curve = ida.fit()
-    ln = np.log([0.2, 0.4, 0.6, 0.6, 0.8])
+def capacities(stripes, values, levels):
+    """Stripes of histories that collapse at their capacity and above."""
+    levels = np.asarray(levels)
+    collapsed = levels[:, None] >= values
+    edp, names = np.where(collapsed, 1.0, 0.5), tuple(f"r{i}" for i in range(len(values)))
+    polarity = np.ones(len(values), dtype=np.int32)
+    return replace(stripes, levels=levels, collapsed=collapsed, edp=edp, record_names=names, polarity=polarity)
+
+
+def cost_of(first, levels):
+    """Minus the logarithm of the likelihood of (mean, deviation), history by history."""
+    below = np.append(0.0, levels)[np.searchsorted(levels, first)]
+
+    def cost(p):
+        with np.errstate(divide="ignore"):
+            ends = [(np.log(value) - p[0]) / p[1] for value in (below, first)]
+        return -np.log(stats.norm.cdf(ends[1]) - stats.norm.cdf(ends[0])).sum()
+
+    return cost
+
+
+def test_counts_behind_the_curve(stripes):
+    curve = dd.incremental(made(stripes, ["x....", "xx...", "xxxx.", "xxxxx"])).fit()
     assert curve.status == "ok"
-    assert curve.theta == pytest.approx(np.exp(ln.mean()), rel=1e-13)
-    assert curve.beta == pytest.approx(ln.std(ddof=1), rel=1e-13)
-    assert curve.se_ln_theta == pytest.approx(curve.beta / np.sqrt(5), rel=1e-13)
-    assert curve.se_beta == pytest.approx(curve.beta / np.sqrt(2.0 * 4.0), rel=1e-13)
     assert curve.bracket == (0.4, 0.6)
     assert dd.incremental(made(stripes, ["x....", "xxx.."])).fit().bracket == (0.2, 0.4)
     assert dd.incremental(made(stripes, ["xxx..", "xxx.."])).fit().bracket == (0.0, 0.2)
@@ -92,18 +107,26 @@ def test_moments(stripes):
     assert low < curve(0.5) < high
 
 
-def test_censored_likelihood(stripes):
-    curve = dd.incremental(stripes).fit()
-    first = dd.incremental(stripes).first_collapse
-    x, m = np.log(first[np.isfinite(first)]), np.isinf(first).sum()
-    assert 5 < m < len(first) - 5
+def test_two_points_in_closed_form(stripes):
+    """Two levels with some of each: the curve goes through both shares."""
+    values = np.repeat([0.3, 0.5, 2.0], [3, 4, 5])
+    curve = dd.incremental(capacities(stripes, values, [0.4, 0.9])).fit()
+    assert curve([0.4, 0.9]) == pytest.approx([3 / 12, 7 / 12], abs=1e-12)
 
-    def cost(p):
-        z = (np.log(LEVELS[-1]) - p[0]) / p[1]
-        return -(stats.norm.logpdf(x, *p).sum() + m * stats.norm.logsf(z))
 
+@pytest.mark.parametrize("levels", [LEVELS, [*LEVELS, 1.5, 2.0, 3.0, 9.0]])
+def test_likelihood(wall, records, levels):
+    """The maximum and its curvature, where the levels end before all histories collapse, and where they do not."""
+    levels = np.array(levels)
+    stripes = dd.multiple_stripe(wall, records, levels, polarity="both", progress=False)
+    ida = dd.incremental(stripes)
+    assert np.isinf(ida.first_collapse).any() == (levels[-1] < 5.0)
+    curve, cost = ida.fit(), cost_of(ida.first_collapse, levels)
     best = optimize.minimize(
-        cost, [x.mean(), x.std()], method="Nelder-Mead", options={"xatol": 1e-10, "fatol": 1e-13, "maxiter": 4000}
+        cost,
+        [np.log(curve.theta) + 0.05, 1.1 * curve.beta],
+        method="Nelder-Mead",
+        options={"xatol": 1e-10, "fatol": 1e-13, "maxiter": 4000},
     )
     assert [np.log(curve.theta), curve.beta] == pytest.approx(best.x, abs=1e-7)
     # Curvature of the likelihood by differences
@@ -117,17 +140,17 @@ def test_censored_likelihood(stripes):
     assert stripes.fit().theta != curve.theta
 
 
-def test_censoring_is_put_right():
-    """A sample cut at the top keeps its parameters; its moments alone would not."""
-    random = np.random.default_rng(4)
-    for cut in (0.0, -0.5, 1.0):
-        sample = random.normal(-0.5, 0.4, size=20_000)
-        top = -0.5 + 0.4 * cut
-        mean, deviation, covariance = _censored(sample[sample <= top], top, int((sample > top).sum()))
-        errors = np.sqrt(np.diag(covariance))
-        assert abs(mean + 0.5) < 3.0 * errors[0] < 0.05
-        assert abs(deviation - 0.4) < 3.0 * errors[1] < 0.05
-        assert abs(sample[sample <= top].mean() + 0.5) > 0.05
+@pytest.mark.parametrize(("step", "number"), [(0.3, 2), (0.3, 10), (0.1, 4), (0.1, 30), (0.02, 20), (0.02, 150)])
+def test_neither_the_step_nor_the_top_is_an_error(stripes, step, number):
+    """A sample of capacities that is seen on a grid keeps its parameters; the levels of first collapse do not."""
+    values = np.exp(np.random.default_rng(4).normal(np.log(0.5), 0.4, size=20_000))
+    levels = step * np.arange(1, number + 1)
+    ida = dd.incremental(capacities(stripes, values, levels))
+    curve = ida.fit()
+    assert abs(np.log(curve.theta / 0.5)) < 3.0 * curve.se_ln_theta < 0.05
+    assert abs(curve.beta - 0.4) < 3.0 * curve.se_beta < 0.06
+    ends = np.log(ida.first_collapse[np.isfinite(ida.first_collapse)])
+    assert abs(np.mean(ends) - np.log(0.5)) > 0.015
 
 
 @pytest.mark.parametrize(
@@ -138,6 +161,8 @@ def test_censoring_is_put_right():
         (["xxx", "xxx"], "all_collapse"),
         (["...", "xxx"], "separated"),
         (["...", "..x"], "separated"),
+        (["x..", "xxx"], "separated"),
+        (["..x", "..x"], "decreasing"),
         (["...", "..x", "..x", "..x"], "extrapolated"),
         (["..x", ".xx", "xxx"], "ok"),
     ],

@@ -226,6 +226,7 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
 
     def value(text):
         mantissa, _, power = text.partition(" \N{MULTIPLICATION SIGN} 10")
+        mantissa = mantissa.replace("\N{NARROW NO-BREAK SPACE}", "")
         return float(mantissa) * 10.0 ** int(power.replace("\N{MINUS SIGN}", "-") or 0)
 
     assert list(shown) == [
@@ -237,8 +238,16 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     assert value(shown["high, collapse"]) == pytest.approx(high.frequency, rel=5e-3)
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
     np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
-    alone = read(pages / "stripes.html").table("Mean annual frequencies")["to [1/year]"]
-    assert value(alone[0]) == pytest.approx(dd.mean_annual_frequency(stripes.fit(), hazard).bounds[1], rel=5e-3)
+    # A population has no return period; what it loses in some years comes from its walls.
+    ends = ("probability in 50 years from", "to")
+    assert list(table) == ["curve", "annual frequency from", "to [1/year]", *ends]
+    assert [value(table[name][1]) for name in ends] == pytest.approx(risk.probability_bounds(50.0), rel=5e-3)
+    table = read(pages / "stripes.html").table("Mean annual frequencies")
+    one = dd.mean_annual_frequency(stripes.fit(), hazard)
+    ends = ("return period from", "to [years]", *ends)
+    expected = (*one.return_period_bounds, *one.probability_bounds(50.0))
+    assert [value(table[name][0]) for name in ends] == pytest.approx(expected, rel=5e-3)
+    assert value(table["to [1/year]"][0]) == pytest.approx(one.bounds[1], rel=5e-3)
 
 
 @pytest.mark.parametrize("case", ["two_block", "history", "population"])

@@ -1,7 +1,10 @@
 """Risk: hazard curves, the mean annual frequency of collapse, its bounds and its deaggregation."""
 
 import doctest
+import functools
+import itertools
 import warnings
+from dataclasses import replace
 
 import matplotlib
 
@@ -13,6 +16,7 @@ import pytest
 from scipy import integrate, stats
 
 import dondolo as dd
+from dondolo import _risk_integrals as integrals_module
 from dondolo import hazard as hazard_module
 from dondolo import risk as risk_module
 
@@ -75,9 +79,14 @@ def test_closed_form(theta, beta, k):
     """Cornell (1996)."""
     risk = dd.mean_annual_frequency(lognormal(theta, beta), dd.HazardCurve.power_law(1e-4, k))
     exact = 1e-4 * theta**-k * np.exp(0.5 * k**2 * beta**2)
+    assert risk.frequency == pytest.approx(exact, rel=1e-11)
+    assert risk.error == 0.0
+    assert risk.bounds == (risk.frequency, risk.frequency)
+    # The same curve as a function, which is integrated by Gauss's rule
+    curve = lognormal(theta, beta)
+    risk = dd.mean_annual_frequency(lambda x: curve(x), dd.HazardCurve.power_law(1e-4, k))
     assert risk.frequency == pytest.approx(exact, rel=1e-7)
     assert risk.error < 1e-7 * exact
-    assert risk.bounds == (risk.frequency, risk.frequency)
 
 
 def test_trapezoids_converge_to_it(hazard, curve):
@@ -87,7 +96,9 @@ def test_trapezoids_converge_to_it(hazard, curve):
     assert off[0] / off[1] == pytest.approx(4.0, rel=0.02)
     assert off[1] / off[2] == pytest.approx(4.0, rel=0.02)
     assert off[2] < 1e-4 * risk.inside
-    assert risk.error < 1e-8 * risk.inside
+    gauss = dd.mean_annual_frequency(lambda x: curve(x), hazard)
+    assert abs(gauss.inside - risk.inside) < 1e-8 * risk.inside
+    assert gauss.error < 1e-8 * risk.inside
 
 
 def test_the_same_in_closed_form_step_by_step(hazard, curve):
@@ -100,7 +111,60 @@ def test_the_same_in_closed_form_step_by_step(hazard, curve):
         shifted = stats.norm.cdf((ends - mean) / beta + k[i] * beta)
         part = np.exp(-k[i] * (mean - u[i]) + 0.5 * (k[i] * beta) ** 2) * np.diff(shifted)[0]
         total += h[i] * part - np.diff(h[i : i + 2] * stats.norm.cdf((ends - mean) / beta))[0]
-    assert dd.mean_annual_frequency(curve, hazard).inside == pytest.approx(total, rel=1e-9)
+    for fragility in (curve, lambda x: curve(x)):
+        assert dd.mean_annual_frequency(fragility, hazard).inside == pytest.approx(total, rel=1e-9)
+
+
+@pytest.mark.parametrize(("theta", "beta"), [(0.6, 0.4), (0.05, 0.9), (20.0, 0.3), (0.6, 0.01), (0.6, 3.0)])
+def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
+    """Bin by bin from far below the median to far above it, against Gauss's rule with 40 points in each."""
+    curve = replace(lognormal(theta, beta), saturation=0.7)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        risk = dd.mean_annual_frequency(curve, hazard)
+    edges = np.unique(np.append(np.geomspace(LEVELS[0], LEVELS[-1], 401), LEVELS))
+    node, weight = np.polynomial.legendre.leggauss(40)
+    u = np.log(edges)
+    half = 0.5 * np.diff(u)[:, None]
+    points = (u[:-1, None] + half) + half * node
+    exact = (risk.density(np.exp(points)) * half) @ weight
+    seen = exact > 1e-200
+    assert seen.sum() > 100
+    np.testing.assert_allclose(risk.deaggregate(edges)[seen], exact[seen], rtol=1e-9, atol=1e-14 * exact.max())
+    assert risk.inside == pytest.approx(exact.sum(), rel=1e-11)
+    assert np.all(risk.deaggregate(edges) >= 0.0)
+
+
+@pytest.mark.parametrize("beta", [0.4, 1.0])
+@pytest.mark.parametrize("k", [15.0, 25.0, 80.0])
+def test_steep_hazard(beta, k):
+    """The power law of the first step overflows far below it."""
+    curve = lognormal(0.6, beta)
+    steep = dd.HazardCurve([0.1, 0.2, 0.4, 1.0], [0.01, *(0.01 * 2.0 ** -(k + i) for i in range(3))])
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        risk = dd.mean_annual_frequency(curve, steep)
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        gauss = dd.mean_annual_frequency(lambda x: curve(x), steep)
+    assert gauss.inside == pytest.approx(risk.inside, rel=1e-8)
+    # By parts, the bound below the lowest level is -P H there and a normal integral, here in logarithms
+    z = np.log(0.1 / 0.6) / beta
+    log_normal = -k * np.log(0.6 / 0.1) + 0.5 * (k * beta) ** 2 + stats.norm.logcdf(z + k * beta)
+    exact = 0.01 * (np.exp(log_normal) - stats.norm.cdf(z)) if log_normal < 700.0 else np.inf
+    assert risk.below[1] == pytest.approx(exact, rel=1e-9)
+    assert gauss.below[1] == pytest.approx(exact, rel=1e-6) or np.isinf(gauss.below[1])
+    assert np.isfinite(gauss.below[1]) or k * beta > 20.0
+    if exact < np.inf:
+        whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, k))
+        assert whole.frequency == pytest.approx(1e-4 * np.exp(0.5 * (k * beta) ** 2) * 0.6**-k, rel=1e-10)
+    with pytest.raises(dd.DondoloError, match="is not finite"):
+        dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 0.5, dd.HazardCurve.power_law(1e-4, k))
+
+
+def test_a_function_that_is_too_rough(hazard, monkeypatch):
+    monkeypatch.setattr(integrals_module, "_MOST_PANELS", 2000)
+    random = np.random.default_rng(5)
+    with pytest.raises(dd.DondoloError, match="too rough"):
+        dd.mean_annual_frequency(lambda x: 0.5 + 0.004 * random.random(x.shape), hazard)
 
 
 def test_bounds_hold_the_truth(curve):
@@ -163,8 +227,121 @@ def test_time(hazard, curve):
     # As many collapses as a Poisson process has
     counts = np.random.default_rng(3).poisson(risk.frequency * 2000.0, 100_000)
     assert risk.probability(2000.0) == pytest.approx((counts > 0).mean(), abs=0.005)
-    with pytest.raises(dd.InputError, match="must not be negative"):
-        risk.probability(-1.0)
+    for wrong in (-1.0, np.nan, np.inf):
+        with pytest.raises(dd.InputError, match="must be finite and not negative"):
+            risk.probability(wrong)
+
+
+def test_both_ends_are_told(curve):
+    """A hazard curve that is too short: the lower end alone would look safer than it is."""
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        risk = dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 0.4], [0.1, 0.005]))
+    low, high = risk.bounds
+    assert 0.0 < 1.1 * low < high < np.inf
+    assert risk.return_period_bounds == (1.0 / high, 1.0 / low)
+    assert risk.return_period == 1.0 / low
+    assert risk.probability_bounds(50.0) == pytest.approx((1.0 - np.exp(-50.0 * low), 1.0 - np.exp(-50.0 * high)))
+    assert risk.probability(50.0) == risk.probability_bounds(50.0)[0]
+    shown = repr(risk)
+    assert f"between {low:.4g} and {high:.4g} a year" in shown
+    assert f"return period between {1.0 / high:.4g} and {1.0 / low:.4g} years" in shown
+    assert f"probability in 50 years between {risk.probability(50.0):.4g} and {1 - np.exp(-50 * high):.4g}" in shown
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        open_end = dd.mean_annual_frequency(lambda x: np.ones_like(x), dd.HazardCurve([0.1, 0.4], [0.1, 0.005]))
+    assert open_end.return_period_bounds == (0.0, pytest.approx(10.0))
+    assert open_end.probability_bounds(1.0) == (pytest.approx(-np.expm1(-0.1)), 1.0)
+    assert open_end.probability_bounds(0.0) == (0.0, 0.0)
+    assert "return period between 0 and 10 years" in repr(open_end)
+
+
+@pytest.fixture(scope="module")
+def people(records):
+    """Walls with a mechanism that cannot occur, with two that may or may not, and without a fit."""
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.OneSidedWall(1.5, 0.25, name="b"),
+        dd.OneSidedWall(2.0, 0.25, name="c"),
+        dd.TwoBlockWall(2.0, 0.12, name="c"),
+        dd.FreeStandingWall(2.0, 0.3, name="c"),
+        dd.OneSidedWall(1.5, 0.8, name="d"),
+        dd.OneSidedWall(6.0, 0.5, name="e"),
+        dd.TwoBlockWall(3.0, 0.6, name="e"),
+    ]
+    p_occ, groups = [1.0, 0.0, 0.5, 0.3, 0.2, 1.0, 0.25, 1.0], ["low"] * 6 + ["high"] * 2
+    weights = [1.0, 1.0, 2.0, 2.0, 2.0, 0.5, 3.0, 3.0]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        levels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6]
+        population = dd.Population(walls, weights, groups, p_occ)
+        made = dd.typology(population, records[::4], levels, progress=False)
+    assert {"no_collapse", "ok"} < {curve.status for curve in made.curves}
+    return made
+
+
+def losses(people, hazard, years, group=""):
+    """Bounds of the share lost in some years: walls, and combinations of what can occur in them, one by one."""
+    walls, rows = {}, people.population
+    for i, wall in enumerate(rows):
+        if group in ("", rows.groups[i]):
+            walls.setdefault(wall.name, []).append(i)
+    weight, sums = 0.0, np.zeros(2)
+    for one in walls.values():
+        weight += rows.weights[one[0]]
+        for occurs in itertools.product((False, True), repeat=len(one)):
+            share = rows.weights[one[0]] * np.prod(np.where(occurs, rows.p_occ[one], 1.0 - rows.p_occ[one]))
+            if share == 0.0 or not any(occurs):
+                continue
+
+            def probability(x, one=one, occurs=occurs):
+                stands = np.ones_like(x)
+                for i in itertools.compress(one, occurs):
+                    curve, counts = people.curves[i], people.collapses[:, i] / people.histories[i]
+                    stands *= 1.0 - (curve(x) if curve.has_fit else np.interp(x, people.levels, counts))
+                return 1.0 - stands
+
+            low, high = dd.mean_annual_frequency(probability, hazard).bounds
+            sums -= share * np.expm1(-years * np.array([low, high]))
+    return sums / weight
+
+
+@pytest.mark.parametrize("group", ["", "high"])
+@pytest.mark.parametrize("endless", [False, True])
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_time_of_a_population(people, hazard, endless, group):
+    """Each wall has its own frequency, and where a mechanism may not occur, several."""
+    hazard = dd.HazardCurve.power_law(2e-3, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
+    risk = dd.mean_annual_frequency(functools.partial(people.mean, group=group), hazard)
+    for years in (1e-3, 50.0, 475.0, 1e5):
+        bounds = risk.probability_bounds(years)
+        np.testing.assert_allclose(bounds, losses(people, hazard, years, group), rtol=1e-6)
+        # No more than if all walls were alike
+        for end, frequency in zip(bounds, risk.bounds, strict=True):
+            assert end <= -np.expm1(-years * frequency)
+    assert risk.probability(1e-3) == pytest.approx(1e-3 * risk.frequency, rel=1e-3)
+    assert "return period" not in repr(risk)
+    assert f"probability in 50 years {'between ' * (not endless)}{risk.probability(50.0):.4g}" in repr(risk)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_time_ends_at_the_saturation(people, records):
+    """Walls that never collapse take no part, however long the time is."""
+    hazard = dd.HazardCurve.power_law(8e-3, 2.5)
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
+    two = dd.typology(dd.Population(walls, p_occ=[1.0, 0.0]), records[::4], people.levels, progress=False)
+    risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two.mean, two.combined["a"]))
+    assert risk.frequency == pytest.approx(0.5 * one.frequency, rel=1e-7)
+    assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
+    assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.frequency)
+    assert risk.probability(1e6) == pytest.approx(0.5)
+    never = dd.typology(dd.Population(walls, p_occ=[0.0, 0.0]), records[::4], people.levels, progress=False)
+    assert dd.mean_annual_frequency(never.mean, hazard).probability_bounds(50.0) == (0.0, 0.0)
+    # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
+    fit = dd.mean_annual_frequency(two.fit(), hazard)
+    assert two.fit().saturation == 0.5
+    assert fit.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=0.01)
+    assert fit.probability(1e6) == pytest.approx(0.5)
+    alone = dd.mean_annual_frequency(functools.partial(two.mean, mechanism="one_sided"), hazard)
+    assert alone.probability(200.0) == pytest.approx(one.probability(200.0), rel=1e-7)
 
 
 def test_deaggregation(hazard, curve):
@@ -184,8 +361,13 @@ def test_deaggregation(hazard, curve):
     assert whole.deaggregate([1e-9, 1e9])[0] == pytest.approx(whole.frequency, rel=1e-9)
     # Half of it comes from above the median of the lognormal that the integrand is
     assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.frequency
-    for wrong in ([0.1], [0.2, 0.1], [0.0, 1.0], [0.1, np.inf]):
-        with pytest.raises(dd.InputError, match="edges: must be two"):
+    for wrong, sentence in (
+        ([0.1], "edges: must be two at least"),
+        ([0.2, 0.1], r"edges = 0.2, 0.1: must increase strictly"),
+        ([0.0, 1.0], "edges = 0: must be positive"),
+        ([0.1, np.inf], "edges = inf: must be positive"),
+    ):
+        with pytest.raises(dd.InputError, match=sentence):
             risk.deaggregate(wrong)
     with pytest.raises(dd.InputError, match="x: must be positive"):
         risk.density([0.0])
@@ -213,6 +395,8 @@ def test_refused(hazard, curve):
         (lambda x: x, "must lie between 0 and 1"),
         (lambda x: np.full_like(x, np.nan), "fragility = nan: must lie"),
         (lambda x: 0.5, "gives an array of shape"),
+        (lambda x: np.full(x.shape, "much"), "fragility: must give numbers"),
+        (lambda x: np.exp(-x), r"fragility = 0\.\d+ at \S+, 0\.\d+ below: must not fall with the intensity"),
         (0.3, "fragility: float is no curve"),
     ):
         with pytest.raises(dd.InputError, match=sentence):
@@ -240,7 +424,7 @@ def test_files(hazard, tmp_path):
     np.testing.assert_array_equal(again.im_levels, hazard.im_levels)
     np.testing.assert_array_equal(again.annual_frequency, hazard.annual_frequency)
     assert again.im == "pga"
-    (tmp_path / "own.csv").write_text("# a site\nsa(0.5), annual_frequency\n0.1,0.01\n\n0.3,0.001\n")
+    (tmp_path / "own.csv").write_text('# a site\n  # indented\n"sa(0.5)", annual_frequency\n0.1,0.01\n\n0.3,0.001\n')
     own = dd.HazardCurve.from_csv(tmp_path / "own.csv")
     assert (own.im, own(0.3)) == ("sa(0.5)", pytest.approx(0.001))
     for text, sentence in (
@@ -249,6 +433,8 @@ def test_files(hazard, tmp_path):
         ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: must be two numbers"),
         ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: must be two numbers"),
         ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: must be two numbers"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: must be two numbers"),
+        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", "line 7: must be two numbers"),
         ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
@@ -257,6 +443,8 @@ def test_files(hazard, tmp_path):
             dd.HazardCurve.from_csv(tmp_path / "own.csv")
     with pytest.raises(dd.InputError, match="cannot be read"):
         dd.HazardCurve.from_csv(tmp_path / "none.csv")
+    with pytest.raises(dd.InputError, match=r"path = 3\.5: must be the path of a file"):
+        dd.HazardCurve.from_csv(3.5)
 
 
 def test_shown(hazard, curve):
@@ -271,8 +459,10 @@ def test_shown(hazard, curve):
 
 @pytest.mark.parametrize("endless", [False, True])
 def test_figure(hazard, curve, endless):
-    hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else hazard
-    risk = dd.mean_annual_frequency(curve, hazard)
+    hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        risk = dd.mean_annual_frequency(curve, hazard)
     above, middle, below = dd.plot_risk(risk)
     x = above.get_lines()[0].get_xdata()
     np.testing.assert_allclose(above.get_lines()[0].get_ydata(), hazard(x))
@@ -281,5 +471,9 @@ def test_figure(hazard, curve, endless):
     np.testing.assert_allclose(share.get_ydata(), risk.density(x) / risk.inside)
     assert integrate.trapezoid(share.get_ydata(), np.log(x)) == pytest.approx(1.0, abs=0.02)
     assert below.get_xlabel() == "peak ground acceleration [g]"
-    assert f"{risk.frequency:.3g} a year" in above.get_title(loc="left")
+    text = f"{risk.frequency:.3g}" if endless else "{:.3g} to {:.3g}".format(*risk.bounds)
+    assert f"{text} a year" in above.get_title(loc="left")
+    above.figure.draw_without_rendering()
+    title = next(text for text in above.findobj(matplotlib.text.Text) if "frequency of collapse" in text.get_text())
+    assert title.get_window_extent().x1 <= above.figure.bbox.x1
     plt.close("all")

@@ -243,6 +243,6 @@ def test_a_partial_population_keeps_its_weights_and_origin():
     given = people, "pga", np.array([0.2, 0.4, 0.8]), np.array([1.0]), counts, sizes
     with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
         combine(*given, np.array([True, False, False]), dd.Work())
-    partial, _ = combine(*given, np.array([True, True, False]), dd.Work())
+    partial = combine(*given, np.array([True, True, False]), dd.Work())
     assert partial.weight == 2.0
     assert partial.population.origin == ("surveyed",)
