@@ -7,22 +7,27 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dondolo import _binding
 from dondolo._arguments import FloatArray, as_count
-from dondolo._checkpoint import Checkpoint, digest
-from dondolo._crew import Crew, CrewError
 from dondolo._flags import Flags
 from dondolo._parts import Blocks, Part, Shared
 from dondolo._request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.work import Work
+
+# Loaded where they are used: databases, sockets and futures would make every import of dondolo slower by 20 ms.
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from dondolo._checkpoint import Checkpoint
+    from dondolo._crew import Crew
 
 IntArray = NDArray[np.int32]
 
@@ -68,6 +73,9 @@ def run_walls(
     progress: bool,
 ) -> Run:
     """Run all walls, or those that are complete when Ctrl-C comes."""
+    from dondolo._checkpoint import Checkpoint
+    from dondolo._crew import CrewError
+
     _check(executor, block)
     levels, walls = len(request.levels), len(histories)
     run = Run(
@@ -105,6 +113,8 @@ def _run_rest(
     progress: bool,
 ) -> None:
     """Run the walls that are not complete."""
+    from dondolo._crew import Crew
+
     histories = run.flags.histories
     sizes = histories.astype(np.int64) * len(request.levels)
     blocks = Blocks(sizes, run.complete, request.threads or _all_threads(), block)
@@ -144,6 +154,8 @@ def _all_threads() -> int:
 
 def _study(request: Request, states: FloatArray) -> dict[str, str]:
     """All that the flags depend on, for a checkpoint: weights, groups, threads and blocks are not among it."""
+    from dondolo._checkpoint import digest
+
     rtol, atol, *_ = (repr(float(value)) for value in request.settings)
     flat = _binding.join_walls([wall._flat for wall in request.walls])
     records = request.records
@@ -165,6 +177,8 @@ def _study(request: Request, states: FloatArray) -> dict[str, str]:
 
 
 def _check(executor: Executor | None, block: int | None) -> None:
+    from concurrent.futures import Executor
+
     if executor is not None and not isinstance(executor, Executor):
         raise InputError(f"executor: {type(executor).__name__} is no executor of concurrent.futures")
     if block is not None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Sequence
-from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -249,6 +248,8 @@ def limits_chapter(results: Any) -> Markup:
 
 def software_chapter(run: Run) -> Markup:
     """Versions of what ran, and of what wrote this page."""
+    from importlib.metadata import version
+
     pairs: list[tuple[Any, Any]] = []
     if run.comments:
         pairs.append(("run by", run.comments[0]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterable
-from concurrent.futures import Executor
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,9 @@ from dondolo.records import Record, as_records
 from dondolo.typology import Typology, combine
 from dondolo.walls import Wall
 from dondolo.work import Work
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
 
 
 def typology(

@@ -1,4 +1,4 @@
-!> Where names stand: a hash table from names to lines of a file, 16 bytes for each name.
+!> Where names stand: a hash table from names to lines of a file, 24 to 48 bytes for each name, 72 while it grows.
 !>
 !> Of a name only a fingerprint of 62 bits is kept: among a million names two are taken for the same once in 1e7 times.
 module dondolo_name_index
