@@ -13,6 +13,7 @@ from dondolo.bootstrap import Bootstrap
 from dondolo.cases import Case, Results, read_case, run_case
 from dondolo.cloud import Cloud, cloud
 from dondolo.comparison import Comparison, compare
+from dondolo.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
@@ -42,7 +43,7 @@ from dondolo.report import report
 from dondolo.results import StoredResults, read_results
 from dondolo.risk import Risk, mean_annual_frequency
 from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
-from dondolo.sampling import Choice, Lognormal, Normal, Triangular, Uniform, sample_population
+from dondolo.sampling import sample_population
 from dondolo.stripes import Stripes, multiple_stripe
 from dondolo.study import typology
 from dondolo.synthetic import synthetic_records

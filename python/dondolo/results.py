@@ -14,13 +14,14 @@ from typing import Any
 import numpy as np
 
 from dondolo._files import as_file
+from dondolo.combination import combine
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
 from dondolo.motion import Response, sides
 from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes
-from dondolo.typology import Typology, combine
+from dondolo.typology import Typology
 from dondolo.walls import MECHANISMS, Wall
 from dondolo.work import Work
 

@@ -14,10 +14,11 @@ from dondolo import _binding
 from dondolo._blocks import run_walls
 from dondolo._flags import states_of
 from dondolo._request import new_request
+from dondolo.combination import combine
 from dondolo.errors import Interrupted
 from dondolo.population import Population
 from dondolo.records import Record, as_records
-from dondolo.typology import Typology, combine
+from dondolo.typology import Typology
 from dondolo.walls import Wall
 from dondolo.work import Work
 

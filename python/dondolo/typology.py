@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
-from dondolo._arguments import FloatArray, as_levels, as_number, as_text, shaped
+from dondolo._arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._files import as_file
 from dondolo._flags import Flags
 from dondolo._members import Members
-from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.fragility import Fragility, curve_of
+from dondolo.errors import DondoloError, InputError
+from dondolo.fragility import Fragility
 from dondolo.population import Population
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
 from dondolo.walls import Wall
@@ -228,7 +228,10 @@ class Typology:
             self._states[value] = dataclasses.replace(self, **last, _states={})
         if value not in self._states:
             counts, threshold = self.exceedances[place], self.edp_thresholds[place]
-            state = _combine(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
+            # These two modules need each other: curves make a typology, which makes those of its states.
+            from dondolo.combination import combine_rows
+
+            state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             flags = None if self.flags is None else self.flags.at(int(place[0]))
             self._states[value] = dataclasses.replace(state, flags=flags)
             _binding.warn(f"damage state {value:g}: {sentence}" for sentence in state.warnings)
@@ -473,94 +476,3 @@ class Typology:
 
     def _repr_html_(self) -> str:
         return tables.html_of("Typology", self._facts())
-
-
-def combine(
-    people: Population,
-    im: str,
-    levels: FloatArray,
-    edp_thresholds: FloatArray,
-    exceedances: IntArray,
-    histories: IntArray,
-    complete: np.ndarray[Any, Any],
-    work: Work,
-) -> Typology:
-    """The curves of the walls whose rows are all complete.
-
-    Exceedances are (thresholds, levels, rows); thresholds increase, and the last is that of collapse.
-    """
-    first = people.first_rows
-    rows = np.diff(np.append(first, len(people.walls)))
-    chosen = np.flatnonzero(np.repeat(np.logical_and.reduceat(complete, first), rows))
-    if len(chosen) == 0:
-        raise Interrupted("interrupted: no wall is complete")
-    if len(chosen) < len(people.walls):
-        if not people.weights[chosen].any():
-            raise Interrupted("interrupted: no wall of any weight is complete")
-        people = people._chosen(chosen)
-    counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
-    sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
-    return _combine(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
-
-
-def _combine(
-    people: Population,
-    im: str,
-    levels: FloatArray,
-    edp_thresholds: FloatArray,
-    exceedances: IntArray,
-    histories: IntArray,
-    work: Work,
-) -> Typology:
-    """The curves of the last state."""
-    walls = people.walls
-    origin = {"im": im, "edp": float(edp_thresholds[-1])}
-    first = people.first_rows
-    rows = np.diff(np.append(first, len(walls))).astype(np.int32)
-    words = (
-        as_text("name", word)
-        for wall, group in zip(walls, people.groups, strict=True)
-        for word in (wall.name, wall.mechanism, group)
-    )
-    texts = b"".join(word + b"\n" for word in words)
-    counts = exceedances[-1].T
-    data = _binding.fit_walls(texts, levels, counts, histories, people.weights, people.p_occ, rows)
-    own = tuple(
-        curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
-        for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)
-    )
-    combined = {}
-    for i, fraction, curve, number in zip(first, data.fractions, data.walls, rows, strict=True):
-        if number == 1 and people.p_occ[i] == 1.0:
-            combined[walls[i].name] = own[i]
-            continue
-        n = np.full(len(levels), float(histories[i : i + number].min()))
-        occurrence = float(1.0 - np.prod(1.0 - people.p_occ[i : i + number]))
-        conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
-        combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin, saturation=occurrence)
-    together = []
-    for group in data.groups:
-        n = np.full(len(levels), group.histories)
-        share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
-        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
-        betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
-        means = (group.mean_fraction, group.mean_curve, group.fractiles)
-        together.append(
-            Group(
-                group.group,
-                group.mechanism,
-                group.walls,
-                group.weight,
-                *means,
-                *betas,
-                group.fitted,
-                group.saturation,
-                fit,
-            )
-        )
-    for array in (edp_thresholds, exceedances, histories):
-        array.flags.writeable = False
-    found = {"warnings": tuple(data.warnings)}
-    return Typology(
-        people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work, **found
-    )

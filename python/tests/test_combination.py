@@ -5,7 +5,7 @@ import pickle
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.typology import combine
+from dondolo.combination import combine
 from dondolo.work import Work
 from matplotlib.colors import to_rgba
 

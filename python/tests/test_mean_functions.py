@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo.typology import combine
+from dondolo.combination import combine
 from test_nrml import check
 
 import dondolo as dd

@@ -9,7 +9,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from dondolo.typology import combine
+from dondolo.combination import combine
 
 import dondolo as dd
 from dondolo import _request
