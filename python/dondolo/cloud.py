@@ -56,6 +56,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._request import Request, check_threads, new_request
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.records import Record, as_records, flatten
 from dondolo.regression import Logistic, Regression, logistic_regression, regress
@@ -73,7 +74,7 @@ _REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Cloud:
+class Cloud(Shown):
     """Points (IM, EDP) of records as they are, and what is fitted to them.
 
     Attributes
@@ -104,6 +105,9 @@ class Cloud:
     work : Work
         What was computed, and what was not.
     """
+
+    # Its facts have commas.
+    _separator = "; "
 
     wall: Wall
     records: tuple[Record, ...]
@@ -282,12 +286,6 @@ class Cloud:
                 for model, what in models
             ),
         ]
-
-    def __repr__(self) -> str:
-        return "<Cloud: " + "; ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Cloud", self._facts())
 
 
 def cloud(

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
+from dondolo._shown import Shown
 from dondolo.bootstrap import Bootstrap, draw_records, resample_stripes
 from dondolo.errors import DondoloError, InputError
 
@@ -23,7 +24,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fragility:
+class Fragility(Shown):
     """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
 
     Attributes
@@ -245,12 +246,6 @@ class Fragility:
             ("log likelihood", f"{self.log_likelihood:.6g}"),
             ("status", self.status),
         ]
-
-    def __repr__(self) -> str:
-        return "<Fragility: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Fragility", self._facts())
 
 
 def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, im: str = "") -> Fragility:

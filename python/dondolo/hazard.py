@@ -20,11 +20,12 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_levels, as_number, increasing, shaped
+from dondolo._shown import Shown
 from dondolo.errors import InputError
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
-class HazardCurve:
+class HazardCurve(Shown):
     """Mean annual frequency with which an intensity is exceeded, a power law between each two levels.
 
     Parameters
@@ -225,12 +226,6 @@ class HazardCurve:
             ("levels", f"{len(self.im_levels)} of {self.im}, {first:g} to {last:g}{unit}"),
             ("exceeded", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g} times a year"),
         ]
-
-    def __repr__(self) -> str:
-        return "<HazardCurve: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("HazardCurve", self._facts())
 
 
 def _number(cell: str) -> float:

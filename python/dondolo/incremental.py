@@ -44,6 +44,7 @@ import numpy as np
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.stripes import Stripes
@@ -71,7 +72,7 @@ class FirstCollapseFragility(Fragility):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Incremental:
+class Incremental(Shown):
     """The histories of a multiple stripe analysis, record by record.
 
     Attributes
@@ -90,6 +91,9 @@ class Incremental:
     counted : ndarray of int, shape (levels,)
         Histories that have collapsed at the level or before.
     """
+
+    # Its facts have commas.
+    _separator = "; "
 
     stripes: Stripes
     first_collapse: FloatArray
@@ -203,12 +207,6 @@ class Incremental:
             ("first collapse of 16, 50, 84 %", ", ".join(fractiles) + unit),
             ("survive a higher level later", str(self.resurrected.sum())),
         ]
-
-    def __repr__(self) -> str:
-        return "<Incremental: " + "; ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Incremental", self._facts())
 
 
 def incremental(stripes: Stripes) -> Incremental:

@@ -10,13 +10,14 @@ import numpy as np
 
 from dondolo import _binding, _core, tables
 from dondolo._arguments import FloatArray, as_number, as_text
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.records import Record
 from dondolo.walls import Wall
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Response:
+class Response(Shown):
     """What a motion leaves.
 
     Attributes
@@ -77,12 +78,6 @@ class Response:
             )
             facts.insert(4, fact)
         return facts
-
-    def __repr__(self) -> str:
-        return "<Response: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Response", self._facts())
 
     def _table(self) -> tables.Table:
         if self.time is None:

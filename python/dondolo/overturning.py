@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, _core, tables
 from dondolo._arguments import FloatArray, as_array, as_number, as_text
 from dondolo._request import Pace, check_threads, in_blocks, progress_bar
+from dondolo._shown import Shown
 from dondolo.errors import InputError, Interrupted
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
@@ -70,7 +71,7 @@ class Window(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OverturningSpectrum:
+class OverturningSpectrum(Shown):
     """What pulses of many frequencies and amplitudes do to a wall.
 
     Attributes
@@ -185,12 +186,6 @@ class OverturningSpectrum:
             ("overturned", f"{self.overturned.sum()} of {self.state.size}"),
             ("changes of state", str(len(self.boundaries))),
         ]
-
-    def __repr__(self) -> str:
-        return "<OverturningSpectrum: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Overturning spectrum", self._facts())
 
 
 def overturning_spectrum(

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_text
+from dondolo._shown import Shown, html_of
 from dondolo.errors import InputError
 from dondolo.walls import Wall, wall_from
 
@@ -24,7 +25,7 @@ _UNNAMED = "wall"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Population:
+class Population(Shown):
     """Walls and how many of the kind each stands for.
 
     Walls with the same name, one after the other, are mechanisms of one wall. Walls that were given no name are called
@@ -224,11 +225,8 @@ class Population:
             between("p_occ", self.p_occ),
         ]
 
-    def __repr__(self) -> str:
-        return "<Population: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
     def _repr_html_(self) -> str:
-        return tables.html_of("Population", [*self._facts(), *self._ranges()])
+        return html_of("Population", [*self._facts(), *self._ranges()])
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights.

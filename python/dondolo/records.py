@@ -10,8 +10,9 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo import _binding, _core, tables
+from dondolo import _binding, _core
 from dondolo._arguments import FloatArray, as_array, as_number, as_text
+from dondolo._shown import html_of
 from dondolo.errors import InputError
 
 
@@ -154,7 +155,7 @@ class Record:
         return f"<Record {self.name!r}: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
 
     def _repr_html_(self) -> str:
-        return tables.html_of(f"Record '{self.name}'", self._facts())
+        return html_of(f"Record '{self.name}'", self._facts())
 
     def __getstate__(self) -> dict[str, object]:
         # A mapping proxy cannot be pickled

@@ -54,10 +54,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo import _binding, tables
+from dondolo import _binding
 from dondolo._arguments import FloatArray, as_levels, as_number, increasing, shaped
 from dondolo._risk_integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
 from dondolo._risk_walls import WallFrequencies, wall_frequencies
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
@@ -72,7 +73,7 @@ _FALL = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Risk:
+class Risk(Shown):
     """Mean annual frequency of collapse, and where it comes from.
 
     Attributes
@@ -251,12 +252,6 @@ class Risk:
         if not self._of_several:
             facts.append(("return period", _between(*self.return_period_bounds, "years")))
         return [*facts, ("probability in 50 years", _between(*self.probability_bounds(50.0)))]
-
-    def __repr__(self) -> str:
-        return "<Risk: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Risk", self._facts())
 
 
 def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_number
 from dondolo._request import Outcome, Plan, Request, new_request
+from dondolo._shown import Shown
 from dondolo.errors import InputError, Interrupted
 from dondolo.fragility import Fragility, fit
 from dondolo.records import Record, as_records
@@ -22,7 +23,7 @@ from dondolo.work import Work
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Stripes:
+class Stripes(Shown):
     """Every record at every level of intensity, and who collapses.
 
     Attributes
@@ -187,12 +188,6 @@ class Stripes:
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
         ]
-
-    def __repr__(self) -> str:
-        return "<Stripes: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Stripes", self._facts())
 
 
 def multiple_stripe(

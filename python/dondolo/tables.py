@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -89,12 +88,6 @@ def frame(table: Table) -> Any:
     except ImportError:
         raise DondoloError("pandas is not installed: pip install 'dondolo[tables]'; CSV files need no pandas") from None
     return pd.DataFrame(table)
-
-
-def html_of(title: str, facts: Sequence[tuple[str, str]]) -> str:
-    """A small table for notebooks."""
-    rows = "".join(f"<tr><th>{html.escape(what)}</th><td>{html.escape(text)}</td></tr>" for what, text in facts)
-    return f"<table><caption>{html.escape(title)}</caption>{rows}</table>"
 
 
 def walls_table(

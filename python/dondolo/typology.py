@@ -17,6 +17,7 @@ from dondolo._arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._files import as_file
 from dondolo._flags import Flags
 from dondolo._members import Members
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.population import Population
@@ -81,7 +82,7 @@ class Group:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Typology:
+class Typology(Shown):
     """Fragility of a population of walls.
 
     A damage state is reached where rotation / capacity comes to a threshold; collapse is the last. Whatever names no
@@ -470,9 +471,3 @@ class Typology:
             text = f"{whole.beta_walls:.3g} between walls, {whole.beta_records:.3g} between records"
             facts.append(("dispersion", text))
         return [*facts, ("work", str(self.work))]
-
-    def __repr__(self) -> str:
-        return "<Typology: " + ", ".join(f"{what} {text}" for what, text in self._facts()) + ">"
-
-    def _repr_html_(self) -> str:
-        return tables.html_of("Typology", self._facts())

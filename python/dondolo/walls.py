@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray
+from dondolo._shown import html_of
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
@@ -194,7 +195,7 @@ class Wall:
         return f"<{type(self).__name__} {self.name!r}: {facts}>"
 
     def _repr_html_(self) -> str:
-        return tables.html_of(f"{type(self).__name__} '{self.name}'", self._facts())
+        return html_of(f"{type(self).__name__} '{self.name}'", self._facts())
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""

@@ -1,0 +1,27 @@
+"""How results show themselves: their facts in a line, or as a table in a notebook."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+
+
+class Shown:
+    """What has facts to show, name and text."""
+
+    _separator = ", "
+
+    def _facts(self) -> list[tuple[str, str]]:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self._separator.join(f'{what} {text}' for what, text in self._facts())}>"
+
+    def _repr_html_(self) -> str:
+        return html_of(type(self).__name__, self._facts())
+
+
+def html_of(title: str, facts: Sequence[tuple[str, str]]) -> str:
+    """A small table for notebooks."""
+    rows = "".join(f"<tr><th>{html.escape(what)}</th><td>{html.escape(text)}</td></tr>" for what, text in facts)
+    return f"<table><caption>{html.escape(title)}</caption>{rows}</table>"
