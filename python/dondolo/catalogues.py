@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dondolo import tables
+from dondolo._files import check_replaced
 from dondolo.errors import InputError
 from dondolo.records import Record, read_records
 
@@ -35,7 +36,8 @@ def build_catalogue(
     folder : path
         Where the files are.
     file : path, optional
-        The catalogue; ``catalogue.csv`` in the folder if left out, where there must be none yet.
+        The catalogue, in place of an earlier one; ``catalogue.csv`` in the folder if left out, where there must be none
+        yet.
     dt, units : optional
         Time step [s] and units for the files that do not state them.
 
@@ -43,6 +45,11 @@ def build_catalogue(
     -------
     Catalogue
         Its path, its number of records, and one line for each file that is left out, with the reason.
+
+    Raises
+    ------
+    InputError
+        No such folder, no accelerogram in it, or a file that is no catalogue stands where it would be written.
     """
     root = Path(folder)
     if not root.is_dir():
@@ -51,6 +58,7 @@ def build_catalogue(
     if file is None and target.exists():
         raise InputError(f"{target}: stands there already: -o must name the catalogue")
     columns = ("file", "channel", "dt_s", "units", *_KEYS)
+    check_replaced(target, ",".join(columns), "catalogue")
     table: dict[str, list[str]] = {column: [] for column in columns}
     problems = []
     files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]

@@ -146,3 +146,15 @@ def test_table(folder, executable, tmp_path):
     code, out, err = run("records", folder / "none.csv")
     assert code == 2
     assert "none.csv: no such file" in err
+
+
+def test_only_a_catalogue_is_replaced(folder, tmp_path):
+    target = tmp_path / "list.csv"
+    for _ in range(2):
+        assert run("catalogue", folder, "-o", target)[0] == 0
+    survey = tmp_path / "walls.csv"
+    survey.write_text("name,mechanism,height,thickness\n")
+    code, _, err = run("catalogue", folder, "-o", survey)
+    assert code == 2
+    assert "walls.csv: exists, and is no catalogue of dondolo" in err
+    assert survey.read_text() == "name,mechanism,height,thickness\n"
