@@ -43,7 +43,7 @@ def crews(monkeypatch):
             super().__init__(*given)
             there.append(self)
 
-    monkeypatch.setattr(_blocks, "Crew", Watched)
+    monkeypatch.setattr(_crew, "Crew", Watched)
     return there
 
 
@@ -266,7 +266,7 @@ warnings.simplefilter("ignore")
 class Watched(_crew.Crew):
     def __exit__(self, *given):
         print("sends", self.sends, flush=True)
-_blocks.Crew = Watched
+_crew.Crew = Watched
 if __name__ == "__main__":
     folder, checkpoint, after = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
     with MPIPoolExecutor() as executor:
