@@ -66,11 +66,12 @@ contains
          & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
       if (size(case%stripes%thresholds) > 1) &
          & write (output_unit, '(a)') 'EDP thresholds:'//list(case%stripes%thresholds)
-      if (case%job%task == 'typology' .and. has_begun) write (output_unit, '(a)') 'an earlier run has left '// &
-         & to_text(file%done - file%first + 1)//' of '//to_text(file%last - file%first + 1)//' rows in '//file%path
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
+      if (case%job%task == 'typology' .and. has_begun) write (output_unit, '(a)') 'of these an earlier run has done '// &
+         & to_text(file%work%histories)//', '//to_text(file%done - file%first + 1)//' of '// &
+         & to_text(file%last - file%first + 1)//' rows, in '//file%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
    end subroutine print_plan

@@ -639,7 +639,7 @@ contains
       call check_error(error, 'z_walls_6-7.counts: row 6 stands in another file too', 'a part twice')
       call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
       call merge_anew(case, paths, error)
-      call check_error(error, 'z_walls_2-5.counts: ends with row 3, its last is 5: run it again', 'a part not complete')
+      call check_error(error, 'z_walls_2-5.counts: is whole to row 3, its last is 5: run it again', 'a part not complete')
       call read_case(scratch//'/a.nml', case, error, [1, 9])
       call check_text(counts_path(case), scratch//'/out/z_walls_1-7.counts', 'all rows, asked for, are a part')
       call write_file('a.nml', case_text//' &solver gravity = 9.8 /')

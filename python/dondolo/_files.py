@@ -15,7 +15,8 @@ def as_file(name: str, path: Any) -> Path:
     """Turn what a user gives for the path of a file into one."""
     try:
         target = Path(path)
-        valid = bool(target.name) and b"\0" not in os.fsencode(target)
+        named = bool(target.name) and not os.fspath(path).endswith(os.sep)
+        valid = named and b"\0" not in os.fsencode(target)
     except (TypeError, UnicodeEncodeError):
         valid = False
     if not valid:

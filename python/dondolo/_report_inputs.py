@@ -81,6 +81,8 @@ def walls_chapter(run: Run) -> Markup:
             ("speed ratio of impacts", number(wall.restitution_coefficient)),
             ("gravity", joined(number(wall.gravity), " m/s2")),
         ]
+        if isinstance(run.results, Typology):
+            pairs += [("weight", number(people.weights[0])), (symbol("p", "occ"), number(people.p_occ[0]))]
         return facts(pairs)
     columns: dict[Any, Any] = {"wall": [wall.name for wall in walls]}
     if any(people.groups):

@@ -12,6 +12,7 @@ from dondolo._report_typology import combined
 from dondolo._report_words import Chapter, state_name
 from dondolo.errors import DondoloWarning
 from dondolo.hazard import HazardCurve
+from dondolo.risk import between
 from dondolo.typology import Typology
 
 _YEARS = 50.0
@@ -80,21 +81,21 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         if population
         else ""
     )
+    same = f"{low:.3g}" == f"{high:.3g}"
     content = joined(
         paragraph(
             "The mean annual frequency of collapse is the integral of the fragility over the hazard of the site,"
             " λ = ∫ P(C | x) |dH(x)|, where H(x) is how often a year the intensity x is exceeded. ",
             meaning,
-            "It lies between ",
-            number(low, 3),
-            " and ",
-            number(high, 3),
-            " a year: nothing is known of the hazard beyond its levels, which the bounds allow for. Events are taken"
-            " for a Poisson process.",
+            f"It is {between(low, high, 'a year', 3)}: ",
+            "what lies beyond the levels of the hazard does not change these digits."
+            if same
+            else "nothing is known of the hazard beyond its levels, which the bounds allow for.",
+            " Events are taken for a Poisson process.",
         ),
         figure(
             lambda: plot_risk(risk),
-            f"Hazard, fragility and the intensities that the risk comes from: {low:.3g} to {high:.3g} a year.",
+            f"Hazard, fragility and the intensities that the risk comes from: {between(low, high, 'a year', 3)}.",
             "Above, the hazard of the site; in the middle, the fragility; below, which intensities the frequency of"
             " collapse comes from.",
         ),

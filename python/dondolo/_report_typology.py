@@ -35,7 +35,7 @@ from dondolo._report_words import (
     with_unit,
 )
 from dondolo.errors import DondoloError
-from dondolo.style import mechanism_name
+from dondolo.style import counted, mechanism_name
 from dondolo.typology import Group, Typology
 
 # Samples of the bootstrap
@@ -49,7 +49,7 @@ def typology_cards(people: Typology) -> Markup:
     if curve.fit.has_fit:
         whose = "of collapse, whole population"
         if curve.saturation < 1.0:
-            whose = f"of collapse, the {curve.saturation:.0%} of the population that can collapse"
+            whose = f"of collapse, the {100.0 * curve.saturation:.3g} % of the population that can collapse"
         entries.append((joined("median ", THETA), with_unit(curve.fit.theta, people.im), whose))
         entries.append((joined("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
     else:
@@ -107,7 +107,8 @@ def _typology_figures(people: Typology) -> Markup:
         pieces.append(
             figure(
                 lambda curve=curve: plot_typology(people, mechanism=curve.mechanism),
-                f"Fragility curves of {curve.walls} walls, {what}, their mean and fractiles. " + _in_words([curve]),
+                f"Fragility curves of {counted(curve.walls, 'wall')}, {what}, their mean and fractiles. "
+                + _in_words([curve]),
                 f"{what[0].upper()}{what[1:]}: curves of single walls, at most 300 of them drawn, weighted mean,"
                 " fractiles, and the lognormal fitted to the weighted fractions (dots).",
             )
@@ -182,7 +183,7 @@ def _typology_tables(people: Typology) -> Markup:
             BETA,
             " of the one lognormal fitted to it need not equal."
             " The misfit is the greatest distance between the fitted curve and the mean fractions at the"
-            " levels: a lognormal only approximates a mixture of walls, the less so where some walls cannot collapse."
+            " levels: a lognormal only approximates a mixture of walls."
             " Fitted is the weight of the walls that have a curve of their own.",
         ),
         _curves_table(people, "Collapse"),
@@ -213,7 +214,7 @@ def _typology_tables(people: Typology) -> Markup:
         for curve in others
     ]
     if rest:
-        pieces.append(details(f"Each mechanism and group, collapse ({len(rest)} tables)", *rest))
+        pieces.append(details(f"Each mechanism and group, collapse ({counted(len(rest), 'table')})", *rest))
     return joined(*pieces)
 
 
@@ -268,7 +269,7 @@ def _typology_uncertainty(people: Typology) -> Markup:
     except DondoloError as error:
         return paragraph(f"No intervals: {error}.")
     low, high = samples.mean_interval()
-    drawn = " and ".join(over)
+    drawn = " and ".join(samples.over)
     text = (
         f"The curve was fitted again to {_SAMPLES} samples of {drawn}, drawn with replacement"
         " (bootstrap); the intervals hold the middle 95 % of them."

@@ -45,10 +45,9 @@ class WallFrequencies(NamedTuple):
 
     def probability(self, years: float) -> tuple[float, float]:
         """Bounds of the probability of a collapse within so many years, positive."""
-        return (
-            float(-self.share @ np.expm1(-self.low * years)),
-            float(-self.share @ np.expm1(-self.high * years)),
-        )
+        # Shares may add up to more than 1 by rounding.
+        low, high = (min(1.0, float(-self.share @ np.expm1(-ends * years))) for ends in (self.low, self.high))
+        return low, high
 
 
 def wall_frequencies(members: Members, hazard: HazardCurve) -> WallFrequencies:

@@ -41,7 +41,24 @@ class Bootstrap:
         return float(np.mean(np.isnan(self.theta)))
 
     def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
-        """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
+        """Percentile interval of the probability at levels (of each on its own, not of the curve as a whole).
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative.
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : float or ndarray, shape of x
+
+        Raises
+        ------
+        DondoloError
+            No sample has a fit.
+        """
         return self._interval(x, level, np.ones_like(self.theta))
 
     def _interval(self, x: ArrayLike, level: float, saturation: FloatArray) -> tuple[Any, Any]:
@@ -57,7 +74,23 @@ class Bootstrap:
         return shaped(low, values), shaped(high, values)
 
     def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
-        """Percentile intervals of theta and beta."""
+        """Percentile intervals of theta and beta.
+
+        Parameters
+        ----------
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        dict
+            'theta' and 'beta': (low, high).
+
+        Raises
+        ------
+        DondoloError
+            No sample has a fit.
+        """
         ends = tails(level)
         return {
             name: tuple(float(end) for end in np.quantile(values, ends))

@@ -62,7 +62,17 @@ class Case:
     scale: float
 
     def run(self, progress: bool = True) -> Results:
-        """Run it; see `run_case`."""
+        """Run it; see `run_case`.
+
+        Parameters
+        ----------
+        progress : bool
+            Show a progress bar where stderr is a terminal.
+
+        Returns
+        -------
+        Results
+        """
         solver = {"engine": self.engine, "rtol": self.rtol, "atol": self.atol, "edp_limit": self.edp_limit}
         if self.task == "history":
             record = self.records[self.record]
@@ -114,7 +124,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     Raises
     ------
     InputError
-        The first thing that is wrong, with the sentence of the executable.
+        What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
     parcel = _binding.receive(*_core.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])

@@ -72,7 +72,24 @@ def compare(
     Returns
     -------
     Comparison
+
+    Raises
+    ------
+    InputError
+        No curves, or curves of different measures; no such method; events where they mean nothing.
+    DondoloError
+        A curve without a fit, or without what the method needs.
+
+    Warns
+    -----
+    DondoloWarning
+        The curves are of populations, whose walls share their records.
     """
+    for curve in (first, second):
+        if not isinstance(curve, Fragility):
+            raise InputError(f"curves: {type(curve).__name__} is no fragility curve")
+    if events is not None and method == "likelihood":
+        raise InputError("events: is for method = 'bootstrap'")
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):

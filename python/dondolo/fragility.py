@@ -122,6 +122,13 @@ class Fragility(Shown):
         Returns
         -------
         low, high : float or ndarray, shape of x
+
+        Raises
+        ------
+        DondoloError
+            There is no curve.
+        InputError
+            Levels that are not positive, a confidence beyond 0 and 1, no such method.
         """
         self._need_fit()
         quantile = _quantile(level)
@@ -158,6 +165,13 @@ class Fragility(Shown):
         -------
         dict
             'theta' and 'beta': (low, high).
+
+        Raises
+        ------
+        DondoloError
+            There is no curve.
+        InputError
+            A confidence beyond 0 and 1, no such method.
         """
         self._need_fit()
         quantile = _quantile(level)

@@ -205,7 +205,8 @@ class HazardCurve(Shown):
 
     def _slopes(self) -> FloatArray:
         """Exponents k of the power laws of each step."""
-        return -np.diff(np.log(self.annual_frequency)) / np.diff(np.log(self.im_levels))
+        # No -0 where two frequencies are the same
+        return 0.0 - np.diff(np.log(self.annual_frequency)) / np.diff(np.log(self.im_levels))
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame."""

@@ -127,16 +127,21 @@ class Incremental(Shown):
             the levels); without a curve it is 'no_collapse', 'all_collapse' (all at the lowest level), 'single_level',
             'decreasing' (some collapse at the lowest level and no other at any) or 'separated' (else, where at most one
             level has both histories that have collapsed and histories that have not).
+
+        Warns
+        -----
+        DondoloWarning
+            There is no curve, or it extrapolates.
         """
         levels, n = self.levels, len(self.first_collapse)
         theta = beta = np.nan
         covariance = np.full((2, 2), np.nan)
-        if len(levels) == 1:
-            status = "single_level"
-        elif self.counted[-1] == 0:
+        if self.counted[-1] == 0:
             status = "no_collapse"
         elif self.counted[0] == n:
             status = "all_collapse"
+        elif len(levels) == 1:
+            status = "single_level"
         elif self.counted[0] == self.counted[-1]:
             status = "decreasing"
         elif np.count_nonzero((self.counted > 0) & (self.counted < n)) < 2:
@@ -145,6 +150,11 @@ class Incremental(Shown):
             mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
             theta = float(np.exp(mean))
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
+        if status == "extrapolated":
+            low, high = levels[[0, -1]]
+            _binding.warn([f"theta = {theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
+        elif status != "ok":
+            _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
         arrays = covariance, self.counted.astype(np.float64), np.full(len(levels), float(n))

@@ -73,6 +73,11 @@ def response_spectrum(record: Record, periods: ArrayLike, damping: float = 0.05)
     Returns
     -------
     Spectrum
+
+    Raises
+    ------
+    InputError
+        No record, or periods or a damping beyond what is allowed.
     """
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__} is no record")
@@ -106,6 +111,11 @@ def intensity_table(
     pandas.DataFrame
         A row for each record; the columns are the record's name and the measures with their units, as 'pga [g]'.
         pandas is no dependency of dondolo: the extra 'tables' installs it.
+
+    Raises
+    ------
+    InputError
+        No records, or no such measure.
     """
     several = as_records(records)
     table: dict[str, Any] = {"record": [record.name for record in several]}

@@ -59,6 +59,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_number, increasing
 from dondolo._files import check_replaced
+from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 
@@ -77,8 +78,8 @@ _RARE = 1e-3
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True, eq=False, init=False)
-class DiscreteFragility:
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class DiscreteFragility(Shown):
     """A fragility curve as probabilities at levels, such as the mean of a typology.
 
     Parameters
@@ -112,6 +113,12 @@ class DiscreteFragility:
         p.flags.writeable = False
         for what, value in (("levels", x), ("probability", p), ("im", _binding.describe_measure(im).name)):
             object.__setattr__(self, what, value)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = f" {_binding.unit_of(self.im)}".rstrip()
+        ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
+        chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
+        return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]
 
 
 Curve = Fragility | DiscreteFragility

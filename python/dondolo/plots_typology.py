@@ -59,7 +59,7 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
     thin = np.concatenate([members.at(part)[0][drawn] for part in members.parts(grid)], axis=1)
     ax.plot(grid, thin.T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
-    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else _walls(walls)
+    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, typology, grid, mechanism, group, style.BLUE)
     mean = typology.mean(grid, mechanism, group)
@@ -154,9 +154,9 @@ def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | Non
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
     for i, (curve, color) in enumerate(zip(curves, colors, strict=True)):
         look = {"color": color, "linestyle": _LINES[i % len(_LINES)], "linewidth": 1.8}
-        _mean(ax, typology, grid, curve, f"{curve.group} ({_walls(curve.walls)})", look)
+        _mean(ax, typology, grid, curve, f"{curve.group} ({style.counted(curve.walls, 'wall')})", look)
     look = {"color": style.RED, "linewidth": 2.4}
-    _mean(ax, typology, grid, whole, f"population ({_walls(whole.walls)})", look)
+    _mean(ax, typology, grid, whole, f"population ({style.counted(whole.walls, 'wall')})", look)
     _explain_fitted(ax, [*curves, whole])
     return _finish(ax, typology, grid, style.mechanism_name(mechanism or "all"))
 
@@ -267,11 +267,6 @@ def _finish(ax: Axes, what: Typology | Stripes, grid: Any, title: str) -> Axes:
     longest = max(map(len, ax.get_legend_handles_labels()[1]))
     style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=1 if longest > 36 else 2)
     return ax
-
-
-def _walls(number: int) -> str:
-    """How many walls."""
-    return f"{number} wall" if number == 1 else f"{number} walls"
 
 
 def _name(curve: Group, typology: Typology) -> str:

@@ -62,7 +62,7 @@ from dondolo._shown import Shown
 from dondolo.errors import DondoloError, InputError
 from dondolo.fragility import Fragility
 from dondolo.hazard import HazardCurve
-from dondolo.typology import Typology
+from dondolo.typology import Group, Typology
 
 Curve = Fragility | Callable[[Any], Any]
 
@@ -177,8 +177,8 @@ class Risk(Shown):
     def _walls(self) -> WallFrequencies:
         """The walls behind the curve."""
         if self._of_several:
-            options = self.fragility.keywords if isinstance(self.fragility, functools.partial) else {}
-            members = _object_of(self.fragility)._members(options.get("mechanism"), options.get("group", ""))
+            curve = _curve_behind(self.fragility)
+            members = _object_of(self.fragility)._members(curve.mechanism, curve.group)
             return wall_frequencies(members, self.hazard)
         share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
         return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
@@ -186,7 +186,7 @@ class Risk(Shown):
     @property
     def _of_several(self) -> bool:
         """Is the curve the mean of a typology?"""
-        return isinstance(_object_of(self.fragility), Typology)
+        return _is_mean(self.fragility)
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
@@ -248,10 +248,10 @@ class Risk(Shown):
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
     def _facts(self) -> list[tuple[str, str]]:
-        facts = [("mean annual frequency of collapse", _between(*self.bounds, "a year"))]
+        facts = [("mean annual frequency of collapse", between(*self.bounds, "a year"))]
         if not self._of_several:
-            facts.append(("return period", _between(*self.return_period_bounds, "years")))
-        return [*facts, ("probability in 50 years", _between(*self.probability_bounds(50.0)))]
+            facts.append(("return period", between(*self.return_period_bounds, "years")))
+        return [*facts, ("probability in 50 years", between(*self.probability_bounds(50.0)))]
 
 
 def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
@@ -306,8 +306,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
         inside, below, above, error = (most * float(part) for part in one)
     else:
-        one, most = of_function(functools.partial(_probability, fragility), hazard), 1.0
+        one = of_function(functools.partial(_probability, fragility), hazard)
         inside, below, above, error = map(float, one)
+        most = _curve_behind(fragility).saturation if _is_mean(fragility) else 1.0
     if np.isinf(inside):
         raise DondoloError(
             "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
@@ -329,10 +330,26 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     return risk
 
 
+def _method_of(fragility: Curve) -> Any:
+    """A curve without what `functools.partial` gives it."""
+    return fragility.func if isinstance(fragility, functools.partial) else fragility
+
+
 def _object_of(fragility: Curve) -> Any:
     """What a curve is a method of; the curve itself if it is none."""
-    method = fragility.func if isinstance(fragility, functools.partial) else fragility
+    method = _method_of(fragility)
     return getattr(method, "__self__", method)
+
+
+def _is_mean(fragility: Curve) -> bool:
+    """Is a curve the mean of a typology?"""
+    return getattr(_method_of(fragility), "__func__", None) is Typology.mean
+
+
+def _curve_behind(fragility: Curve) -> Group:
+    """Of what mechanism and group the mean of a typology is."""
+    options = fragility.keywords if isinstance(fragility, functools.partial) else {}
+    return _object_of(fragility).group(options.get("mechanism"), options.get("group", ""))
 
 
 def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
@@ -356,7 +373,7 @@ def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
     return p
 
 
-def _between(low: float, high: float, unit: str = "") -> str:
+def between(low: float, high: float, unit: str = "", digits: int = 4) -> str:
     """One number where both are the same to the digits shown, else both ends."""
-    ends = f"{low:.4g}", f"{high:.4g}"
+    ends = f"{low:.{digits}g}", f"{high:.{digits}g}"
     return f"{ends[0] if ends[0] == ends[1] else f'between {ends[0]} and {ends[1]}'} {unit}".rstrip()

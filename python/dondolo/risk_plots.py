@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo import style
+from dondolo.risk import between
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -188,9 +189,7 @@ def plot_risk(risk: Risk, axes: Sequence[Axes] | None = None) -> Any:
         above.plot(hazard.im_levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
     above.set_yscale("log")
     above.set_ylabel("exceeded\n[1/year]")
-    low, high = risk.bounds
-    text = f"{low:.3g}" if high - low <= 0.005 * high else f"{low:.3g} to {high:.3g}"
-    above.set_title(f"mean annual frequency of collapse:\n{text} a year", loc="left")
+    above.set_title(f"mean annual frequency of collapse:\n{between(*risk.bounds, 'a year', 3)}", loc="left")
     middle.plot(grid, risk.fragility(grid), color=style.BLUE)
     middle.set_ylim(-0.02, 1.02)
     middle.set_ylabel("probability\nof collapse")

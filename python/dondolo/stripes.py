@@ -104,6 +104,15 @@ class Stripes(Shown):
         ----------
         edp : float
             Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
+
+        Returns
+        -------
+        ndarray of int, shape (levels,)
+
+        Raises
+        ------
+        InputError
+            A threshold beyond that.
         """
         threshold = as_number("edp", edp)
         if not 0.0 < threshold <= self.edp_limit:

@@ -50,6 +50,11 @@ def mechanism_name(mechanism: str) -> str:
     return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
 
 
+def counted(number: int, noun: str) -> str:
+    """How many: 1 wall, 2 walls."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
 def label(text: str) -> str:
     """A label that begins with what a user wrote: Matplotlib leaves those that begin with '_' out of legends."""
     return f" {text}" if text.startswith("_") else text

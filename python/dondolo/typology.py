@@ -192,7 +192,23 @@ class Typology(Shown):
         return of_group[mechanism]
 
     def fit(self, mechanism: str | None = None, group: str = "") -> Fragility:
-        """The lognormal curve of the walls that can collapse, see `Group`; arguments as those of `group`."""
+        """The lognormal curve of the walls that can collapse, see `Group`.
+
+        Parameters
+        ----------
+        mechanism, group : str, optional
+            As for `group`.
+
+        Returns
+        -------
+        Fragility
+            Its status says whether there is a curve.
+
+        Raises
+        ------
+        InputError
+            There is no such mechanism or group.
+        """
         return self.group(mechanism, group).fit
 
     def at(self, edp: float) -> Typology:
@@ -264,7 +280,14 @@ class Typology(Shown):
         return probabilities.reshape((len(probabilities), *values.shape))
 
     def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
-        """Weighted mean of the walls' curves at any levels; arguments as those of `probabilities`.
+        """Weighted mean of the walls' curves at any levels.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, as for `probabilities`.
+        mechanism, group : str, optional
+            As for `group`.
 
         Returns
         -------
@@ -368,7 +391,7 @@ class Typology(Shown):
         seed : int, Generator or None
             Of the random numbers; None: different every time.
         over : {'records', 'walls'} or both
-            What is drawn.
+            What is drawn. Of both, records alone where there is one wall.
         mechanism : str, optional
             The curve of one mechanism; all combined if left out.
         group : str
@@ -385,7 +408,7 @@ class Typology(Shown):
         Raises
         ------
         InputError
-            No such mechanism or group, fewer than two events, labels that are not one for each record.
+            No such mechanism or group, fewer than two events or walls, labels that are not one for each record.
         DondoloError
             Records cannot be drawn where the results were read back from files.
         """

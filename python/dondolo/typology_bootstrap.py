@@ -58,7 +58,19 @@ class TypologyBootstrap(Bootstrap):
         return float(np.std(self._fitted()[1], ddof=1))
 
     def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
-        """Percentile interval of the probability at levels; arguments as those of `Fragility.interval`."""
+        """Percentile interval of the probability at levels, of all walls; the rest as for `Bootstrap.interval`.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative.
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : float or ndarray, shape of x
+        """
         return self._interval(x, level, self.saturation)
 
     def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
@@ -126,6 +138,11 @@ def resample_population(
         raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
     n, generator = as_count("n", n, 1), as_generator(seed)
     rows = _rows_of(population, mechanism, group)
+    if rows.walls == 1 and "walls" in kinds:
+        # Drawn from itself a wall would look certain.
+        if "records" not in kinds:
+            raise InputError("walls: two at least are needed to draw from, there is 1")
+        kinds = ("records",)
     records = np.ones((n, flags.records))
     if "records" in kinds:
         records = draw_records(flags.records, n, generator, events)

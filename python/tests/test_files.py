@@ -95,3 +95,5 @@ def test_what_cannot_be_saved(people, few, tmp_path):
     assert not os.listdir(tmp_path)
     with pytest.raises(dd.InputError, match="prefix = 5: must be the path of a file"):
         people.save(5)
+    with pytest.raises(dd.InputError, match=r"prefix = '.*/': must be the path of a file"):
+        people.save(f"{tmp_path}/")

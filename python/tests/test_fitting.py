@@ -260,6 +260,10 @@ def test_comparison(stripes, wall, records):
     assert boot.interval[0] < boot.ratio < boot.interval[1]
     with pytest.raises(dd.InputError, match="method"):
         dd.compare(curve, other, method="guess")
+    with pytest.raises(dd.InputError, match="events: is for method = 'bootstrap'"):
+        dd.compare(curve, other, events=list(range(44)))
+    with pytest.raises(dd.InputError, match="curves: str is no fragility curve"):
+        dd.compare("curve", other)
 
 
 def test_bootstrap_goes_by_records_and_not_by_names(wall, few):

@@ -7,6 +7,8 @@ import matplotlib
 
 matplotlib.use("agg")
 
+import warnings
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -158,6 +160,8 @@ def test_neither_the_step_nor_the_top_is_an_error(stripes, step, number):
     [
         (["...", "..."], "no_collapse"),
         (["..x"], "single_level"),
+        (["..."], "no_collapse"),
+        (["xxx"], "all_collapse"),
         (["xxx", "xxx"], "all_collapse"),
         (["...", "xxx"], "separated"),
         (["...", "..x"], "separated"),
@@ -168,7 +172,12 @@ def test_neither_the_step_nor_the_top_is_an_error(stripes, step, number):
     ],
 )
 def test_status(stripes, table, status):
-    curve = dd.incremental(made(stripes, table)).fit()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        curve = dd.incremental(made(stripes, table)).fit()
+    sentences = {"ok": [], "extrapolated": [f"theta = {curve.theta:.4g} lies outside the levels"]}
+    expected = sentences.get(status, [f"no curve of first collapses is fitted (status '{status}')"])
+    assert [str(one.message)[: len(part)] for one, part in zip(told, expected, strict=True)] == expected
     assert curve.status == status
     assert curve.has_fit == np.isfinite(curve.theta) == np.isfinite(curve.beta)
 

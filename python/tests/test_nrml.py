@@ -302,3 +302,8 @@ def test_probabilities():
     ):
         with pytest.raises(dd.InputError, match=sentence):
             DiscreteFragility(levels, p)
+
+
+def test_a_function_shows_itself_in_a_line():
+    curve = DiscreteFragility(np.geomspace(0.01, 2.0, 500), np.linspace(0.0, 0.75, 500))
+    assert repr(curve) == "<DiscreteFragility: levels 500 of pga, 0.01 to 2 g, probability 0 to 0.75>"

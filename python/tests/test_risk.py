@@ -13,6 +13,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from dondolo._risk_walls import WallFrequencies
 from scipy import integrate, stats
 
 import dondolo as dd
@@ -59,6 +60,15 @@ def test_curve_is_straight_on_logarithmic_axes(hazard):
     assert isinstance(hazard(0.3), float)
     assert hazard(np.full((2, 3), 0.3)).shape == (2, 3)
     assert not hazard.im_levels.flags.writeable
+
+
+def test_a_level_step_has_no_sign(curve):
+    hazard = dd.HazardCurve([0.1, 0.2, 0.4, 0.8], [1e-2, 1e-3, 1e-3, 1e-4])
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        risk = dd.mean_annual_frequency(curve, hazard)
+    density = risk.density([0.25, 0.3])
+    assert density.tolist() == [0.0, 0.0]
+    assert not np.signbit(density).any()
 
 
 def test_power_law():
@@ -317,9 +327,30 @@ def test_time_of_a_population(people, hazard, endless, group):
         # No more than if all walls were alike
         for end, frequency in zip(bounds, risk.bounds, strict=True):
             assert end <= -np.expm1(-years * frequency)
+    # Walls in which nothing can occur add nothing above the levels either.
+    shares, low, high = risk._walls
+    np.testing.assert_allclose(risk.bounds, (shares @ low, shares @ high), rtol=1e-6)
     assert risk.probability(1e-3) == pytest.approx(1e-3 * risk.frequency, rel=1e-3)
     assert "return period" not in repr(risk)
     assert f"probability in 50 years {'between ' * (not endless)}{risk.probability(50.0):.4g}" in repr(risk)
+
+
+def test_another_function_of_a_typology_is_taken_for_one_wall(people):
+    hazard = dd.HazardCurve.power_law(2e-3, 2.5)
+
+    def fractile(x):
+        return people.fractiles(x, 0.84, group="high")
+
+    direct = functools.partial(people.fractiles, q=0.84, group="high")
+    risks = [dd.mean_annual_frequency(curve, hazard) for curve in (direct, fractile)]
+    assert risks[0].bounds == risks[1].bounds
+    assert risks[0].probability(50.0) == risks[1].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
+    assert "return period" in repr(risks[0])
+
+
+def test_shares_may_add_up_to_more_than_one_by_rounding():
+    ends = np.full(2, 1.0)
+    assert WallFrequencies(np.array([0.5, 0.5 + 2e-16]), ends, ends).probability(1e9) == (1.0, 1.0)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
@@ -335,6 +366,9 @@ def test_time_ends_at_the_saturation(people, records):
     assert risk.probability(1e6) == pytest.approx(0.5)
     never = dd.typology(dd.Population(walls, p_occ=[0.0, 0.0]), records[::4], people.levels, progress=False)
     assert dd.mean_annual_frequency(never.mean, hazard).probability_bounds(50.0) == (0.0, 0.0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert dd.mean_annual_frequency(never.mean, dd.HazardCurve(LEVELS, FREQUENCY)).bounds == (0.0, 0.0)
     # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
     fit = dd.mean_annual_frequency(two.fit(), hazard)
     assert two.fit().saturation == 0.5
@@ -471,7 +505,7 @@ def test_figure(hazard, curve, endless):
     np.testing.assert_allclose(share.get_ydata(), risk.density(x) / risk.inside)
     assert integrate.trapezoid(share.get_ydata(), np.log(x)) == pytest.approx(1.0, abs=0.02)
     assert below.get_xlabel() == "peak ground acceleration [g]"
-    text = f"{risk.frequency:.3g}" if endless else "{:.3g} to {:.3g}".format(*risk.bounds)
+    text = f"{risk.frequency:.3g}" if endless else "between {:.3g} and {:.3g}".format(*risk.bounds)
     assert f"{text} a year" in above.get_title(loc="left")
     above.figure.draw_without_rendering()
     title = next(text for text in above.findobj(matplotlib.text.Text) if "frequency of collapse" in text.get_text())

@@ -204,6 +204,16 @@ def test_errors(mixed):
             resample_population(population, flags, LEVELS, **wrong)
 
 
+def test_one_wall_is_not_drawn_from_itself(mixed):
+    population, flags, _ = mixed
+    one, own = population[:1], flags.chosen(np.array([0]))
+    both = resample_population(one, own, LEVELS, 200, 3)
+    assert both.over == ("records",)
+    np.testing.assert_array_equal(both.theta, resample_population(one, own, LEVELS, 200, 3, "records").theta)
+    with pytest.raises(dd.InputError, match="walls: two at least are needed to draw from, there is 1"):
+        resample_population(one, own, LEVELS, 200, 3, "walls")
+
+
 def test_a_thousand_walls_take_little_time():
     flags = simulated(np.random.default_rng(0), 1000, 44)
     population = people(1000)

@@ -96,7 +96,7 @@ contains
          call check_key(files(i), key, error)
          if (allocated(error)) return
          if (files(i)%done < files(i)%last) then
-            call raise_input(error, files(i)%path//': ends with row '//to_text(files(i)%done)//', its last is '// &
+            call raise_input(error, files(i)%path//': is whole to row '//to_text(files(i)%done)//', its last is '// &
                & to_text(files(i)%last)//': run it again to complete it')
             return
          end if

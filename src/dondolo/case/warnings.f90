@@ -139,7 +139,7 @@ contains
 
       if (self%large > 0) call warnings%add('scale factors above '//to_text(large_scale)//' in '// &
          & to_text(self%large)//' of '//to_text(self%histories)//' histories, the largest '//rounded(self%largest)// &
-         & ' (record '''//self%record//''' at level '//to_text(self%level)//')')
+         & ' (record '''//self%record//''' at level '//rounded(self%level)//')')
    end subroutine warn
 
    !> Warn of records without motion
@@ -237,8 +237,13 @@ contains
       if (self%several) walls = ' mechanisms of walls '
       do i = 1, size(telling)
          if (self%number(i) == 0) cycle
-         consequence = 'have no fit and take part with their fractions of collapse'
-         if (telling(i) == 'extrapolated') consequence = 'have a median outside the levels'
+         if (telling(i) == 'extrapolated') then
+            consequence = 'have a median outside the levels'
+            if (self%number(i) == 1) consequence = 'has a median outside the levels'
+         else
+            consequence = 'have no fit and take part with their fractions of collapse'
+            if (self%number(i) == 1) consequence = 'has no fit and takes part with its fractions of collapse'
+         end if
          call warnings%add(to_text(self%number(i))//' of '//to_text(self%curves)//walls//consequence//' ('// &
             & trim(telling(i))//'; the first is '''//self%first(i)%text//''')')
       end do
