@@ -59,17 +59,13 @@ class Bootstrap:
         DondoloError
             No sample has a fit.
         """
-        return self._interval(x, level, np.ones_like(self.theta))
-
-    def _interval(self, x: ArrayLike, level: float, saturation: FloatArray) -> tuple[Any, Any]:
-        """The interval of curves that tend to a saturation."""
         from scipy.special import ndtr
 
         values = as_levels(x)
         theta, beta = self._fitted()
         with np.errstate(divide="ignore"):
             curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
-        curves *= saturation[~np.isnan(self.theta), None]
+        curves *= self._ends()[~np.isnan(self.theta), None]
         low, high = np.quantile(curves, tails(level), axis=0)
         return shaped(low, values), shaped(high, values)
 
@@ -96,6 +92,10 @@ class Bootstrap:
             name: tuple(float(end) for end in np.quantile(values, ends))
             for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
         }  # type: ignore[return-value]
+
+    def _ends(self) -> FloatArray:
+        """What the curve of each sample tends to."""
+        return np.ones_like(self.theta)
 
     def _fitted(self) -> tuple[FloatArray, FloatArray]:
         fitted = ~np.isnan(self.theta)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from dondolo._arguments import FloatArray, as_count, as_generator, tails
 from dondolo._flags import Flags
@@ -57,22 +57,6 @@ class TypologyBootstrap(Bootstrap):
         """Standard error of beta: standard deviation of the samples with a fit."""
         return float(np.std(self._fitted()[1], ddof=1))
 
-    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
-        """Percentile interval of the probability at levels, of all walls; the rest as for `Bootstrap.interval`.
-
-        Parameters
-        ----------
-        x : array_like
-            Levels of intensity, not negative.
-        level : float
-            Confidence, between 0 and 1.
-
-        Returns
-        -------
-        low, high : float or ndarray, shape of x
-        """
-        return self._interval(x, level, self.saturation)
-
     def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
         """Percentile interval of the mean fraction at each of the levels.
 
@@ -87,6 +71,9 @@ class TypologyBootstrap(Bootstrap):
         """
         low, high = np.nanquantile(self.mean_fraction, tails(level), axis=0)
         return low, high
+
+    def _ends(self) -> FloatArray:
+        return self.saturation
 
     def __repr__(self) -> str:
         what = " and ".join(self.over)
