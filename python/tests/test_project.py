@@ -80,17 +80,20 @@ def test_procedures_that_compute_release_the_lock(root):
 
 
 def test_import_is_quick():
+    """NumPy's own import, in the same process, is the measure: a machine that is slow at the moment is so for both."""
     program = (
-        "import sys, time; start = time.process_time(); import dondolo; seconds = time.process_time() - start; "
-        "heavy = [name for name in ('scipy', 'pandas', 'matplotlib', 'tqdm') if name in sys.modules]; "
-        "print(seconds, *heavy)"
+        "import sys, time; start = time.process_time(); import numpy; numpy_alone = time.process_time() - start; "
+        "import dondolo; both = time.process_time() - start; "
+        "heavy = [name for name in ('scipy', 'pandas', 'matplotlib', 'tqdm', 'sqlite3', 'concurrent.futures')"
+        " if name in sys.modules]; "
+        "print(both / numpy_alone, *heavy)"
     )
     runs = [
         subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split()
         for _ in range(5)
     ]
     assert all(len(words) == 1 for words in runs), runs
-    assert min(float(words[0]) for words in runs) < 0.3
+    assert min(float(words[0]) for words in runs) < 2.5
 
 
 @pytest.mark.parametrize("samples", [2, 6000])
