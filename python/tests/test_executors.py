@@ -87,12 +87,14 @@ class Memories(threading.local):
 @pytest.mark.parametrize("workers", [1, 2, 5, 12])
 def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch, workers):
     run, gone, seen, sizes = _blocks.Shared.run, [], set(), []
+    pause = 0.02 * workers
 
     def slow(*given):
+        # Long enough that a worker without the records, which answers at once, is the one that takes what is sent again
         seen.add(threading.current_thread().name)
-        time.sleep(0.02)
+        time.sleep(pause)
         part = run(*given)
-        return part._replace(seconds=part.seconds + 0.02)
+        return part._replace(seconds=part.seconds + pause)
 
     monkeypatch.setattr(_blocks.Shared, "run", slow)
     monkeypatch.setattr(socket, "gethostname", lambda: threading.current_thread().name)

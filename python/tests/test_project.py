@@ -98,16 +98,22 @@ def test_import_is_quick():
 
 @pytest.mark.parametrize("samples", [2, 6000])
 def test_a_call_costs_little(samples):
+    """Four passes of NumPy over the samples, taken in turn, are the measure: about 10 us where nothing else runs."""
     wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, eccentricity=0.05)
     record = dd.Record(np.zeros(samples), 0.01)
-    best = np.inf
+    calls = (
+        lambda: dd.simulate(wall, record, history=False),
+        lambda: [np.abs(record.acceleration).max() for _ in "four"],
+    )
+    best = [np.inf, np.inf]
     for _ in range(20):
-        start = time.perf_counter()
-        for _ in range(50):
-            dd.simulate(wall, record, history=False)
-        best = min(best, (time.perf_counter() - start) / 50)
+        for k, call in enumerate(calls):
+            start = time.perf_counter()
+            for _ in range(50):
+                call()
+            best[k] = min(best[k], time.perf_counter() - start)
     # The motion itself, a look at every sample, is in it.
-    assert best < 60e-6
+    assert best[0] < 6.0 * best[1]
 
 
 def test_documented():
