@@ -73,7 +73,7 @@ git clone --quiet . "$root/home/dondolo"
 if [ -n "$(git status --porcelain)" ]; then
    printf 'a clone of %s: changes that are not committed are not in it\n' "$(git rev-parse --short HEAD)" >&2
 fi
-mapfile -t environment < <(env | grep -Ei '^((https?|no)_proxy|ssl_cert_file|requests_ca_bundle|curl_ca_bundle|pip_[a-z_]+)=' || true)
+mapfile -t environment < <(env | grep -Ei '^((https?|no)_proxy|ssl_cert_file|requests_ca_bundle|curl_ca_bundle|pip_(cert|default_timeout|index_url|extra_index_url))=' || true)
 
 # Mounts and processes end with their namespaces, so that nothing of this machine is in the folder that is removed.
 inside() {
