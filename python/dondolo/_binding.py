@@ -9,8 +9,10 @@ from __future__ import annotations
 import functools
 import os
 import sys
+import threading
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -179,7 +181,24 @@ def check(stat: int, message: bytes) -> None:
     if stat == 0:
         return
     sentence = message.decode("utf-8", "replace").strip()
-    raise InputError(sentence) if stat == 2 else DondoloError(sentence)
+    raise {2: InputError, 3: MemoryError}.get(stat, DondoloError)(sentence)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _core.listen()
+    try:
+        yield
+    finally:
+        _core.end_listening()
+
+
+# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
+os.register_at_fork(after_in_child=_core.work_alone)
 
 
 def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:
@@ -409,7 +428,7 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
     """
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
     curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
-    if stat == 2 or len(codes) == 1:
+    if stat > 1 or len(codes) == 1:
         check(stat, message)
     names = ("", *constants().statuses)
     return curves.T, [names[code] for code in codes]

@@ -105,9 +105,9 @@ class Request:
             # The walls that the block touches
             one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
             before = int(ends[one - 1]) if one else 0
-            *rows, counts, stat, message = _core.run_block(
-                *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
-            )
+            walls = _binding.join_walls(flats[one : last + 1])
+            with _binding.stoppable():
+                *rows, counts, stat, message = _core.run_block(*walls, *arguments, done - before + 1, count)
             _binding.check(stat, message)
             here = slice(done, done + count)
             edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows

@@ -159,16 +159,17 @@ def simulate(
         raise InputError(f"record: {type(record).__name__} is no record")
     factor = as_number("scale", scale)
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
-    edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
-        *wall._flat,
-        record.acceleration,
-        record.dt,
-        record.name.encode(),
-        factor,
-        as_text("engine", engine),
-        settings,
-        int(history),
-    )
+    with _binding.stoppable():
+        edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
+            *wall._flat,
+            record.acceleration,
+            record.dt,
+            record.name.encode(),
+            factor,
+            as_text("engine", engine),
+            settings,
+            int(history),
+        )
     _binding.check(stat, message)
     response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
     if estimate_error:

@@ -5,7 +5,7 @@
 module dondolo_csv_reader
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_line_reader, only : line_reader_type
+   use dondolo_line_reader, only : line_reader_type, longest_line
    use dondolo_name_index, only : name_index_type
    use dondolo_numbers, only : parse_real
    use dondolo_text, only : lower, to_text
@@ -17,6 +17,9 @@ module dondolo_csv_reader
 
    !> Blanks around cells
    character(len=*), parameter :: blanks = ' '//achar(9)
+
+   !> More cells in a row are surely no table
+   integer, parameter :: most_cells = 10000
 
    !> One cell
    type :: cell_type
@@ -127,7 +130,7 @@ contains
    subroutine read_cells(self, error)
       !> The reader: its line is 0 if there are no more rows
       type(csv_reader_type), intent(inout) :: self
-      !> A quote that is not closed or stands where it may not
+      !> A quote that is not closed or stands where it may not, or more cells or bytes than a row of a table has
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: line, more, problem
@@ -153,14 +156,23 @@ contains
             return
          end if
          quotes = quotes + occurrences(more, '"')
+         if (length + len(more) >= longest_line) then
+            call raise_input(error, self%place()//': a row of more than '//to_text(longest_line)// &
+               & ' bytes: is a double quote not closed?')
+            return
+         end if
          call append(line, length, new_line('a')//more)
       end do
       line = line(:length)
       if (allocated(self%cells)) deallocate (self%cells)
-      allocate (self%cells(occurrences(line, ',') + 1))
+      allocate (self%cells(min(occurrences(line, ',') + 1, most_cells)))
       at = 1
       cells = 0
       do while (at <= len(line) + 1)
+         if (cells == most_cells) then
+            call raise_input(error, self%place()//': more than '//to_text(most_cells)//' cells')
+            return
+         end if
          cells = cells + 1
          call take_cell(line, at, self%cells(cells)%text, problem)
          if (len(problem) == 0) cycle

@@ -21,6 +21,8 @@ module dondolo_error
    type :: error_type
       !> `status_failure` or `status_input`
       integer :: stat = status_failure
+      !> Did it fail for lack of memory?
+      logical :: lacks_memory = .false.
       !> One sentence: where, what, and what is allowed; or several, one a line
       character(len=:), allocatable :: message
    end type error_type

@@ -1,7 +1,7 @@
 !> Numbers and words as text: what messages, readers and tables share.
 !>
-!> gfortran 12 keeps the length of a result of deferred length in one place for each place where the function is called,
-!> for all threads. None is called in here; what threads run calls none either, or one thread at a time.
+!> What threads may call returns a text whose length is a specification expression: that of a result of deferred length
+!> gfortran 12 keeps in one place for each call in the source, for all threads.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
@@ -24,7 +24,31 @@ contains
       !> Number
       real(wp), intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=real_length(value)) :: text
+
+      character(len=:), allocatable :: plain
+
+      call make_real(value, plain)
+      text = plain
+   end function real_to_text
+
+   !> Length of the text of a number
+   pure integer function real_length(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=:), allocatable :: plain
+
+      call make_real(value, plain)
+      real_length = len(plain)
+   end function real_length
+
+   !> Shortest decimal that reads back as the same number
+   pure subroutine make_real(value, text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=48) :: buffer
       character(len=16) :: format
@@ -44,7 +68,7 @@ contains
          if (stat == 0 .and. again == value) exit
       end do
       call make_plain(trim(adjustl(buffer)), text)
-   end function real_to_text
+   end subroutine make_real
 
    !> Rewrite d.dddE+0xx as a plain decimal where that is short
    pure subroutine make_plain(scientific, text)
@@ -81,12 +105,9 @@ contains
       !> Number
       integer, intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=count_length(int(value, int64))) :: text
 
-      character(len=16) :: buffer
-
-      write (buffer, '(i0)') value
-      text = trim(buffer)
+      write (text, '(i0)') value
    end function integer_to_text
 
    !> A large count without blanks
@@ -94,13 +115,21 @@ contains
       !> Count
       integer(int64), intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=count_length(value)) :: text
+
+      write (text, '(i0)') value
+   end function count_to_text
+
+   !> Length of the text of a count
+   pure integer function count_length(value)
+      !> Count
+      integer(int64), intent(in) :: value
 
       character(len=24) :: buffer
 
       write (buffer, '(i0)') value
-      text = trim(buffer)
-   end function count_to_text
+      count_length = len_trim(buffer)
+   end function count_length
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
@@ -141,14 +170,15 @@ contains
       !> Words
       character(len=*), intent(in) :: words(:)
       !> The list, for messages that say what is allowed
-      character(len=:), allocatable :: text
+      character(len=max(0, sum(len_trim(words)) + 4*size(words) - 2)) :: text
 
-      integer :: i
+      integer :: i, length
 
-      text = ''
+      length = 0
       do i = 1, size(words)
-         if (i > 1) text = text//', '
-         text = text//''''//trim(words(i))//''''
+         if (i > 1) text(length - 1:length) = ', '
+         text(length + 1:) = ''''//trim(words(i))//''''
+         length = length + len_trim(words(i)) + 4
       end do
    end function join
 

@@ -6,6 +6,7 @@ module dondolo_case
    use dondolo_job_group, only : echo_job, job_type, read_job
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_memory, only : check_room
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
@@ -28,6 +29,9 @@ module dondolo_case
 
    public :: case_type, read_case
    public :: group_names
+
+   !> Memory that a sample of a record takes while the records are measured and joined [bytes]
+   real(wp), parameter :: bytes_of_sample = 64.0_wp
 
    !> Groups of a case
    character(len=10), parameter :: group_names(7) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
@@ -276,13 +280,16 @@ contains
       type(namelist_type), intent(in) :: namelist
       !> The case
       type(case_type), intent(inout) :: case
-      !> No such record
+      !> No such record, or too little memory
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
+      integer :: i
 
       group = namelist%group('history')
       if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
+      if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(case%records(i)%acceleration), wp), &
+         & i=1, size(case%records))]), error)
       if (allocated(error)) return
       if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
          & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)

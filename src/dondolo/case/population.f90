@@ -8,6 +8,7 @@ module dondolo_population
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
@@ -19,6 +20,9 @@ module dondolo_population
 
    !> Columns besides the variables of a wall
    character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
+
+   !> Memory that a row takes where all are kept, and what the index of names takes for it while it grows [bytes]
+   real(wp), parameter :: bytes_of_row = 4000.0_wp, bytes_of_name = 72.0_wp
 
    !> A row: one mechanism of a wall
    type :: member_type
@@ -74,7 +78,7 @@ contains
       character(len=*), intent(in) :: file
       !> Its rows
       type(member_type), allocatable, intent(out) :: members(:)
-      !> Everything that is wrong
+      !> Everything that is wrong, or lack of memory
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
@@ -91,6 +95,11 @@ contains
       rows = 0
       do
          if (rows == size(members)) then
+            call check_room(2.0_wp*bytes_of_row*real(rows, wp), error)
+            if (allocated(error)) then
+               call reader%close()
+               return
+            end if
             allocate (more(2*rows))
             more(:rows) = members
             call move_alloc(more, members)
@@ -311,6 +320,10 @@ contains
          if (.not. member%continues) then
             line = 0
             if (self%is_checked) call self%names%note(name, self%table%line, line)
+            if (self%names%lacks_memory) then
+               call raise_shortage(bytes_of_name*real(self%row, wp), error)
+               return
+            end if
             if (line > 0) then
                call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
                   & '); mechanisms of one wall must stand one after the other')

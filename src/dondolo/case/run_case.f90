@@ -5,6 +5,7 @@ module dondolo_run_case
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : raise_shortage
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_results, only : results_type
@@ -20,6 +21,9 @@ module dondolo_run_case
    private
 
    public :: run_case, plan_case
+
+   !> Memory that a row of a time history takes while it grows [bytes]
+   real(wp), parameter :: bytes_of_row = 96.0_wp
 
 contains
 
@@ -50,6 +54,8 @@ contains
          call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
          call simulate(case%wall%mechanism, case%records(case%history%record), case%history_scale(), &
             & case%solver%solver, results%response, results%trace)
+         if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
+         if (allocated(error)) return
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
       case ('stripes')
          call run_stripes(case, results, error, team, progress)

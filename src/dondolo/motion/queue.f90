@@ -1,6 +1,8 @@
 !> A queue of histories that several threads take from.
 module dondolo_queue
+   use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: omp_lib, only : omp_get_thread_num
+   use dondolo_interrupt, only : look_for_interrupt
    implicit none
    private
 
@@ -33,16 +35,19 @@ module dondolo_queue
 
 contains
 
-   !> Take a number; 0 if none is left
+   !> Take a number; 0 if none is left, or after Ctrl-C
    integer function next(self)
       !> The queue
       class(queue_type), intent(inout) :: self
+
+      integer(c_int) :: interrupted
 
       !$omp atomic capture
       next = self%last
       self%last = self%last - 1
       !$omp end atomic
-      if (next < self%first) next = 0
+      call look_for_interrupt(interrupted)
+      if (next < self%first .or. interrupted == 1) next = 0
    end function next
 
    !> One more is done

@@ -38,6 +38,8 @@ module dondolo_response
    type :: trace_type
       !> Number of rows
       integer :: rows = 0
+      !> Is there no memory for more rows? The last one is missing then
+      logical :: lacks_memory = .false.
       !> Time [s]
       real(wp), allocatable :: time(:)
       !> Scaled ground acceleration [m/s2]
@@ -87,8 +89,12 @@ contains
       !> Signed angular velocity [rad/s]
       real(wp), intent(in) :: velocity
 
-      if (.not. allocated(self%time)) call resize(self, 1024)
-      if (self%rows == size(self%time)) call resize(self, 2*self%rows)
+      if (.not. allocated(self%time)) then
+         call resize(self, 1024)
+      else if (self%rows == size(self%time)) then
+         call resize(self, 2*min(self%rows, huge(self%rows)/2 - 1))
+      end if
+      if (self%lacks_memory) return
       self%rows = self%rows + 1
       self%time(self%rows) = time
       self%acceleration(self%rows) = acceleration
@@ -101,7 +107,7 @@ contains
       !> The history
       class(trace_type), intent(inout) :: self
 
-      call resize(self, self%rows)
+      if (.not. self%lacks_memory) call resize(self, self%rows)
    end subroutine trim_rows
 
    !> Room for a number of rows; the present rows are kept as far as they fit
@@ -111,24 +117,32 @@ contains
       !> Rows there shall be room for
       integer, intent(in) :: room
 
-      call resize_column(self%time, self%rows, room)
-      call resize_column(self%acceleration, self%rows, room)
-      call resize_column(self%rotation, self%rows, room)
-      call resize_column(self%velocity, self%rows, room)
+      logical :: ok(4)
+
+      call resize_column(self%time, self%rows, room, ok(1))
+      call resize_column(self%acceleration, self%rows, room, ok(2))
+      call resize_column(self%rotation, self%rows, room, ok(3))
+      call resize_column(self%velocity, self%rows, room, ok(4))
+      self%lacks_memory = self%lacks_memory .or. .not. all(ok)
    end subroutine resize
 
    !> Room in one column
-   pure subroutine resize_column(column, rows, room)
+   pure subroutine resize_column(column, rows, room, ok)
       !> The column
       real(wp), allocatable, intent(inout) :: column(:)
       !> Rows in use
       integer, intent(in) :: rows
       !> Rows there shall be room for
       integer, intent(in) :: room
+      !> Is there memory for it? If not, the column stays as it is
+      logical, intent(out) :: ok
 
       real(wp), allocatable :: wider(:)
+      integer :: stat
 
-      allocate(wider(room))
+      allocate(wider(room), stat=stat)
+      ok = stat == 0 .and. room >= rows
+      if (.not. ok) return
       if (allocated(column)) wider(:min(rows, room)) = column(:min(rows, room))
       call move_alloc(wider, column)
    end subroutine resize_column

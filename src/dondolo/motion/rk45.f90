@@ -3,9 +3,11 @@
 !> At rest, rocking, collapsed (docs/theory.md, section 4). No step crosses a sample, where the piecewise linear
 !> accelerogram has its corners.
 module dondolo_rk45
+   use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_adaptive_step, only : advance, motion_type, scene_type
    use dondolo_dormand_prince, only : angular_acceleration
    use dondolo_events, only : impact, limit_reached
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
@@ -19,8 +21,8 @@ module dondolo_rk45
 
    public :: simulate_rk45
 
-   !> How rocking ends
-   integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3
+   !> How rocking ends; `broken_off` leaves no result
+   integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3, broken_off = 4
 
    !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
    real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
@@ -162,6 +164,7 @@ contains
 
       logical :: sample_reached
       integer :: event
+      integer(c_int) :: interrupted
 
       call enter_interval(scene, record, motion)
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
@@ -169,6 +172,12 @@ contains
       if (motion%q == 0.0_wp .and. motion%v == 0.0_wp) motion%f = max(0.0_wp, motion%f)
       ending = 0
       do while (motion%interval <= last)
+         call look_for_interrupt(interrupted)
+         if (present(trace)) interrupted = merge(1_c_int, interrupted, trace%lacks_memory)
+         if (interrupted == 1) then
+            ending = broken_off
+            return
+         end if
          call advance(mechanism, scene, record%dt, motion, event, sample_reached)
          select case (event)
          case (impact)

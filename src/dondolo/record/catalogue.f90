@@ -8,12 +8,17 @@ module dondolo_catalogue
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_memory, only : check_room
+   use dondolo_name_index, only : name_index_type
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
    implicit none
    private
 
    public :: read_catalogue
+
+   !> Memory that a row takes, its samples and metadata left aside [bytes]
+   real(wp), parameter :: bytes_of_row = 1000.0_wp
 
 contains
 
@@ -32,6 +37,7 @@ contains
       logical :: found
 
       call count_rows(file, rows, error)
+      if (.not. allocated(error)) call check_room(bytes_of_row*real(rows, wp), error)
       if (.not. allocated(error)) call table%open(file, error)
       if (allocated(error)) return
       allocate (records(rows))
@@ -93,7 +99,7 @@ contains
 
       character(len=:), allocatable :: path, file
       logical :: is_given(size(records)), again(size(records))
-      integer :: length(size(records)), row, k, level
+      integer :: length(size(records)), first(size(records)), row, level
 
       do row = 1, size(records)
          is_given(row) = len(names%line(row)%text) > 0
@@ -102,7 +108,13 @@ contains
          length(row) = len(stem(paths%line(row)%text))
       end do
       do level = 1, 2
-         again = [(stands_twice(row), row=1, size(records))]
+         call find_first(records, first)
+         again = .false.
+         do row = 1, size(records)
+            if (first(row) == row) cycle
+            again(row) = .true.
+            again(first(row)) = .true.
+         end do
          do row = 1, size(records)
             if (is_given(row) .or. .not. again(row)) cycle
             path = trim(paths%line(row)%text)
@@ -112,33 +124,29 @@ contains
             length(row) = len(file)
          end do
       end do
+      call find_first(records, first)
       do row = 1, size(records)
-         do k = 1, row - 1
-            if (records(k)%name /= records(row)%name) cycle
-            call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
-            return
-         end do
+         if (first(row) == row) cycle
+         call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
+         return
       end do
-
-   contains
-
-      !> Has another record the name of this one?
-      pure function stands_twice(i)
-         !> Number of the record
-         integer, intent(in) :: i
-         !> Another has its name
-         logical :: stands_twice
-
-         integer :: j
-
-         stands_twice = .true.
-         do j = 1, size(records)
-            if (j /= i .and. records(j)%name == records(i)%name) return
-         end do
-         stands_twice = .false.
-      end function stands_twice
-
    end subroutine name_records
+
+   !> The first record that has the name of each
+   subroutine find_first(records, first)
+      !> The records
+      type(record_type), intent(in) :: records(:)
+      !> Number of the first record of the same name
+      integer, intent(out) :: first(:)
+
+      type(name_index_type) :: names
+      integer :: row
+
+      do row = 1, size(records)
+         call names%note(records(row)%name, row, first(row))
+         if (first(row) == 0) first(row) = row
+      end do
+   end subroutine find_first
 
    !> Read the record of a row
    subroutine read_row(table, record, error)

@@ -3,7 +3,9 @@
 !> The loop over lanes flags a lane where something may happen; what does happen is decided here, lane by lane, with the
 !> same rules as in every engine (dondolo_rest, dondolo_events, dondolo_tail; docs/theory.md, section 4).
 module dondolo_lane_history
+   use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_events, only : impact, limit_reached, no_event, turning
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_stage, only : stage_type
    use dondolo_lane_state, only : event_possible, lanes_type, step_too_long
@@ -246,9 +248,13 @@ contains
 
       real(wp) :: acceleration
       integer :: interval
+      integer(c_int) :: interrupted
       logical :: at_rest
 
       history%impacts = history%impacts + 1
+      call look_for_interrupt(interrupted)
+      history%over = interrupted == 1
+      if (history%over) return
       acceleration = history%side*lanes%u(i)
       lanes%y(i) = 0.0_wp
       lanes%v(i) = -stage%rest%restitution*min(lanes%v(i), 0.0_wp)

@@ -7,8 +7,9 @@
 module dondolo_format_columns
    use dondolo_column_titles, only : is_other_quantity, is_seconds, units_in
    use dondolo_equal_steps, only : check_equal_steps
-   use dondolo_error, only : error_type
+   use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_numbers, only : parse_real
    use dondolo_record_format, only : format_type, raise_at, samples_type, shown
    use dondolo_text, only : lower, to_text
@@ -101,6 +102,9 @@ contains
          call raise_at(error, text, begin, 'more than '//to_text(most_cells - 1)//' columns')
          return
       end if
+      call check_room(32.0_wp*real(cells, wp)*real(text%lines(), wp), error)
+      call add_place(error, text%file)
+      if (allocated(error)) return
       allocate (values(cells, text%lines() - begin + 1))
       allocate (time_first(size(values, 2)), time_last(size(values, 2)))
       do line = begin, text%lines()

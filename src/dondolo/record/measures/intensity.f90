@@ -82,8 +82,6 @@ contains
          return
       end if
       ok = .false.
-      ! One thread at a time: of the texts that functions return, see dondolo_text.
-      !$omp critical (name_measure)
       if (open > 1 .and. index(name, ')') == len(name)) then
          associate (inside => name(open + 1:len(name) - 1))
             select case (name(:open - 1))
@@ -104,7 +102,6 @@ contains
             end select
          end associate
       end if
-      !$omp end critical (name_measure)
       if (ok) then
          measure%kind = name(:open - 1)
       else
