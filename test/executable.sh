@@ -274,6 +274,16 @@ check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
 sed "s/'history'/'stripes'/" history.nml >both.nml
 run both.nml
 check "history group in a stripes case" equal "$rc" 0
+run history.nml
+check "results of another task are not left" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+echo 'my own notes' >out/deep/wall_stripes.csv
+cp history.nml out/deep/wall_typology.csv
+run history.nml
+check "a file that is no result is left" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
+run --check both.nml
+check "--check removes nothing" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
 rm -rf out
 
 printf '\xef\xbb\xbf%s' "$(sed 's/$/\r/' good.nml)" >dos.nml

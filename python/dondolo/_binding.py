@@ -403,16 +403,12 @@ def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
-    """Fit many curves in one call: collapses and histories are (curves, levels).
-
-    A fit that fails has the status '' and raises only where it is the only one.
-    """
+    """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
     curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
-    if stat == 2 or len(codes) == 1:
-        check(stat, message)
-    names = ("", *constants().statuses)
-    return curves.T, [names[code] for code in codes]
+    check(stat, message)
+    names = constants().statuses
+    return curves.T, [names[code - 1] for code in codes]
 
 
 def fit_walls(

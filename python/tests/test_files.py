@@ -1,5 +1,6 @@
 """Files that Python writes: whole or not at all, and read back."""
 
+import dataclasses
 import os
 import subprocess
 import sys
@@ -71,6 +72,28 @@ def test_a_typology_is_saved_and_read_back(people, tmp_path):
         assert done.returncode == 0, done.stderr
         assert (tmp_path / f"city_{made}").is_file()
     assert people.warnings[0] in (tmp_path / "city_report.html").read_text().replace("&#x27;", "'")
+
+
+def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
+    for name in ("histories", "history", "typology"):
+        (tmp_path / f"city_{name}.csv").write_text("# dondolo 0.0.1\nwall\n")
+    (tmp_path / "cities_history.csv").write_text("# dondolo 0.0.1\nwall\n")
+    people.save(tmp_path / "city")
+    kept = [f"city_{name}.csv" for name in ("fragility", "stripes", "typology", "walls")]
+    assert sorted(os.listdir(tmp_path)) == ["cities_history.csv", *kept]
+    # What dondolo did not write is not its own to remove.
+    (tmp_path / "city_history.csv").write_text("The history of the city\n")
+    people.save(tmp_path / "city")
+    assert (tmp_path / "city_history.csv").read_text() == "The history of the city\n"
+    # A table that cannot be written leaves the others as they were.
+    before = (tmp_path / "city_typology.csv").read_bytes()
+    (tmp_path / "city_walls.csv").unlink()
+    (tmp_path / "city_walls.csv").mkdir()
+    changed = dataclasses.replace(people, warnings=("other",))
+    with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written"):
+        changed.save(tmp_path / "city")
+    assert (tmp_path / "city_typology.csv").read_bytes() == before
+    assert not list(tmp_path.glob("*.part"))
 
 
 def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path):
