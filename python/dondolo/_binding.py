@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _core
 from dondolo._arguments import FloatArray, as_array, as_number, as_path, as_text
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
 _PACKAGE = Path(__file__).parent
 
@@ -169,9 +169,16 @@ def build_variant() -> str:
     -------
     str
         "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
-        DONDOLO_VARIANT names, if it can; "native" in a build for one processor. Variants differ by rounding only.
+        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+    Raises
+    ------
+    InputError
+        DONDOLO_VARIANT names none that this build and this processor have.
     """
-    return _core.variant().decode().strip()
+    name, stat, message = _core.variant()
+    check(stat, message)
+    return name.decode().strip()
 
 
 def check(stat: int, message: bytes) -> None:
@@ -179,7 +186,7 @@ def check(stat: int, message: bytes) -> None:
     if stat == 0:
         return
     sentence = message.decode("utf-8", "replace").strip()
-    raise InputError(sentence) if stat == 2 else DondoloError(sentence)
+    raise {2: InputError, 3: MissingFileError}.get(stat, DondoloError)(sentence)
 
 
 def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:

@@ -38,6 +38,7 @@ contains
 
       call case%inputs(inputs)
       call check_output(case%job%output, suffixes(case%job), inputs, error)
+      if (allocated(error)) error%message = error%message//case%job%output_line
       call add_place(error, case%file//': &job: output = '''//case%job%output//'''')
    end subroutine check_reports
 
