@@ -4,10 +4,10 @@ program dondolo_main
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type, read_case
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
    use dondolo_kinds, only : wp
-   use dondolo_lane_variants, only : build_variant
+   use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
@@ -17,7 +17,7 @@ program dondolo_main
    use dondolo_run_population, only : merge_population
    use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
-   use dondolo_system, only : outlive_file_limit, stderr_is_terminal
+   use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template
    use dondolo_version, only : dondolo_version_text
    implicit none
@@ -32,16 +32,24 @@ program dondolo_main
    case ('help')
       call print_help()
    case ('version')
+      call check_variant(error)
+      if (allocated(error)) call give_up(error)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//trim(build_variant())
    case ('template')
       call print_template(arguments%task)
    case ('benchmark')
+      call check_variant(error)
+      if (allocated(error)) call give_up(error)
       call run_benchmark(arguments%seconds, team(0), arguments%quiet, error)
       if (allocated(error)) call give_up(error)
    case default
       call serve(arguments, error)
       if (allocated(error)) call give_up(error)
    end select
+   if (.not. output_arrives()) then
+      call raise_failure(error, 'standard output: cannot be written whole: is the disk full?')
+      call give_up(error)
+   end if
 
 contains
 
@@ -150,7 +158,12 @@ contains
          write (error_unit, '(a)') 'dondolo: '//error%message(first:first + length - 1)
          first = first + length + 1
       end do
-      stop error%stat, quiet=.true.
+      select case (error%stat)
+      case (status_input, status_missing)
+         stop status_input, quiet=.true.
+      case default
+         stop status_failure, quiet=.true.
+      end select
    end subroutine give_up
 
 end program dondolo_main

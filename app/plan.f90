@@ -3,7 +3,7 @@ module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
    use dondolo_counts_file, only : counts_file_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_population, only : member_type, population_reader_type
@@ -112,10 +112,13 @@ contains
          call print_head(name_width)
          do i = survey%first, min(survey%last, survey%first + shown_rows - 1)
             call reader%next(member, found, error)
-            if (allocated(error) .or. .not. found) return
+            if (.not. found .and. .not. allocated(error)) &
+               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (allocated(error)) exit
             call print_row(member%wall, name_width)
          end do
          call reader%close()
+         if (allocated(error)) return
          if (survey%last >= i) write (output_unit, '(a)') '... and '//to_text(survey%last - i + 1)//' more'
       end associate
       write (output_unit, '(a)') ''

@@ -274,6 +274,16 @@ check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
 sed "s/'history'/'stripes'/" history.nml >both.nml
 run both.nml
 check "history group in a stripes case" equal "$rc" 0
+run history.nml
+check "results of another task are not left" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+echo 'my own notes' >out/deep/wall_stripes.csv
+cp history.nml out/deep/wall_typology.csv
+run history.nml
+check "a file that is no result is left" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
+run --check both.nml
+check "--check removes nothing" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
 rm -rf out
 
 printf '\xef\xbb\xbf%s' "$(sed 's/$/\r/' good.nml)" >dos.nml
@@ -412,9 +422,16 @@ refused "an accelerogram for a case" 'stands outside a group: must be &name ... 
 # --- wrong cases: what is changed (sed), what must be said ---------------------------------------------------------
 
 touch bad.nml
+DONDOLO_VARIANT=bogus refused "a build variant that there is not" "DONDOLO_VARIANT = 'bogus': this build and this processor have '" \
+   good.nml
+DONDOLO_VARIANT=bogus refused "its name" "DONDOLO_VARIANT = 'bogus': this build and this processor have '" --version
 bad() {
    good_case | sed -E -e "$1" >bad.nml
    refused "$1" "$2" bad.nml
+   # A group that is not there is in no line.
+   if grep -qi "^$(grep -oE '&[a-z]+' stderr | head -n 1)" bad.nml && grep -q '^dondolo: bad.nml: ' stderr; then
+      check "$1: names a line, not: $(cat stderr)" grep -qE 'lines? [0-9]+' stderr
+   fi
 }
 while IFS='|' read -r change part; do
    [ -n "$change" ] && bad "$change" "$part"
@@ -427,7 +444,7 @@ s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are '
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
 s/thickness = 0.25/thickness = 0.25 height = 2/|bad.nml: &wall: height: given twice, in lines 11 and 12
-s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0
+s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0 (line 11)
 s/height = 3.0/height = 3.0 4.0/|bad.nml: &wall: height = 3.0, 4.0: must be one value, not 2
 s/height = 3.0/height = '3.0'/|bad.nml: &wall: height = '3.0': must be a number without quotes
 s/height = 3.0/height = tall/|bad.nml: &wall: height = tall: must be a number, such as 0.25
@@ -493,13 +510,13 @@ s/'pga'/'sa(30)'/|bad.nml: &stripes: im = 'sa(30)': must be one of 'pga'
 s/'pga'/'d5-95'/|bad.nml: &stripes: im = 'd5-95': a duration stays as it is when a record is scaled
 s/'pga'/'arias'/;s/0.6, 1.0/0.6, 1e9/|bad.nml: &stripes: levels = 1000000000: scales record
 s/0.1, 0.2/0.2, 0.1/|bad.nml: &stripes: levels = 0.2, 0.1: must increase strictly
-s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly
+s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly (line 20)
 s/0.1, 0.2/-0.1, 0.2/|bad.nml: &stripes: levels = -0.1: must be positive
 s/0.1, 0.2/0.1,, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
 s/0.1, 0.2/, 0.1, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
 s/0.1, 0.2/0,1, 0,2/|bad.nml: &stripes: levels = 0, 1, 0, 2, 0.4, 0.6, ...: a decimal point is needed, such as 0.1
 s/0.1, 0.2/0.1, 0.2g/|bad.nml: &stripes: levels: value 2 = 0.2g: must be a number
-s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number
+s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number, such as 0.25 (line 20)
 s/0.1, 0.2/0.1, '0.2'/|bad.nml: &stripes: levels: value 2 = '0.2': must be a number without quotes
 s/0.6, 1.0/0.6, 1e6/|bad.nml: &stripes: levels = 1000000: scales record 'r1' beyond 10000 m/s2
 s/im = 'pga'/im = 'pga' first = 0.1/|bad.nml: &stripes: last: must be given: first, last and count belong together
@@ -508,7 +525,7 @@ s/levels.*/first = 0.1, last = 0.5, count = 1/;/0.6, 1.0/d|bad.nml: &stripes: co
 s/levels.*/first = 0.1, last = 0.5, count = 2000000000/;/0.6, 1.0/d|bad.nml: &stripes: count = 2000000000: must lie between 2 and 1000
 s/levels.*/first = 0.5, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: last = 0.1: must be greater than first = 0.5
 s/levels.*/first = 0, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: first = 0: must be positive
-s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given
+s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given, such as levels = 0.1, 0.2, 0.3; or first, last and count (line 18)
 s/'auto'/'rk4'/|bad.nml: &solver: engine = 'rk4': must be one of 'auto', 'rk45', 'lanes'
 s/rtol = 1.0e-8/rtol = 1/|bad.nml: &solver: rtol = 1: must lie between
 s/rtol = 1.0e-8/rtol = 1.0d-400/|bad.nml: &solver: rtol = 
@@ -517,10 +534,10 @@ s/edp_limit = 1.0/edp_limit = 0/|bad.nml: &solver: edp_limit = 0: must be positi
 s/edp_limit = 1.0/estimate_error = yes/|bad.nml: &solver: estimate_error = yes: must be .true. or .false.
 s/edp_limit = 1.0/estimate_error = '.true.'/|bad.nml: &solver: estimate_error = '.true.': must be .true. or .false.
 s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
-s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2
+s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2 (line 27)
 s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81
 s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8): not for task = 'stripes', which takes &wall
-8,13d|bad.nml: &wall: must be given for task = 'stripes'
+8,13d|bad.nml: &wall: must be given for task = 'stripes' (line 3)
 14,17d|bad.nml: &records: catalogue: must be given
 18,22d|bad.nml: &stripes: levels: must be given
 13d|bad.nml: &wall: not closed: a / must stand before &records in line 13
@@ -539,6 +556,13 @@ s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: mu
 s/task = 'stripes'/task = 'history'/|bad.nml: &records: polarity = 'both': must be 'as_recorded' or 'reversed' for task = 'history'
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale = 1e9 \//|bad.nml: &history: the scale 1000000000 makes record 'r1' exceed 10000 m/s2
 TABLE
+
+# Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029
+for bytes in '\x1b' '\xc2\x85' '\xe2\x80\xa8' '\xe2\x80\xa9'; do
+   bad "s/wall, one/a${bytes}b/" "must stand on one line, without control characters"
+   bad "s/It''s a wall/a${bytes}b/" "must stand on one line, without control characters"
+   bad "s/out.deep.wall/a${bytes}b/" "must stand on one line, without control characters"
+done
 
 # Output that would replace or hide what is there
 mkdir -p taken_walls.csv
@@ -564,6 +588,10 @@ catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
 catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
 catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' stands there twice"
+catalogue "a name of two lines" 'file,dt_s,units,name\nr1.txt,0.01,g,"a\n# collapsed: 1"\n' \
+   "records/bad.csv: line 2: name = 'a # collapsed: 1': must stand on one line, without control characters"
+catalogue "a name with a line separator" 'file,dt_s,units,name\nr1.txt,0.01,g,a\0342\0200\0250b\n' \
+   "records/bad.csv: line 2: name = 'a   b': must stand on one line"
 printf '1\n2\nx\n' >records/broken.txt
 catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
 rm records/broken.txt records/bad.csv
@@ -620,6 +648,13 @@ refused "population and a wall" "bad.nml: &wall (line 5): not for task = 'typolo
 # --- failures while running ----------------------------------------------------------------------------------------
 
 if [ -c /dev/full ]; then
+   for arguments in --version --help '--template stripes' '--check good.nml' good.nml; do
+      # shellcheck disable=SC2086
+      timeout 60 "$exe" $arguments >/dev/full 2>stderr
+      check "full standard output, $arguments: exit code" equal "$?" 1
+      check "full standard output, $arguments: says so" contains stderr 'dondolo: standard output: cannot be written whole'
+   done
+   rm -rf out
    mkdir -p out/deep
    ln -s /dev/full out/deep/wall_histories.csv.part
    run good.nml

@@ -16,7 +16,7 @@ from dondolo.comparison import Comparison, compare
 from dondolo.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
-from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
 from dondolo.fragility import Fragility, fit_fragility
 from dondolo.hazard import HazardCurve
 from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
@@ -75,6 +75,7 @@ __all__ = [
     "Interrupted",
     "Logistic",
     "Lognormal",
+    "MissingFileError",
     "Normal",
     "OneSidedWall",
     "OverturningSpectrum",

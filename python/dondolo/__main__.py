@@ -30,16 +30,16 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except OSError as error:
-        # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        print(f"dondolo: standard output: cannot be written: {error.strerror}", file=sys.stderr)
-        return 1
     except dd.InputError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         return 2
     except dd.DondoloError as error:
         print(f"dondolo: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"dondolo: standard output: cannot be written: {error.strerror}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("dondolo: interrupted", file=sys.stderr)

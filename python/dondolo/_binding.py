@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _core
 from dondolo._arguments import FloatArray, as_array, as_number, as_path, as_text
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
 _PACKAGE = Path(__file__).parent
 
@@ -171,9 +171,16 @@ def build_variant() -> str:
     -------
     str
         "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
-        DONDOLO_VARIANT names, if it can; "native" in a build for one processor. Variants differ by rounding only.
+        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+    Raises
+    ------
+    InputError
+        DONDOLO_VARIANT names none that this build and this processor have.
     """
-    return _core.variant().decode().strip()
+    name, stat, message = _core.variant()
+    check(stat, message)
+    return name.decode().strip()
 
 
 def check(stat: int, message: bytes) -> None:
@@ -181,7 +188,7 @@ def check(stat: int, message: bytes) -> None:
     if stat == 0:
         return
     sentence = message.decode("utf-8", "replace").strip()
-    raise {2: InputError, 3: MemoryError}.get(stat, DondoloError)(sentence)
+    raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
 
 
 @contextmanager
@@ -422,16 +429,12 @@ def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
-    """Fit many curves in one call: collapses and histories are (curves, levels).
-
-    A fit that fails has the status '' and raises only where it is the only one.
-    """
+    """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
     curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
-    if stat > 1 or len(codes) == 1:
-        check(stat, message)
-    names = ("", *constants().statuses)
-    return curves.T, [names[code] for code in codes]
+    check(stat, message)
+    names = constants().statuses
+    return curves.T, [names[code - 1] for code in codes]
 
 
 def fit_walls(

@@ -28,9 +28,6 @@ module dondolo_boundary
    !> Numbers of a wall, in this order in all flat arrays
    integer, parameter, public :: wall_numbers = 8
 
-   !> Status of an error for lack of memory, beside status_failure and status_input
-   integer, parameter :: status_memory = 3
-
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
       & bytes_of_sample = 64.0_c_double, bytes_of_history = 200.0_c_double
@@ -98,7 +95,7 @@ contains
    subroutine report(error, stat, message)
       !> The error; not allocated: success
       type(error_type), allocatable, intent(in) :: error
-      !> 0, or the kind of the error: 1, 2, or 3 for lack of memory
+      !> 0, or the kind of the error
       integer(c_int), intent(out) :: stat
       !> Its sentence
       character(len=*), intent(out) :: message
@@ -106,7 +103,7 @@ contains
       stat = 0
       message = ''
       if (.not. allocated(error)) return
-      stat = merge(status_memory, error%stat, error%lacks_memory)
+      stat = error%stat
       message = error%message
    end subroutine report
 

@@ -3,8 +3,8 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
-! 0, or 1 and 2 as the exit codes of the executable. Procedures that compute release Python's lock (threadsafe); those that
-! make texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
+! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that make
+! texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
 subroutine constants(defaults, version, statuses)
@@ -30,12 +30,20 @@ subroutine constants(defaults, version, statuses)
 end subroutine constants
 
 ! Build variant that the engine lanes runs; the environment may change it from call to call
-subroutine variant(name)
-   use dondolo_lane_variants, only : build_variant
+subroutine variant(name, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_lane_variants, only : build_variant, check_variant
    implicit none
    character(len=32), intent(out) :: name
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(error_type), allocatable :: error
 
+   call check_variant(error)
    name = build_variant()
+   call report(error, stat, message)
 end subroutine variant
 
 ! Listen to Ctrl-C while something is computed: the main thread alone may

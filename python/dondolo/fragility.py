@@ -34,8 +34,8 @@ class Fragility(Shown):
     covariance : ndarray, shape (2, 2)
         Covariance of ln theta and beta from the Fisher information.
     status : str
-        'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level' or
-        'decreasing'; the first two have a curve.
+        'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level',
+        'decreasing' or 'not_converged'; the first two have a curve.
     log_likelihood : float
         With the binomial coefficients; NaN without a fit.
     bracket : (float, float)

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_levels, as_number, increasing, shaped
 from dondolo._shown import Shown
-from dondolo.errors import InputError
+from dondolo.errors import InputError, MissingFileError
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -149,19 +149,25 @@ class HazardCurve(Shown):
             lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
         except (OSError, UnicodeDecodeError) as error:
             reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-            raise InputError(f"{name}: cannot be read: {reason}") from error
+            kind = MissingFileError if isinstance(error, FileNotFoundError) else InputError
+            raise kind(f"{name}: cannot be read: {reason}") from error
         told = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
         rows = csv.reader(line for _, line in told)
-        head = [cell.strip() for cell in next(rows, [])]
-        if len(head) != 2 or head[1] != "annual_frequency":
-            raise InputError(f"{name}: the first line must be the name of an intensity measure and 'annual_frequency'")
         pairs = []
-        for row in rows:
-            try:
-                x, h = map(_number, row)
-            except ValueError:
-                raise InputError(f"{name}: line {told[rows.line_num - 1][0]}: must be two numbers") from None
-            pairs.append((x, h))
+        try:
+            head = [cell.strip() for cell in next(rows, [])]
+            if len(head) != 2 or head[1] != "annual_frequency":
+                raise InputError(
+                    f"{name}: the first line must be the name of an intensity measure and 'annual_frequency'"
+                )
+            for row in rows:
+                try:
+                    x, h = map(_number, row)
+                except ValueError:
+                    raise InputError(f"{name}: line {told[rows.line_num - 1][0]}: must be two numbers") from None
+                pairs.append((x, h))
+        except csv.Error as error:
+            raise InputError(f"{name}: line {told[rows.line_num - 1][0]}: {error}") from error
         try:
             return cls([x for x, _ in pairs], [h for _, h in pairs], head[0])
         except InputError as error:

@@ -113,12 +113,15 @@ def test_shown():
         ({"weights": [0.0] * 4}, "weight: must be positive for at least one wall"),
         ({"weights": [1.0, 2.0, 1.0, 1.0]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
-        ({"groups": ["x", "x", "a\nb", ""]}, "wall 'b, \"the\" #2': group: must stand on one line"),
+        (
+            {"groups": ["x", "x", "a\nb", ""]},
+            "wall 'b, \"the\" #2': group: must stand on one line, without control characters",
+        ),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
         ({"groups": 5}, "groups = 5: must be a name for each wall"),
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
-        ({"origin": ["two\nlines"]}, "origin: must stand on one line"),
+        ({"origin": ["two\nlines"]}, "origin: must stand on one line, without control characters"),
         ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],
 )

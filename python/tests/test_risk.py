@@ -475,6 +475,9 @@ def test_files(hazard, tmp_path):
         (tmp_path / "own.csv").write_text(text)
         with pytest.raises(dd.InputError, match=sentence):
             dd.HazardCurve.from_csv(tmp_path / "own.csv")
+    (tmp_path / "long.csv").write_text("pga,annual_frequency\n0.1," + "1" * 200000 + "\n")
+    with pytest.raises(dd.InputError, match=r"long\.csv: line 2: field larger than field limit"):
+        dd.HazardCurve.from_csv(tmp_path / "long.csv")
     with pytest.raises(dd.InputError, match="cannot be read"):
         dd.HazardCurve.from_csv(tmp_path / "none.csv")
     with pytest.raises(dd.InputError, match=r"path = 3\.5: must be the path of a file"):

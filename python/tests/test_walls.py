@@ -81,7 +81,7 @@ def test_html_is_escaped():
         (lambda: dd.TwoBlockWall(3.0, 0.25, hinge=1.0), "hinge = 1: must lie between 0.01 and 0.99"),
         (lambda: dd.OneSidedWall("3", 0.25), "height = '3': must be a number"),
         (lambda: dd.OneSidedWall(3.0, None), "thickness: must be given"),
-        (lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"), "name: must stand on one line"),
+        (lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"), "name: must stand on one line, without control characters"),
     ],
 )
 def test_errors(make, sentence):

@@ -5,7 +5,7 @@
 module dondolo_memory
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use, intrinsic :: omp_lib, only : omp_get_max_threads
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type, raise_failure, status_memory
    use dondolo_kinds, only : wp
    use dondolo_text, only : to_text
    implicit none
@@ -44,7 +44,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       call raise_failure(error, 'not enough memory: needs '//to_text(anint(bytes/1.0e6_wp))//' MB')
-      error%lacks_memory = .true.
+      error%stat = status_memory
    end subroutine raise_shortage
 
 end module dondolo_memory

@@ -1,7 +1,7 @@
 !> A text file as a whole: read at once, with an index of its lines.
 module dondolo_text_file
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : add_place, error_type, raise_input, raise_missing
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_text, only : to_text
@@ -107,7 +107,7 @@ contains
       unit = 0
       inquire (file=file, exist=exists, size=bytes)
       if (.not. exists) then
-         call raise_input(error, file//': no such file')
+         call raise_missing(error, file//': no such file')
          return
       end if
       ! Seen before it is opened: a pipe has no size either, and would be waited for.

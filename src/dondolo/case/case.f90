@@ -1,10 +1,11 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : echo_history, find_record, history_input_type, read_history_group
    use dondolo_job_group, only : echo_job, job_type, read_job
    use dondolo_kinds, only : wp
+   use dondolo_lane_variants, only : check_variant
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_room
    use dondolo_namelist, only : namelist_type, read_namelist
@@ -95,6 +96,8 @@ contains
       type(wall_input_type) :: wall
 
       case%file = file
+      call check_variant(error)
+      if (allocated(error)) return
       if (is_folder(file)) then
          call raise_input(error, file//': is a folder, must be a namelist file')
          return
@@ -164,7 +167,9 @@ contains
       end if
       group = namelist%group(trim(needed))
       if (group%line == 0) then
-         call raise_input(error, group%place()//': must be given for task = '''//task//'''')
+         group = namelist%group('job')
+         call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &
+            & group%in_line('task'))
          return
       end if
       group = namelist%group(trim(other))
@@ -193,13 +198,13 @@ contains
       end if
       group = namelist%group('wall')
       call new_wall(case%wall, input, error, case%solver%gravity)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) return
       group = namelist%group('solver')
       call check_limit(case%solver%solver, case%wall%mechanism, error)
       if (.not. allocated(error)) &
          & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
    end subroutine make_wall
 
@@ -221,7 +226,7 @@ contains
       end if
       group = namelist%group('stripes')
       call check_states(case%stripes, case%solver%solver%edp_limit, error)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) return
       if (case%job%histories .and. case%job%task /= 'typology') then
          group = namelist%group('job')
@@ -230,7 +235,7 @@ contains
       end if
       if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
       call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
-         & 'first, last and count')
+         & 'first, last and count'//group%in_line(''))
    end subroutine check_combinations
 
    !> Read the accelerograms
@@ -271,6 +276,7 @@ contains
          call group%refuse(name, file//' is a folder, must be a file', error)
       else if (.not. exists) then
          call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)', error)
+         error%stat = status_missing
       end if
    end subroutine check_file
 
@@ -321,7 +327,8 @@ contains
                   & ' of 0 and cannot be scaled to a level', error)
             else
                call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
-                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
+                  & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
             end if
          end associate
          return
@@ -331,7 +338,8 @@ contains
          do i = 1, size(case%records)
             if (case%scale_to(i, highest)*case%peaks(i) <= largest_acceleration) cycle
             call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
-               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2'// &
+               & group%in_line(trim(merge('levels', 'last  ', group%has('levels')))))
             return
          end do
       end associate

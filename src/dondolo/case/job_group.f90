@@ -31,6 +31,8 @@ module dondolo_job_group
       integer :: threads = 0
       !> Task 'typology': write the table of all histories too?
       logical :: histories = .false.
+      !> In which line the output was given, for messages
+      character(len=:), allocatable :: output_line
    end type job_type
 
 contains
@@ -65,6 +67,7 @@ contains
          call group%refuse('threads', 'must lie between 0 (all) and '//to_text(largest_threads), error)
       end if
       job%task = trim(job%task)
+      job%output_line = group%in_line('output')
    end subroutine read_job
 
    !> Write the group as namelist text with every value in force

@@ -175,7 +175,7 @@ contains
                & ' in line '//to_text(tokens(at)%line))
             return
          case (end_of_file)
-            call raise_input(error, group%place()//': not closed: a / must stand at its end')
+            call raise_input(error, group%place()//': not closed: a / must stand at its end'//group%in_line(''))
             return
          case (word)
             call take_variable(tokens, at, group, variable, error)

@@ -10,7 +10,7 @@ module dondolo_population
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_text, only : join, lower, must_be_plain, plain, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
    implicit none
@@ -249,8 +249,8 @@ contains
       member%group = self%table%get_text(given('group'))
       call read_share('weight', member%weight, largest_weight)
       call read_share('p_occ', member%p_occ, 1.0_wp)
-      call check_line('name', input%name)
-      call check_line('group', member%group)
+      if (plain(member%group) /= member%group) &
+         & call problems%note('group = '''//member%group//''': '//must_be_plain)
       call problems%raise(error)
 
    contains
@@ -285,22 +285,6 @@ contains
          ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
          share = abs(share)
       end subroutine read_share
-
-      !> Check that a text stands on one line and can be printed
-      subroutine check_line(name, text)
-         !> Name of its column
-         character(len=*), intent(in) :: name
-         !> The text
-         character(len=*), intent(in) :: text
-
-         integer :: i
-
-         do i = 1, len(text)
-            if (iachar(text(i:i)) >= 32 .and. iachar(text(i:i)) /= 127) cycle
-            call problems%note(name//' = '''//text//''': must stand on one line, without control characters')
-            return
-         end do
-      end subroutine check_line
 
    end subroutine read_row
 

@@ -42,7 +42,8 @@ contains
       if (allocated(error)) return
       records%polarity = trim(records%polarity)
       if (.not. group%has('catalogue')) then
-         call raise_input(error, group%place()//': catalogue: must be given, a CSV table with one row a record')
+         call raise_input(error, group%place()//': catalogue: must be given, a CSV table with one row a record'// &
+            & group%in_line(''))
       else if (len_trim(records%catalogue) == 0) then
          call group%refuse('catalogue', 'must name a CSV table with one row a record', error)
       else if (.not. any(records%polarity == polarity_names)) then

@@ -2,7 +2,7 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_fragility, only : fit_fragility
    use dondolo_kinds, only : wp
    use dondolo_memory, only : raise_shortage
@@ -89,7 +89,9 @@ contains
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
          call reader%next(member, found, error)
-         if (found .and. .not. allocated(error)) call plan_wall(member%wall)
+         if (.not. found .and. .not. allocated(error)) &
+            & call raise_failure(error, case%population_path()//': has changed while it was read')
+         if (.not. allocated(error)) call plan_wall(member%wall)
       end do
       call reader%close()
 

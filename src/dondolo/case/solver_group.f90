@@ -1,7 +1,7 @@
 !> The group &solver: how the motions are computed.
 module dondolo_solver_group
    use dondolo_assignment, only : assignment_text
-   use dondolo_error, only : add_place, error_type
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
@@ -58,7 +58,7 @@ contains
       else
          input%solver%engine = engine
          call check_solver(input%solver, error)
-         call add_place(error, group%place())
+         call group%locate(error)
       end if
    end subroutine read_solver_group
 

@@ -1,7 +1,7 @@
 !> What a user should know of results that are correct but may mislead.
 module dondolo_warnings
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fragility_type, status_names
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type, lines_type
    use dondolo_record, only : record_type
@@ -57,8 +57,8 @@ module dondolo_warnings
    end type scale_warning_type
 
    !> Statuses of a fit that there is something to say of
-   character(len=12), parameter :: telling(6) = [character(len=12) :: 'no_collapse', 'all_collapse', 'separated', &
-      & 'single_level', 'decreasing', 'extrapolated']
+   character(len=len(status_names)), parameter :: telling(7) = [character(len=len(status_names)) :: 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged', 'extrapolated']
 
    !> What there is to say of the curves of a population
    type :: fit_warning_type
@@ -191,6 +191,8 @@ contains
       case ('decreasing')
          call warnings%add('collapses do not become more frequent with the level'//none// &
             & 'their trend is flat or falling')
+      case ('not_converged')
+         call warnings%add('the fit does not converge at levels '//levels//', no curve is fitted')
       case ('separated')
          call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
             & 'the median lies '//between(fragility%bracket)// &

@@ -6,7 +6,7 @@
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
 !> (docs/theory.md, section 6).
 module dondolo_fragility
-   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_text, only : to_text
@@ -17,13 +17,13 @@ module dondolo_fragility
    public :: normal_cdf
 
    !> What can come of a fit; the first two have a curve
-   character(len=12), parameter :: status_names(7) = [character(len=12) :: 'ok', 'extrapolated', 'no_collapse', &
-      & 'all_collapse', 'separated', 'single_level', 'decreasing']
+   character(len=13), parameter :: status_names(8) = [character(len=13) :: 'ok', 'extrapolated', 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
       !> One of status_names; 'extrapolated' is a theta outside the levels
-      character(len=12) :: status = 'no_collapse'
+      character(len=len(status_names)) :: status = 'no_collapse'
       !> Median, in the unit of the levels
       real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
@@ -81,7 +81,7 @@ contains
       call maximise(x, collapses, histories, b, information, ok)
       if (ok) call invert_symmetric(information, covariance, ok)
       if (.not. ok) then
-         call raise_failure(error, 'the fit of the fragility curve did not converge')
+         fragility%status = 'not_converged'
          return
       end if
 
@@ -234,7 +234,7 @@ contains
       !> Histories
       real(wp), intent(in) :: n(:)
       !> The status
-      character(len=12) :: status
+      character(len=len(status_names)) :: status
 
       real(wp) :: score, x(size(levels))
       logical :: counted(size(levels))

@@ -12,6 +12,7 @@ module dondolo_catalogue
    use dondolo_name_index, only : name_index_type
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
+   use dondolo_text, only : must_be_plain, plain
    implicit none
    private
 
@@ -94,7 +95,7 @@ contains
       type(lines_type), intent(in) :: names
       !> The records, named by the stems of their files
       type(record_type), intent(inout) :: records(:)
-      !> Two records are the same, or have the same name given
+      !> Two records are the same, or have the same name given, or a name is not plain
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: path, file
@@ -104,6 +105,10 @@ contains
       do row = 1, size(records)
          is_given(row) = len(names%line(row)%text) > 0
          if (is_given(row)) records(row)%name = names%line(row)%text
+         if (plain(records(row)%name) /= records(row)%name) then
+            call raise_input(error, places%line(row)%text//': name = '''//records(row)%name//''': '//must_be_plain)
+            return
+         end if
          ! What follows is the channel
          length(row) = len(stem(paths%line(row)%text))
       end do
@@ -120,7 +125,7 @@ contains
             path = trim(paths%line(row)%text)
             file = path(scan(path, '/\', back=.true.) + 1:)
             if (level == 2) file = path
-            records(row)%name = file//records(row)%name(length(row) + 1:)
+            records(row)%name = plain(file)//records(row)%name(length(row) + 1:)
             length(row) = len(file)
          end do
       end do

@@ -4,7 +4,7 @@ module dondolo_record_table
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : plain, to_text
    implicit none
    private
 
@@ -60,8 +60,8 @@ contains
             write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
             if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
-            call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)//column// &
-               & titled(origin(record), origins)//'  '//record_problems(record)))
+            call table%add(trim(plain(numbered(i)//left(record%name, width)//trim(numbers)//column// &
+               & titled(origin(record), origins)//'  '//record_problems(record))))
          end associate
       end do
    end function record_table
@@ -169,20 +169,5 @@ contains
 
       left = text
    end function left
-
-   !> A line without blanks at its end, and without control characters that a file may have brought
-   pure function trimmed(line)
-      !> Line
-      character(len=*), intent(in) :: line
-      !> The same, safe to print
-      character(len=:), allocatable :: trimmed
-
-      integer :: i
-
-      trimmed = trim(line)
-      do i = 1, len(trimmed)
-         if (iachar(trimmed(i:i)) < 32) trimmed(i:i) = ' '
-      end do
-   end function trimmed
 
 end module dondolo_record_table

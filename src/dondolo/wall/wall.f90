@@ -7,7 +7,7 @@ module dondolo_wall
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : one_sided_type, new_one_sided
    use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, must_be_plain, plain, to_text
    use dondolo_two_block, only : two_block_type, new_two_block
    implicit none
    private
@@ -159,6 +159,7 @@ contains
 
       type(problems_type) :: problems
 
+      if (plain(input%name) /= input%name) call problems%note('name = '''//input%name//''': '//must_be_plain)
       call check_positive(problems, 'height', input%height, 1.0e3_wp)
       call check_positive(problems, 'thickness', input%thickness, 1.0e3_wp)
       call check_positive(problems, 'density', input%density, 1.0e5_wp)
