@@ -195,24 +195,31 @@ contains
       call read_row(self, first, error)
       if (allocated(error) .or. self%line == 0) return
       line = self%line
-      if (is_one_cell(first)) then
-         call read_row(self, second, error)
-         if (allocated(error)) return
-         if (self%line > 0) then
-            if (is_one_cell(second)) then
-               self%held = second
-               self%held_line = self%line
-            else
-               self%title_line = line
-               first = second
-               line = self%line
-            end if
+      call read_row(self, second, error)
+      if (allocated(error)) return
+      if (self%line > 0) then
+         if (is_title(first, second)) then
+            self%title_line = line
+            line = self%line
+            call move_alloc(second, first)
+         else
+            call move_alloc(second, self%held)
+            self%held_line = self%line
          end if
       end if
       self%line = line
       self%separator = separator_of(first)
       call split(self, first, error)
    end subroutine read_header
+
+   !> Is the first row a title above the names of the columns?
+   pure logical function is_title(first, second)
+      !> Texts of the first two rows
+      character(len=*), intent(in) :: first, second
+
+      is_title = .not. is_one_cell(second) .and. (is_one_cell(first) .or. &
+         & (separator_of(first) == ',' .and. separator_of(second) /= ','))
+   end function is_title
 
    !> Is only one cell of a row not empty?
    pure logical function is_one_cell(row)

@@ -7,7 +7,7 @@ module dondolo_stripes_group
    use dondolo_namelist_group, only : group_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_stripes, only : check_levels, check_thresholds
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -51,7 +51,7 @@ contains
       call group%check_names(stripes_variables, error)
       if (.not. allocated(error)) call group%get_text('im', im, error)
       if (allocated(error)) return
-      call new_scaling(stripes%scaling, lower(trim(im)), error)
+      call new_scaling(stripes%scaling, trim(im), error)
       call add_place(error, group%place())
       if (allocated(error)) return
       call read_grid(group, stripes, error)

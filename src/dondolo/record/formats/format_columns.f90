@@ -101,11 +101,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(text_file_type) :: plain
+      character(len=:), allocatable :: processing
       logical :: has_commas
 
       call make_plain(text, plain, has_commas)
       call read_plain(plain, samples, error)
-      if (has_commas) call samples%metadata%set('decimal mark', 'comma')
+      if (.not. has_commas .or. allocated(error)) return
+      processing = samples%metadata%get('processing')
+      if (len(processing) > 0) processing = processing//'; '
+      call samples%metadata%set('processing', processing//'decimal commas read')
    end subroutine read_columns
 
    !> Replace decimal commas by points, and drop rows of empty cells at the end
@@ -117,9 +121,11 @@ contains
       !> Did it have decimal commas?
       logical, intent(out) :: has_commas
 
+      character(len=:), allocatable :: line
       integer :: begin, lines, i
 
-      plain = text
+      plain%file = text%file
+      plain%text = text%text
       do lines = text%lines(), 1, -1
          if (verify(text%text(text%first(lines):text%last(lines)), blanks//';,') > 0) exit
       end do
@@ -128,11 +134,13 @@ contains
       begin = first_value_line(plain)
       has_commas = .false.
       if (begin > lines) return
-      associate (values => plain%text(plain%first(begin):plain%last(lines)), &
-         & line => trim(adjustl(plain%text(plain%first(begin):plain%last(begin)))))
-         has_commas = index(values, ',') > 0 .and. index(values, '.') == 0 .and. (index(line, ';') > 0 .or. &
-            & (scan(line, blanks) > 0 .and. index(values, ', ') == 0 .and. index(values, ' ,') == 0 .and. &
-            & index(values, ','//achar(9)) == 0 .and. index(values, achar(9)//',') == 0))
+      line = unquoted(plain%line(begin))
+      associate (values => plain%text(plain%first(begin):plain%last(lines)))
+         has_commas = index(values, ',') > 0 .and. index(values, '.') == 0
+         ! A comma beside a blank separates
+         if (has_commas .and. index(line, ';') == 0) has_commas = scan(line, blanks) > 0 .and. &
+            & index(values, ', ') == 0 .and. index(values, ' ,') == 0 .and. &
+            & index(values, ','//achar(9)) == 0 .and. index(values, achar(9)//',') == 0
       end associate
       if (.not. has_commas) return
       do i = plain%first(begin), plain%last(lines)
@@ -186,7 +194,11 @@ contains
       end do
       dt = 0.0_wp
       if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) &
+            & error%message = error%message//' (columns separated by commas need decimal points)'
+         return
+      end if
       allocate (samples%channels(max(cells - 1, 1)))
       do i = 1, size(samples%channels)
          cell = min(i + 1, cells)
