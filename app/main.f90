@@ -72,6 +72,7 @@ contains
       end if
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
+      call print_lines('note', case%notes)
       if (arguments%action == 'check') then
          if (.not. arguments%quiet) call print_plan(case, error)
          return
@@ -119,7 +120,7 @@ contains
          ! The checkpoint of a whole population has served; parts are the user's
          if (case%job%task == 'typology' .and. arguments%action == 'run') call results%counts%remove()
       end if
-      call print_warnings(results%warnings)
+      call print_lines('warning', results%warnings)
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
    end subroutine finish_run
 
@@ -133,17 +134,19 @@ contains
       if (team == 0) team = available_threads()
    end function team
 
-   !> Print warnings
-   subroutine print_warnings(warnings)
-      !> Warnings
-      type(lines_type), intent(in) :: warnings
+   !> Print notes or warnings
+   subroutine print_lines(kind, lines)
+      !> What they are
+      character(len=*), intent(in) :: kind
+      !> The lines
+      type(lines_type), intent(in) :: lines
 
       integer :: i
 
-      do i = 1, warnings%count
-         write (error_unit, '(a)') 'dondolo: warning: '//warnings%line(i)%text
+      do i = 1, lines%count
+         write (error_unit, '(a)') 'dondolo: '//kind//': '//lines%line(i)%text
       end do
-   end subroutine print_warnings
+   end subroutine print_lines
 
    !> Print an error, one line for each thing that is wrong, and end with its exit code
    subroutine give_up(error)

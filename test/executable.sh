@@ -379,6 +379,20 @@ run --check history.nml
 check "check: history" contains stdout "one history: record 'r3'"
 run --check people.nml
 check "check: population" contains stdout '32 histories'
+run people.nml
+bodies() { cat out/people_*.csv | grep -v '^#'; }
+bodies >as_given
+{ echo 'Survey, 2024;;;;;;;'; population | tr , ';' | sed -E 's/([0-9])\.([0-9])/\1,\2/g; s/$/;/'; echo ';;;;;;;'; } >walls.csv
+sed "s/'typology'/'TYPOLOGY'/; s/&stripes/\&stripes im = 'PGA'/; s/file/FILE/" people.nml >upper.nml
+run upper.nml
+note='walls.csv: read with columns separated by semicolons, decimal commas, line 1 is a title'
+check "a table of a spreadsheet: note" equal "$(head -n 1 stderr)" "dondolo: note: $note"
+check "a table of a spreadsheet: the same results" equal "$(bodies)" "$(cat as_given)"
+check "a table of a spreadsheet: note in the head" contains out/people_typology.csv "# note: $note"
+run --check upper.nml
+check "a table of a spreadsheet: note on --check" equal "$(cat stderr)" "dondolo: note: $note"
+population >walls.csv
+rm upper.nml as_given out/people_*
 
 # refused WHAT PART ARGUMENTS...: exit code 2, one line with a part, no output, no file
 refused() {
@@ -500,6 +514,11 @@ s/name = 'wall, one'/name = 'wall, one/|bad.nml: line 9: the quote before 'wall,
 s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: paths and other texts must stand in quotes
 s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'records/none.csv': there is no file records/none.csv
 s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
+s/'records.records.csv'/'records\\records.csv'/|bad.nml: &records: catalogue = 'records\records.csv': there is no file records\records.csv (paths are relative to the case); folders must be separated by /, not \
+s/output = .*/output = 'a\\b'/|bad.nml: &job: output = 'a\b': must have / between folders, not \
+s/'It''s a wall'/‘It is a wall’/|bad.nml: line 4: the quote ‘ of a word processor: must be a straight one, '
+s/'It''s a wall'/“It is a wall”/|bad.nml: line 4: the quote “ of a word processor: must be a straight one, '
+s/'It''s a wall'/«It is a wall»/|bad.nml: line 4: the quote « of a word processor: must be a straight one, '
 s/'records.records.csv'/''/|bad.nml: &records: catalogue = '': must name a CSV table
 s/^ *catalogue.*//|bad.nml: &records: catalogue: must be given
 s/'both'/'backwards'/|bad.nml: &records: polarity = 'backwards': must be one of 'as_recorded', 'reversed', 'both'
@@ -633,10 +652,15 @@ seconds=$SECONDS
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
 awk 'BEGIN { for (i = 1; i <= 100000; i++) printf "c%d,", i; print "name" }' >walls.csv
 refused "population: 100001 columns" "walls.csv: column 'c1': no such column" people.nml
-{ printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo; } >walls.csv
+{ printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo a; } >walls.csv
 refused "population: a line of 20 MB" 'walls.csv: line 2: 20000001 cells: must be 5' people.nml
 check "population: none of these takes long: $((SECONDS - seconds)) s" test $((SECONDS - seconds)) -lt 20
-people "semicolons" 'name;mechanism\na;one_sided\n' 'walls.csv: line 1'
+people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5;0.25\n' \
+   "walls.csv: line 2: thickness = '0.25': must be a number, with a decimal comma as elsewhere in the table and no point"
+people "decimal commas between commas" "${head}a,one_sided,3,5,0,25,1\n" \
+   'walls.csv: line 2: 7 cells: must be 5 as in the header (columns separated by commas need decimal points)'
+people "Windows-1252" "${head}a\0340,one_sided,3,0.25,1\nb\0340,one_sided,3,0.25,1\n" \
+   'walls.csv: line 2: is not UTF-8 (Windows-1252?): save it as UTF-8 (in Excel: CSV UTF-8)'
 people "an empty file" '' 'walls.csv: the file is empty'
 rm walls.csv
 refused "population: no file" "people.nml: &population: file = 'walls.csv': there is no file walls.csv" people.nml

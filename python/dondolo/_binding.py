@@ -351,6 +351,11 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
     return records
 
 
+def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:
+    """Line of a parcel after its records."""
+    return lines + count + 2 * int(parcel.integers[integers + count : integers + 2 * count].sum())
+
+
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
     """Several walls, one after the other."""
     return FlatWall(
@@ -376,12 +381,25 @@ def read_records(
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
     parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
-    return unpack_records(parcel, len(parcel.integers) // 2)
+    count = len(parcel.integers) // 2
+    warn(parcel.lines[records_end(parcel, count) :])
+    return unpack_records(parcel, count)
+
+
+def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
+    """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
+    parcel = receive(*_core.read_number_table(as_path(path)))
+    columns, rows = (int(count) for count in parcel.integers)
+    warn(parcel.lines[columns:])
+    return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
 
 
 def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
-    return receive(*_core.catalogue_table(as_path(path), constants().gravity)).lines
+    parcel = receive(*_core.catalogue_table(as_path(path), constants().gravity))
+    lines = int(parcel.integers[0])
+    warn(parcel.lines[lines:])
+    return parcel.lines[:lines]
 
 
 def read_walls(
@@ -390,9 +408,10 @@ def read_walls(
     """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.read_walls(as_path(path), pull))
-    count = len(parcel.lines) // 4
+    count = len(parcel.integers) // _WALL_INTEGERS
     weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
-    return unpack_walls(parcel, count), weights, parcel.lines[3 * count :], p_occ
+    warn(parcel.lines[4 * count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[3 * count : 4 * count], p_occ
 
 
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:

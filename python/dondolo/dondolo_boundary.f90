@@ -23,7 +23,7 @@ module dondolo_boundary
    public :: parcel_type, send, take
    public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum, check_room, &
       & check_parcel, check_trace, check_interrupt
-   public :: set_walls, set_records, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
+   public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
    integer, parameter, public :: wall_numbers = 8
@@ -162,6 +162,17 @@ contains
          at = at + length
       end do
    end function pack_lines
+
+   !> Append a note to the text of a parcel
+   subroutine pack_note(note, parcel)
+      !> The note; empty or not allocated: none
+      character(len=:), allocatable, intent(in) :: note
+      !> The parcel
+      type(parcel_type), intent(inout) :: parcel
+
+      if (.not. allocated(note)) return
+      if (len(note) > 0) parcel%text = parcel%text//note//new_line('a')
+   end subroutine pack_note
 
    !> Settings of the computation
    pure function as_solver(engine, settings) result(solver)

@@ -365,7 +365,7 @@ end subroutine significant_times
 ! where they are not given
 subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_parcel, pack_records, parcel_type, report, send
+   use dondolo_boundary, only : check_parcel, pack_note, pack_records, parcel_type, report, send
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
@@ -380,6 +380,7 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
    type(record_type), allocatable :: records(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   character(len=:), allocatable :: note
    real(c_double), allocatable :: step
 
    handle = 0
@@ -391,24 +392,66 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
       allocate (records(1))
       call read_record(path, records(1), error, step, units, channel, layout)
    case (1)
-      call read_catalogue(path, records, error)
+      call read_catalogue(path, records, error, note)
    case default
       call read_all(path, records, error, step, units, layout)
    end select
    if (.not. allocated(error)) call check_parcel(error, 0, records)
    if (.not. allocated(error)) then
       call pack_records(records, parcel)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
 end subroutine read_records
 
-! The table of the records of a catalogue: its lines
+! Read a table of numbers. Integers: columns, rows; reals: its numbers, row by row; text: names of the columns, and how it
+! was read, where there is something to say of it
+subroutine read_number_table(path, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, pack_note, parcel_type, report, send
+   use dondolo_csv_reader, only : cell_type
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_number_table, only : read_table => read_number_table
+   implicit none
+   character(len=*), intent(in) :: path
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(cell_type), allocatable :: columns(:)
+   type(lines_type) :: names
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   real(wp), allocatable :: values(:, :)
+   character(len=:), allocatable :: note
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   call read_table(path, columns, values, note, error)
+   if (.not. allocated(error)) then
+      do i = 1, size(columns)
+         call names%add(columns(i)%text)
+      end do
+      parcel%integers = shape(values)
+      parcel%reals = reshape(values, [size(values)])
+      parcel%text = pack_lines(names)
+      call pack_note(note, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_number_table
+
+! The table of the records of a catalogue. Integer: number of its lines; text: its lines, and how the catalogue was read,
+! where there is something to say of it
 subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : pack_lines, pack_note, parcel_type, report, send
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    implicit none
@@ -420,22 +463,27 @@ subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    type(record_type), allocatable :: records(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   type(lines_type) :: table
+   character(len=:), allocatable :: note
 
    handle = 0
    sizes = 0
-   call read_catalogue(path, records, error)
+   call read_catalogue(path, records, error, note)
    if (.not. allocated(error)) then
-      parcel%text = pack_lines(record_table(records, gravity))
+      table = record_table(records, gravity)
+      parcel%integers = [table%count]
+      parcel%text = pack_lines(table)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
 end subroutine catalogue_table
 
 ! Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
-! text: their groups
+! text: their groups, and how the table was read, where there is something to say of it
 subroutine read_walls(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_room, pack_members, parcel_type, report, send
+   use dondolo_boundary, only : check_room, pack_members, pack_note, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_population, only : member_type, read_population
    implicit none
@@ -447,13 +495,15 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    type(member_type), allocatable :: members(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   character(len=:), allocatable :: note
 
    handle = 0
    sizes = 0
-   call read_population(path, members, error, gravity)
+   call read_population(path, members, error, gravity, note)
    if (.not. allocated(error)) call check_room(error, walls=size(members))
    if (.not. allocated(error)) then
       call pack_members(members, parcel)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1012,7 +1062,8 @@ end subroutine probability
 ! Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
 ! 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
 ! the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
-! task, title, output, im, polarity, engine, then walls, their groups, and records
+! task, title, output, im, polarity, engine, then walls, their groups, and records, and how its tables were read, where
+! there is something to say of it
 subroutine read_case(path, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_parcel, pack_lines, pack_members, pack_records, parcel_type, report, send
@@ -1063,6 +1114,7 @@ subroutine read_case(path, handle, sizes, stat, message)
       parcel%text = pack_lines(lines)
       call pack_members(members, parcel)
       call pack_records(case%records, parcel)
+      parcel%text = parcel%text//pack_lines(case%notes)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)

@@ -129,7 +129,7 @@ contains
       self%at = 1
    end subroutine refill
 
-   !> Close the file; nothing happens if it is not open
+   !> Close the file: there are no more lines; nothing happens if it is not open
    subroutine close_reader(self)
       !> The reader
       class(line_reader_type), intent(inout) :: self
@@ -137,6 +137,8 @@ contains
       if (self%unit /= 0) close (self%unit)
       self%unit = 0
       self%left = 0
+      self%text = ''
+      self%at = 1
    end subroutine close_reader
 
 end module dondolo_line_reader

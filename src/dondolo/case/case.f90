@@ -66,6 +66,8 @@ module dondolo_case
       type(solver_input_type) :: solver
       !> Which time history
       type(history_input_type) :: history
+      !> How its tables were read, where there is something to say of it
+      type(lines_type) :: notes
    contains
       !> Factor that scales a record to a level
       procedure :: scale_to
@@ -142,6 +144,7 @@ contains
       call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
          & case%peaks, case%stripes, case%solver, range, error)
       if (allocated(error)) return
+      if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       case%survey%is_part = present(rows)
       if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
          & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
@@ -247,13 +250,17 @@ contains
       !> What is wrong with them
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: note
+
       call check_file(group, 'catalogue', case%records_input%catalogue, error)
       if (allocated(error)) return
       if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error)
+      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error, note)
+      if (allocated(error)) return
+      if (len(note) > 0) call case%notes%add(note)
    end subroutine read_records
 
    !> Check that a variable names a file that exists
@@ -267,7 +274,7 @@ contains
       !> There is no such file
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: file
+      character(len=:), allocatable :: file, hint
       logical :: exists
 
       file = beside(path, group%file)
@@ -275,7 +282,9 @@ contains
       if (is_folder(file)) then
          call group%refuse(name, file//' is a folder, must be a file', error)
       else if (.not. exists) then
-         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)', error)
+         hint = ''
+         if (index(path, '\') > 0) hint = '; folders must be separated by /, not \'
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, error)
          error%stat = status_missing
       end if
    end subroutine check_file

@@ -18,6 +18,12 @@ module dondolo_namelist_tokens
    !> What ends a word
    character(len=*), parameter :: word_ends = blanks//',=!/&''"'
 
+   !> Quotes that word processors put for straight ones, in UTF-8: single and double ones up, down, and in angles
+   character(len=*), parameter :: print_quotes(8) = [character(len=3) :: &
+      & achar(226)//achar(128)//achar(152), achar(226)//achar(128)//achar(153), achar(226)//achar(128)//achar(154), &
+      & achar(226)//achar(128)//achar(156), achar(226)//achar(128)//achar(157), achar(226)//achar(128)//achar(158), &
+      & achar(194)//achar(171), achar(194)//achar(187)]
+
    !> One token
    type :: token_type
       !> Its kind
@@ -93,8 +99,13 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: first
+      integer :: first, i
 
+      do i = 1, size(print_quotes)
+         if (line(at:min(at + len_trim(print_quotes(i)) - 1, len(line))) /= print_quotes(i)) cycle
+         call raise_input(error, 'the quote '//trim(print_quotes(i))//' of a word processor: must be a straight one, ''')
+         return
+      end do
       first = at
       select case (line(at:at))
       case ('''', '"')

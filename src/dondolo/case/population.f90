@@ -73,7 +73,7 @@ module dondolo_population
 contains
 
    !> Read all of a population
-   subroutine read_population(file, members, error, gravity)
+   subroutine read_population(file, members, error, gravity, note)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
@@ -82,6 +82,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
+      !> How the table was read, where there is something to say of it, else empty
+      character(len=:), allocatable, intent(out), optional :: note
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
@@ -110,6 +112,7 @@ contains
          if (.not. found) exit
       end do
       members = members(:rows)
+      if (present(note)) note = reader%table%note()
       call problems%raise(error)
    end subroutine read_population
 
@@ -143,6 +146,8 @@ contains
          call self%close()
          return
       end do
+      call self%table%find_decimal_mark([(self%table%column(trim(wall_numbers(i))), i=1, size(wall_numbers)), &
+         & self%table%column('weight'), self%table%column('p_occ')], error)
    end subroutine open_population
 
    !> Read the next row; after an error the rows behind it can be read

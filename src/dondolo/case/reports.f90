@@ -146,6 +146,9 @@ contains
          call files%line('# unit of im_level and theta: '//unit_of_levels(case))
          call files%line('# work: '//counts_of(results%work))
       end if
+      do i = 1, case%notes%count
+         call files%line('# note: '//case%notes%line(i)%text)
+      end do
       do i = 1, results%warnings%count
          call files%line('# warning: '//results%warnings%line(i)%text)
       end do

@@ -43,6 +43,8 @@ module dondolo_survey
       type(size_warning_type) :: sizes
       !> Fingerprint of the table
       type(fingerprint_type) :: fingerprint
+      !> How the table was read, where there is something to say of it, else empty
+      character(len=:), allocatable :: note
    end type survey_type
 
 contains
@@ -80,6 +82,7 @@ contains
       call reader%open(file, error, solver_input%gravity)
       if (allocated(error)) return
       survey%first = rows(1)
+      survey%note = reader%table%note()
       do
          call reader%next(member, found, error)
          if (.not. found) exit

@@ -7,6 +7,7 @@ module dondolo_wall_group
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_text, only : lower
    use dondolo_wall, only : wall_input_type
    implicit none
    private
@@ -71,9 +72,9 @@ contains
       case ('name')
          input%name = trim(value)
       case ('mechanism')
-         input%mechanism = trim(value)
+         input%mechanism = lower(trim(value))
       case ('restitution')
-         input%restitution = trim(value)
+         input%restitution = lower(trim(value))
       end select
    end subroutine set_wall_text
 

@@ -24,13 +24,15 @@ module dondolo_catalogue
 contains
 
    !> Read all records of a catalogue
-   subroutine read_catalogue(file, records, error)
+   subroutine read_catalogue(file, records, error, note)
       !> Path of the catalogue; files in it are relative to its folder
       character(len=*), intent(in) :: file
       !> The records
       type(record_type), allocatable, intent(out) :: records(:)
       !> The catalogue or one of its records is wrong
       type(error_type), allocatable, intent(out) :: error
+      !> How the catalogue was read, where there is something to say of it, else empty
+      character(len=:), allocatable, intent(out), optional :: note
 
       type(csv_reader_type) :: table
       type(lines_type) :: paths, places, names
@@ -40,7 +42,9 @@ contains
       call count_rows(file, rows, error)
       if (.not. allocated(error)) call check_room(bytes_of_row*real(rows, wp), error)
       if (.not. allocated(error)) call table%open(file, error)
+      if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s')], error)
       if (allocated(error)) return
+      if (present(note)) note = table%note()
       allocate (records(rows))
       do row = 1, rows
          call table%next(found, error)
@@ -164,6 +168,7 @@ contains
 
       character(len=:), allocatable :: path, units
       real(wp), allocatable :: dt
+      logical :: exists
 
       path = table%get_text(table%column('file'))
       if (len_trim(path) == 0) then
@@ -173,6 +178,11 @@ contains
       associate (file => table%lines%file)
          if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
       end associate
+      inquire (file=path, exist=exists)
+      if (index(path, '\') > 0 .and. .not. exists) then
+         call raise_input(error, table%place()//': '//path//': no such file: folders must be separated by /, not \')
+         return
+      end if
       units = table%get_text(table%column('units'))
       if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
          allocate (dt)
