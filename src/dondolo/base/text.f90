@@ -8,7 +8,7 @@ module dondolo_text
    implicit none
    private
 
-   public :: to_text, to_table, lower, join, first_word
+   public :: to_text, to_table, rounded, lower, join, first_word
 
    !> Shortest readable text of a number, for messages
    interface to_text
@@ -25,6 +25,31 @@ contains
       real(wp), intent(in) :: value
       !> Its text
       character(len=:), allocatable :: text
+
+      call write_shortest(value, text)
+   end function real_to_text
+
+   !> A number with four significant digits, for people
+   pure function rounded(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable :: text
+
+      character(len=24) :: buffer
+      real(wp) :: short
+
+      write (buffer, '(es24.3e4)') value
+      read (buffer, *) short
+      call write_shortest(short, text)
+   end function rounded
+
+   !> Write the shortest decimal that reads back as the same number
+   pure subroutine write_shortest(value, text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=48) :: buffer
       character(len=16) :: format
@@ -44,7 +69,7 @@ contains
          if (stat == 0 .and. again == value) exit
       end do
       call make_plain(trim(adjustl(buffer)), text)
-   end function real_to_text
+   end subroutine write_shortest
 
    !> Rewrite d.dddE+0xx as a plain decimal where that is short
    pure subroutine make_plain(scientific, text)
