@@ -137,6 +137,13 @@ check "stripes: some history collapses, some survives" test \
 check "stripes: both polarities" equal "$(grep -c ',reversed,' out/deep/wall_histories.csv)" 20
 check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
 check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
+check "stripes: summary has the median between the levels at 16 and 84 %" equal \
+   "$(sed -n 's/^pga at a probability of 16, 50, 84 %: [0-9.]*, \(.*\), [0-9.]* g$/\1/p' stdout)" \
+   "$(sed -n 's/^theta = \([0-9.]*\) g .*/\1/p' stdout)"
+check "stripes: summary says what the standard errors take for independent" grep -q \
+   '^the standard errors take the records for independent between stripes' stdout
+check "stripes: summary says what the records move" grep -q \
+   '^the records move the base of the wall: ground records underestimate the demand on parapets, gables' stdout
 check "stripes: summary names the engine" grep -qE ' threads, engine lanes \([a-z0-9]+\)$' stdout
 check "stripes: no escape sequence where there is no terminal" lacks stderr $'\033'
 run --quiet good.nml
@@ -161,7 +168,7 @@ rm -rf one two out
 sed 's/levels = 0.1, 0.2, 0.4/levels = 0.08, 0.085, 0.4/' good.nml >calm.nml
 run calm.nml
 check "work: summary of still ones" grep -qE '^never moved: [0-9.]+ %, [0-9]+ of 40 histories; rocking: ' stdout
-check "work: summary of steps" grep -qE '^for each history that moved: [0-9.]+ steps, ' stdout
+check "work: steps are in the files only" lacks stdout ' steps, '
 check "work: in the head of every file" equal "$(grep -lE '^# work: histories = 40, still = [0-9]+, intervals = 15960, ' out/deep/*.csv | wc -l)" 4
 still=$(sed -n 's/^# work: .*still = \([0-9]*\),.*/\1/p' out/deep/wall_walls.csv)
 check "work: still ones are those without an EDP" equal "$still" \
@@ -221,6 +228,10 @@ check "typology: header" equal "$(header out/people_typology.csv)" \
    "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
+check "typology: levels at 16, 50, 84 % of each curve" equal \
+   "$(grep -cE '^population, .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, [0-9.]+, [0-9.]+ g$' stdout)" \
+   "$(grep -c '^population, .*: theta = ' stdout)"
+check "typology: summary says what the records move" contains stdout 'the records move the base of the wall: '
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
 check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $4 + 0 }' | tr '\n' ' ')" "2 1 3 "
 check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $1 }' | tr '\n' ' ')" \
@@ -230,6 +241,18 @@ check "typology: mean fraction" equal \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $(NF - 1) / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out
+population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
+run people.nml
+check "typology: no level where so many cannot collapse" grep -qE \
+   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g$' stdout
+printf 'mechanism,height,thickness,overburden,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
+   'two_block,3,0.25,8000,inner,0.06,' 'two_block,3,0.25,8000,,,-0.065' >walls.csv
+run people.nml
+check "typology: a bearing is an eccentricity" equal \
+   "$(grep '^wall 1,' out/people_stripes.csv | cut -d, -f 2-)" "$(grep '^wall 2,' out/people_stripes.csv | cut -d, -f 2-)"
+check "typology: a bearing is an eccentricity: there are rows" equal "$(grep -c '^wall 1,' out/people_stripes.csv)" 4
+rm -rf out
+population >walls.csv
 for threads in 1 2 3; do
    run --quiet --threads $threads people.nml
    mv out people$threads
@@ -318,7 +341,7 @@ run --template
 check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
-   restitution_value restitution_factor overburden eccentricity file catalogue polarity im levels first last count \
+   restitution_value restitution_factor overburden bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
    engine rtol atol edp_limit estimate_error gravity record scale im_level; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
@@ -491,6 +514,8 @@ s/thickness = 0.25/thickness = 0.25 eccentricity = 0.1/|bad.nml: &wall: eccentri
 s/one_sided'/two_block' hinge = 1/|bad.nml: &wall: hinge = 1: must lie between 0.01 and 0.99
 s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9
 s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
+s/one_sided'/two_block' bearing = 'inner'/|bad.nml: &wall: bearing_distance: must be given with bearing = 'inner'
+s/one_sided'/two_block' bearing = 'centre' eccentricity = 0/|bad.nml: &wall: eccentricity = 0: give either eccentricity or bearing
 s/one_sided'/one_sided' restitution = 'impulse'/|bad.nml: &wall: restitution = 'impulse': must be one of
 s/one_sided'/one_sided' restitution = 'constant'/|bad.nml: &wall: restitution_value: must be given with
 s/one_sided'/one_sided' restitution_value = 0.5/|bad.nml: &wall: restitution_value = 0.5: only with restitution
@@ -735,11 +760,29 @@ warned 's/0.6, 1.0/0.6, 5.0/' 'scale factors above 10 in 6 of 40 histories, the 
 warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at 0.08333 g'
 warned 's/levels.*/levels = 0.09, 0.1/;/0.6, 1.0/d' 'no collapse at levels 0.09 to 0.1'
 warned 's/levels.*/levels = 2, 3/;/0.6, 1.0/d;s/height = 3.0/height = 1.0/;s/0.25/0.05/' 'every history collapses at levels 2 to 3'
-warned 's/height = 3.0/height = 300/' "wall '.*' is thicker than 3 m or higher than 60 m: is it in metres?"
+warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60 m: is it in centimetres?"
+warned 's/thickness = 0.25/thickness = 25/' "wall '.*': thickness = 25 m is more than 3 m: is it in centimetres?"
+warned 's/thickness/density = 18 thickness/' "density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
+warned 's/thickness/density = 1.800 thickness/' "density = 1.8 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
+warned "s/one_sided'/two_block' overburden = 15/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv
 warned 's/records.csv/bad.csv/' "record 'still' has a PGA of 0"
+awk 'BEGIN { for (k = 0; k < 10; k++) print 100 * k }' >records/strong.txt
+echo 'strong.txt,0.01,g,here' >>records/bad.csv
+warned 's/records.csv/bad.csv/' "record 'strong': a PGA of 899.7 g, more than 3 g: wrong units? (1 of 6 records)"
+good_case | sed 's/records.csv/bad.csv/; s/thickness/density = 18 thickness/; s/0.6, 1.0/0.6, 5.0/' >warn.nml
+run --check warn.nml
+check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more than 3 g: wrong units\?; ' stdout
+check "check: warnings last" equal "$(tail -n 5 stdout | cut -c 1-24 | tr '\n' ';')" \
+   ";warning: wall 'wall, one;warning: record 'still' ;warning: record 'strong';warning: scale factors a;"
+good_case | sed "s/one_sided'/two_block' overburden = 8000 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
+run --check good2.nml
+check "check: where the load bears" contains stdout '  load 8000 N/m, 0.06 m from the inner face, folding outwards'
+run good2.nml
+check "a bearing is an eccentricity in the results" contains out/deep/wall_fragility.csv ' eccentricity = -0.065'
+rm -rf out
 good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/; s/records.csv/bad.csv/; \$s/\$/\n\&history record = 5, im_level = 1 \//" >bad.nml
 refused "a record without motion to a level" "bad.nml: &history: im_level = 1: record 'still' has a pga of 0" bad.nml
 

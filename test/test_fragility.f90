@@ -42,6 +42,10 @@ contains
       call check_close(curve%beta, 0.513830774_wp, 1.0e-9_wp, 'beta')
       call check_close(curve%probability(0.2_wp), 0.25_wp, 1.0e-12_wp, 'P(0.2)')
       call check_close(curve%probability(0.4_wp), 0.75_wp, 1.0e-12_wp, 'P(0.4)')
+      call check_close(curve%level(0.25_wp), 0.2_wp, 1.0e-12_wp, 'level of 25 %')
+      call check_close(curve%level(0.5_wp), curve%theta, 1.0e-14_wp, 'level of 50 %')
+      call check_close(curve%level(0.84_wp), curve%theta*exp(0.994457883209753_wp*curve%beta), 1.0e-14_wp, &
+         & 'level of 84 %')
       call check_close(curve%bracket(1), 0.2_wp, 0.0_wp, 'bracket below')
       call check_close(curve%bracket(2), 0.4_wp, 0.0_wp, 'bracket above')
    end subroutine test_two_stripes

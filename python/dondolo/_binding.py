@@ -264,14 +264,17 @@ def flat_wall(name: str, mechanism: str, restitution: str, numbers: Sequence[flo
 
 
 def describe_wall(
-    name: str | None, mechanism: str, restitution: str | None, numbers: Sequence[Any], gravity: Any
+    name: str | None,
+    mechanism: str,
+    restitution: str | None,
+    numbers: Mapping[str, Any],
+    gravity: Any,
+    bearing: str | None = None,
 ) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
-    values = {
-        what: [as_number(what, value)] for what, value in zip(WALL_NUMBERS, numbers, strict=True) if value is not None
-    }
+    values = {what: [as_number(what, value)] for what, value in numbers.items() if value is not None}
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    return describe_walls([name], [mechanism], [restitution], values, [pull])[0]
+    return describe_walls([name], [mechanism], [restitution], values, [pull], [bearing])[0]
 
 
 def describe_walls(
@@ -280,11 +283,19 @@ def describe_walls(
     restitutions: Sequence[str | None],
     numbers: Mapping[str, ArrayLike],
     gravity: ArrayLike,
+    bearings: Sequence[str | None],
 ) -> list[WallData]:
-    """The same for many walls; numbers that are not there get their defaults."""
+    """The same for many walls; numbers that are not there get their defaults.
+
+    A bearing and the number bearing_distance become the eccentricity.
+    """
     count = len(names)
+    distances, measured = np.zeros(count), np.zeros(count, dtype=np.int32)
     values, given = np.zeros((count, len(WALL_NUMBERS))), np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
     for what, column in numbers.items():
+        if what == "bearing_distance":
+            distances[:], measured[:] = column, 1
+            continue
         values[:, WALL_NUMBERS.index(what)] = column
         given[:, WALL_NUMBERS.index(what)] = 1
     texts = b"\n".join(
@@ -292,7 +303,9 @@ def describe_walls(
         for wall in zip(names, mechanisms, restitutions, strict=True)
         for what, text in zip(("name", "mechanism", "restitution"), wall, strict=True)
     )
-    return unpack_walls(receive(*_core.describe_walls(texts, values.T, given.T, gravity)), count)
+    places = b"\n".join(b"" if text is None else as_text("bearing", text) for text in bearings)
+    parcel = receive(*_core.describe_walls(texts, values.T, given.T, gravity, places, distances, measured))
+    return unpack_walls(parcel, count)
 
 
 def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
@@ -500,6 +513,12 @@ def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, cu
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
     return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+
+
+def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[str]:
+    """What the executable would warn of, of a wall and a record, before it runs one motion."""
+    handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
+    return receive(handle, *rest).lines if handle else []
 
 
 def warnings_of_errors(

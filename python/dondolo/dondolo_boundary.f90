@@ -311,7 +311,7 @@ contains
    end subroutine check_rotations
 
    !> Make walls
-   subroutine set_walls(walls, texts, numbers, given, gravity, error)
+   subroutine set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
       !> The walls
       type(wall_type), intent(out) :: walls(:)
       !> Three lines a wall: name, mechanism, restitution; empty: not given
@@ -324,11 +324,19 @@ contains
       real(c_double), intent(in) :: gravity(:)
       !> The first thing that is wrong
       type(error_type), allocatable, intent(out) :: error
+      !> A line a wall: where its load bears; empty: not given
+      character(len=*), intent(in), optional :: bearings
+      !> Distance of the load from its face [m]
+      real(c_double), intent(in), optional :: distances(:)
+      !> 1 where that distance was given
+      integer(c_int), intent(in), optional :: measured(:)
 
       type(wall_input_type) :: input
-      integer :: i, at
+      character(len=:), allocatable :: bearing
+      integer :: i, at, line
 
       at = 1
+      line = 1
       do i = 1, size(walls)
          input = wall_input_type()
          call set_text(input%name)
@@ -342,6 +350,11 @@ contains
          call set_number(input%restitution_factor, 6)
          call set_number(input%overburden, 7)
          call set_number(input%eccentricity, 8)
+         if (present(bearings)) then
+            call next_line(bearings, line, bearing)
+            if (len(bearing) > 0) input%bearing = bearing
+            if (measured(i) /= 0) input%bearing_distance = distances(i)
+         end if
          call new_wall(walls(i), input, error, gravity(i))
          if (.not. allocated(error)) cycle
          if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')

@@ -84,16 +84,17 @@ subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    call take(handle, integers, reals, characters)
 end subroutine take_parcel
 
-! Walls with their defaults filled in and their static quantities, as pack_walls has them
-subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat, message)
+! Walls with their defaults filled in and their static quantities, as pack_walls has them. Here alone a load can be given
+! by its bearing, a line a wall, and its distance, with a mask of those given: they become the eccentricity
+subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, measured, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_room, pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
-   character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: w, given(8, w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w)
+   character(len=*), intent(in) :: texts, bearings
+   integer(c_int), intent(in) :: w, given(8, w), measured(w)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), distances(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -106,7 +107,7 @@ subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat
    call check_room(error, walls=w)
    if (.not. allocated(error)) then
       allocate (walls(w))
-      call set_walls(walls, texts, numbers, given, gravity, error)
+      call set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
    end if
    if (.not. allocated(error)) then
       call pack_walls(walls, parcel)
@@ -509,6 +510,48 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    call report(error, stat, message)
 end subroutine read_walls
 
+! What the executable would warn of, of a wall and a record, before it runs one motion
+subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
+   use dondolo_record, only : record_type
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : warn_of_records
+   implicit none
+   character(len=*), intent(in) :: texts, record
+   integer(c_int), intent(in) :: given(8)
+   real(c_double), intent(in) :: numbers(8), gravity, pga
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(record_type) :: records(1)
+   type(wall_warning_type) :: oddities
+   type(lines_type) :: warnings
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) then
+      call oddities%look(walls(1))
+      call oddities%warn(warnings)
+      ! Of the samples the sentences need the largest only
+      records(1)%name = record
+      records(1)%acceleration = [pga]
+      call warn_of_records(records, gravity, warnings)
+      if (warnings%count > 0) then
+         parcel%text = pack_lines(warnings)
+         call send(parcel, handle, sizes)
+      end if
+   end if
+   call report(error, stat, message)
+end subroutine warn_of_motion
+
 ! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
 subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
@@ -580,12 +623,13 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
       & set_walls
    use dondolo_error, only : add_place, error_type
    use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, size_warning_type, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
@@ -599,7 +643,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
-   type(size_warning_type) :: dimensions
+   type(wall_warning_type) :: oddities
    type(lines_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
@@ -636,12 +680,12 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
          end if
          histories(i) = size(stripes%record)
          call scales%look(stripes, records)
-         call dimensions%look(walls(i))
+         call oddities%look(walls(i))
       end do
    end if
    if (.not. allocated(error)) then
-      call warn_of_records(records, warnings)
-      call dimensions%warn(warnings)
+      call oddities%warn(warnings)
+      call warn_of_records(records, gravity(1), warnings)
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from dataclasses import dataclass
 from typing import Any
@@ -147,7 +148,8 @@ def simulate(
     Warns
     -----
     DondoloWarning
-        With an estimated error: a history in doubt.
+        A wall or a PGA that looks as if it were given in another unit, a record without motion; with an estimated
+        error, a history in doubt.
 
     Notes
     -----
@@ -171,6 +173,8 @@ def simulate(
             int(history),
         )
     _binding.check(stat, message)
+    if sentences := _warnings(wall, record.name, record.pga):
+        _binding.warn(sentences)
     response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
     if estimate_error:
         object.__setattr__(response, "edp_error", edp_error)
@@ -184,6 +188,12 @@ def simulate(
         ):
             object.__setattr__(response, what, row)
     return response
+
+
+@functools.lru_cache
+def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
+    """What looks odd about a wall and a record; kept, since one motion takes little longer."""
+    return _binding.warnings_of_motion(wall._flat, record, pga)
 
 
 def sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:

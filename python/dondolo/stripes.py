@@ -252,7 +252,8 @@ def multiple_stripe(
     Warns
     -----
     DondoloWarning
-        Scale factors above 10, records without motion; with estimated errors, histories in doubt.
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion;
+        with estimated errors, histories in doubt.
 
     Notes
     -----

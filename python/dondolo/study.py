@@ -82,7 +82,8 @@ def typology(
     Warns
     -----
     DondoloWarning
-        Scale factors above 10, records without motion, walls without a fit, a fit that extrapolates.
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion,
+        walls without a fit, a fit that extrapolates.
     """
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
     if executor is not None and threads == 0:

@@ -8,7 +8,7 @@ module dondolo_text
    implicit none
    private
 
-   public :: to_text, to_table, lower, join, first_word, plain, must_be_plain
+   public :: to_text, to_table, rounded, lower, join, first_word, plain, must_be_plain
 
    !> What is said of a name that is not plain
    character(len=*), parameter :: must_be_plain = 'must stand on one line, without control characters'
@@ -29,24 +29,45 @@ contains
       !> Its text
       character(len=real_length(value)) :: text
 
-      character(len=:), allocatable :: plain
+      character(len=:), allocatable :: shortest
 
-      call make_real(value, plain)
-      text = plain
+      call make_real(value, shortest)
+      text = shortest
    end function real_to_text
+
+   !> A number with four significant digits, for people
+   pure function rounded(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=real_length(four_digits(value))) :: text
+
+      text = real_to_text(four_digits(value))
+   end function rounded
+
+   !> The nearest number of four significant digits
+   pure real(wp) function four_digits(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=24) :: buffer
+
+      write (buffer, '(es24.3e4)') value
+      read (buffer, *) four_digits
+   end function four_digits
 
    !> Length of the text of a number
    pure integer function real_length(value)
       !> Number
       real(wp), intent(in) :: value
 
-      character(len=:), allocatable :: plain
+      character(len=:), allocatable :: shortest
 
-      call make_real(value, plain)
-      real_length = len(plain)
+      call make_real(value, shortest)
+      real_length = len(shortest)
    end function real_length
 
-   !> Shortest decimal that reads back as the same number
+   !> Write the shortest decimal that reads back as the same number
    pure subroutine make_real(value, text)
       !> Number
       real(wp), intent(in) :: value

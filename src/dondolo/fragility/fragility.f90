@@ -43,6 +43,8 @@ module dondolo_fragility
       procedure :: se_beta
       !> Probability of collapse at a level
       procedure :: probability
+      !> Level at which collapse has a probability
+      procedure :: level
    end type fragility_type
 
    real(wp), parameter :: root_half = sqrt(0.5_wp), ln_2 = log(2.0_wp)
@@ -345,6 +347,32 @@ contains
 
       se = sqrt(self%covariance(2, 2))
    end function se_beta
+
+   !> Level at which collapse has a given probability, exact to rounding
+   pure function level(self, probability)
+      !> The curve; there must be a fit
+      class(fragility_type), intent(in) :: self
+      !> Probability between 0 and 1
+      real(wp), intent(in) :: probability
+      !> Level of intensity
+      real(wp) :: level
+
+      ! Phi is 0 and 1 to rounding at these
+      real(wp) :: below, above, middle
+
+      below = -40.0_wp
+      above = 40.0_wp
+      do
+         middle = 0.5_wp*(below + above)
+         if (middle <= below .or. middle >= above) exit
+         if (normal_cdf(middle) < probability) then
+            below = middle
+         else
+            above = middle
+         end if
+      end do
+      level = self%theta*exp(self%beta*middle)
+   end function level
 
    !> Probability of collapse at a level, equation (5) of Nale et al.
    elemental function probability(self, level) result(p)
