@@ -300,6 +300,12 @@ contains
       ! After the record the peak follows from the energy, and the rows from steps: see the balance of energy.
       rows = count(trace%time <= history%record%duration())
       call check(rows <= size(history%record%acceleration) + 2*response%impacts + 1, what//': number of rows')
+      call check(count(trace%after_impact(:rows)) == response%impacts, what//': marks of impacts')
+      call check(all(abs(trace%side) == 1.0_wp .and. trace%side*trace%rotation >= 0.0_wp), what//': sides')
+      ! A wall changes sides at an impact, or when it starts from rest.
+      call check(all(trace%after_impact(2:) .or. trace%side(2:) == trace%side(:trace%rows - 1) &
+         & .or. .not. (abs(trace%rotation(:trace%rows - 1)) > 0.0_wp .or. abs(trace%velocity(:trace%rows - 1)) > 0.0_wp)), &
+         & what//': sides change at impacts')
       highest = maxval(abs(trace%rotation(:rows)))/history%wall%mechanism%capacity
       call check(highest <= response%edp*(1.0_wp + 4.0_wp*epsilon(highest)), what//': a row beyond the peak')
    end subroutine check_trace

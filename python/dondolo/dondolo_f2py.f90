@@ -398,7 +398,8 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    call report(error, stat, message)
 end subroutine read_walls
 
-! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
+! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
+! side and whether it is just after an impact
 subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -444,6 +445,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
       if (history == 1) then
          call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response, trace)
          parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+         parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
          call send(parcel, handle, sizes)
       else
          call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response)

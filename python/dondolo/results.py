@@ -17,7 +17,7 @@ from dondolo._files import as_file
 from dondolo.combination import combine
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
-from dondolo.motion import Response, sides
+from dondolo.motion import Response
 from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes
@@ -194,7 +194,8 @@ def _response(path: str, wall: Wall, case: list[str]) -> Response:
         acceleration,
         rotation,
         velocity,
-        sides(np.asarray([time, acceleration, rotation, velocity]), wall.two_sided),
+        _numbers(rows, "side").astype(np.int8),
+        _numbers(rows, "after_impact") == 1.0,
         next((float(line.split()[1]) for line in comments if line.startswith("edp_error:")), None),
     )
 

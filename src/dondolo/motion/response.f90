@@ -46,6 +46,10 @@ module dondolo_response
       real(wp), allocatable :: rotation(:)
       !> Angular velocity, side * q' [rad/s]
       real(wp), allocatable :: velocity(:)
+      !> Side, +1 or -1; at rest that of the last motion
+      real(wp), allocatable :: side(:)
+      !> Whether the row is the one just after an impact; the row before it, of the same time, is just before it
+      logical, allocatable :: after_impact(:)
    contains
       !> Add a row
       procedure :: add
@@ -74,8 +78,8 @@ contains
          & (self%edp + safety*self%edp_error >= edp_limit .or. self%edp_error > saturated*edp_limit)
    end function is_unsure
 
-   !> Add a row
-   pure subroutine add(self, time, acceleration, rotation, velocity)
+   !> Add a row; that after an impact is marked by its caller
+   pure subroutine add(self, time, acceleration, rotation, velocity, side)
       !> The history
       class(trace_type), intent(inout) :: self
       !> Time [s]
@@ -86,6 +90,8 @@ contains
       real(wp), intent(in) :: rotation
       !> Signed angular velocity [rad/s]
       real(wp), intent(in) :: velocity
+      !> Side, +1 or -1
+      real(wp), intent(in) :: side
 
       if (.not. allocated(self%time)) call resize(self, 1024)
       if (self%rows == size(self%time)) call resize(self, 2*self%rows)
@@ -94,6 +100,8 @@ contains
       self%acceleration(self%rows) = acceleration
       self%rotation(self%rows) = rotation
       self%velocity(self%rows) = velocity
+      self%side(self%rows) = side
+      self%after_impact(self%rows) = .false.
    end subroutine add
 
    !> Give back the room that was not used
@@ -111,10 +119,16 @@ contains
       !> Rows there shall be room for
       integer, intent(in) :: room
 
+      logical, allocatable :: wider(:)
+
       call resize_column(self%time, self%rows, room)
       call resize_column(self%acceleration, self%rows, room)
       call resize_column(self%rotation, self%rows, room)
       call resize_column(self%velocity, self%rows, room)
+      call resize_column(self%side, self%rows, room)
+      allocate (wider(room), source=.false.)
+      if (allocated(self%after_impact)) wider(:min(self%rows, room)) = self%after_impact(:min(self%rows, room))
+      call move_alloc(wider, self%after_impact)
    end subroutine resize
 
    !> Room in one column
