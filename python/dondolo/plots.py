@@ -267,8 +267,7 @@ def plot_intensities(comparison: IntensityComparison, axes: Sequence[Axes] | Non
     import matplotlib.pyplot as plt
 
     if axes is None:
-        with plt.rc_context(style.RC):
-            _, axes = plt.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+        axes = style.new_axes(size=(9.0, 4.0), columns=2)
     left, right = axes
     order = np.argsort(comparison.ratio)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(order)))
