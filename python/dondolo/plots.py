@@ -95,7 +95,8 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
     )
     below.set_xlabel("time [s]")
     below.set_ylabel("rotation / capacity")
-    style.legend(below, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0, ncols=3)
+    # A collapse ends high at the right, a motion that survives fades out there.
+    style.legend(below, loc="upper left" if response.collapsed else "upper right")
     return np.asarray([above, below])
 
 
