@@ -1,7 +1,8 @@
 """In a notebook, run by a kernel of Jupyter: pictures and progress bars."""
 
-import nbclient
-import nbformat
+import pytest
+
+nbclient, nbformat, _ = (pytest.importorskip(name) for name in ("nbclient", "nbformat", "ipykernel"))
 
 SETUP = """
 import numpy as np
