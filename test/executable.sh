@@ -266,7 +266,10 @@ run history.nml
 check "history: exit code" equal "$rc" 0
 check "history: files" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
 check "history: header" equal "$(header out/deep/wall_history.csv)" \
-   "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp"
+   "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact"
+check "history: marks of impacts" equal \
+   "$(awk -F, '!/^#/ && $1 <= 3.9900001 { n += $7 } END { print n + 0 }' out/deep/wall_history.csv)" \
+   "$(sed -n 's/^# impacts: //p' out/deep/wall_history.csv)"
 check "history: rows" test "$(rows out/deep/wall_history.csv)" -gt 400
 check "history: scaled to the level" equal \
    "$(grep -v '^#' out/deep/wall_history.csv | awk -F, 'NR > 1 { a = $2 < 0 ? -$2 : $2; if (a > m) m = a } END { printf "%.6f", m }')" 1.471500

@@ -5,7 +5,10 @@ A block takes less than half a second, so that Ctrl-C is answered soon and what 
 
 from __future__ import annotations
 
+import builtins
+import functools
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -191,8 +194,26 @@ def check_threads(threads: int) -> int:
 
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
-    """A progress bar on stderr; silent where that is no terminal. `initial` are done already."""
-    from tqdm import tqdm
+    """A progress bar, hidden where stderr is neither a terminal nor a notebook's. `initial` are done already."""
+    # None: hidden unless stderr is a terminal. A notebook's is none, and shows the bar all the same.
+    hidden = False if hasattr(builtins, "get_ipython") else None
+    return _bar()(
+        total=total,
+        desc=label,
+        unit=f" {unit}",
+        unit_scale=True,
+        initial=initial,
+        disable=hidden if wanted else True,
+        leave=False,
+    )
 
-    hidden = None if wanted else True
-    return tqdm(total=total, desc=label, unit=f" {unit}", unit_scale=True, initial=initial, disable=hidden, leave=False)
+
+@functools.cache
+def _bar() -> Any:
+    """The kind of bar that fits: a widget in a notebook, plain text elsewhere and without ipywidgets."""
+    from tqdm import TqdmWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TqdmWarning)
+        from tqdm.auto import tqdm
+    return tqdm

@@ -67,7 +67,7 @@ class Case:
         Parameters
         ----------
         progress : bool
-            Show a progress bar where stderr is a terminal.
+            Show a progress bar in a terminal or notebook.
 
         Returns
         -------
@@ -166,7 +166,7 @@ def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
     path : path
         A namelist file; paths in it are relative to it.
     progress : bool
-        Show a progress bar where stderr is a terminal.
+        Show a progress bar in a terminal or notebook.
 
     Returns
     -------

@@ -234,8 +234,8 @@ contains
       !> There was not, or is not
       type(error_type), allocatable, intent(out) :: error
 
-      ! Four columns, twice
-      real(c_double), parameter :: bytes_of_row = 64.0_c_double
+      ! Six columns, twice
+      real(c_double), parameter :: bytes_of_row = 96.0_c_double
 
       if (trace%lacks_memory) then
          call raise_shortage(2.0_c_double*bytes_of_row*real(trace%rows, c_double), error)

@@ -552,7 +552,8 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
    call report(error, stat, message)
 end subroutine warn_of_motion
 
-! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
+! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
+! side and whether it is just after an impact
 subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -608,6 +609,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    end if
    if (.not. allocated(error) .and. history == 1) then
       parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+      parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
       call send(parcel, handle, sizes)
    end if
    call pack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)

@@ -229,7 +229,7 @@ def overturning_spectrum(
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
-        Show progress bars where stderr is a terminal.
+        Show progress bars in a terminal or notebook.
 
     Returns
     -------

@@ -72,6 +72,8 @@ def report(
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
+    # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
+    plt.draw_if_interactive()
     with plt.ioff(), silent():
         text = _text(run, hazard)
     tables.write_lines(path, [text.rstrip("\n")])

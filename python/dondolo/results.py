@@ -16,7 +16,7 @@ from dondolo._result_file import ResultFile
 from dondolo.combination import combine
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
-from dondolo.motion import Response, sides
+from dondolo.motion import Response
 from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes
@@ -171,7 +171,8 @@ def _response(table: ResultFile, wall: Wall, edp_limit: float) -> Response:
         acceleration,
         rotation,
         velocity,
-        sides(np.asarray([time, acceleration, rotation, velocity]), wall.two_sided),
+        table.numbers("side").astype(np.int8),
+        table.numbers("after_impact") == 1.0,
         table.setting("edp_error", 0.0) if any(line.startswith("edp_error:") for line in table.comments) else None,
     )
 

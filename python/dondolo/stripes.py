@@ -236,7 +236,7 @@ def multiple_stripe(
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
-        Show a progress bar where stderr is a terminal.
+        Show a progress bar in a terminal or notebook.
 
     Returns
     -------

@@ -48,11 +48,21 @@ def test_history_shows_the_motion(motion):
     above, below = dd.plot_history(motion)
     np.testing.assert_array_equal(above.get_lines()[0].get_ydata(), motion.ground_acceleration / 9.81)
     np.testing.assert_array_equal(line(below, "rotation").get_ydata(), motion.rotation / motion.wall.capacity_angle)
-    assert len(line(below, "impacts").get_xdata()) >= motion.impacts > 0
+    np.testing.assert_array_equal(line(below, "impacts").get_xdata(), motion.time[motion.after_impact])
+    assert 0 < motion.impacts == motion.after_impact.sum()
+    assert line(below, "impacts").get_label() == f"impacts ({motion.impacts})"
     assert line(below, "EDP").get_ydata()[0] == motion.edp
     assert line(below, "EDP").get_xdata()[0] == motion.time_of_peak
     assert below.get_xlabel() == "time [s]"
     assert "[g]" in above.get_ylabel()
+
+
+def test_history_counts_the_impacts_after_the_record_apart(sine):
+    motion = dd.simulate(dd.FreeStandingWall(height=6.0, thickness=0.9), sine, 2.0)
+    later = int((motion.after_impact & (motion.time > sine.duration)).sum())
+    drawn = line(dd.plot_history(motion)[1], "impacts")
+    assert later > 0
+    assert drawn.get_label() == f"impacts ({motion.impacts}, and {later} after the record)"
 
 
 def test_history_draws_into_given_axes(motion):
@@ -255,6 +265,8 @@ def test_results_do_not_believe_the_title(executable, root, tmp_path):
     stored, run = dd.read_results(tmp_path / "out/history").response, dd.run_case(tmp_path / "case.nml").response
     assert (stored.scale, stored.edp, stored.edp_limit) == (run.scale, run.edp, run.edp_limit)
     assert stored.wall == run.wall
+    for column in ("time", "side", "after_impact"):
+        assert np.array_equal(getattr(stored, column), getattr(run, column)), column
     # Files of another task with the same beginning are not mixed up.
     stripes = (root / "data/cases/parapet.nml").read_text().replace("../records", str(root / "data/records"))
     (tmp_path / "case.nml").write_text(stripes.replace("out/parapet", "out/history"))

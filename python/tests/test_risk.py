@@ -203,6 +203,7 @@ def test_a_step_is_the_hazard_itself(hazard):
     assert abs(risk.frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.frequency)
 
 
+@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
 def test_degenerate_curves(hazard):
     with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
         never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
@@ -242,6 +243,7 @@ def test_time(hazard, curve):
             risk.probability(wrong)
 
 
+@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
 def test_both_ends_are_told(curve):
     """A hazard curve that is too short: the lower end alone would look safer than it is."""
     with pytest.warns(dd.DondoloWarning, match="too short"):
@@ -261,7 +263,7 @@ def test_both_ends_are_told(curve):
     assert open_end.return_period_bounds == (0.0, pytest.approx(10.0))
     assert open_end.probability_bounds(1.0) == (pytest.approx(-np.expm1(-0.1)), 1.0)
     assert open_end.probability_bounds(0.0) == (0.0, 0.0)
-    assert "return period between 0 and 10 years" in repr(open_end)
+    assert "return period of one wall between 0 and 10 years" in repr(open_end)
 
 
 @pytest.fixture(scope="module")
@@ -344,8 +346,25 @@ def test_another_function_of_a_typology_is_taken_for_one_wall(people):
     direct = functools.partial(people.fractiles, q=0.84, group="high")
     risks = [dd.mean_annual_frequency(curve, hazard) for curve in (direct, fractile)]
     assert risks[0].bounds == risks[1].bounds
-    assert risks[0].probability(50.0) == risks[1].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
+    assert risks[0].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
+    with pytest.warns(dd.DondoloWarning, match="plain function"):
+        assert risks[1].probability(50.0) == risks[0].probability(50.0)
     assert "return period" in repr(risks[0])
+
+
+def test_a_function_around_a_mean_is_not_taken_in_silence(people):
+    """The mean itself knows its walls, a function around it does not."""
+    hazard = dd.HazardCurve.power_law(2e-3, 2.5)
+    mean, function = (dd.mean_annual_frequency(curve, hazard) for curve in (people.mean, lambda x: people.mean(x)))
+    assert mean.frequency == pytest.approx(function.frequency, rel=1e-9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        share = mean.probability(475.0)
+        assert f"probability in 50 years {mean.probability(50.0):.4g}" in repr(mean)
+        assert "probability in 50 years of one wall" in repr(function)
+        assert function.probability(0.0) == 0.0
+    with pytest.warns(dd.DondoloWarning, match="plain function, taken for that of one wall"):
+        assert function.probability(475.0) > 1.05 * share
 
 
 def test_shares_may_add_up_to_more_than_one_by_rounding():

@@ -224,12 +224,13 @@ contains
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
-         call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp')
+         call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact')
          capacity = case%wall%mechanism%capacity
          do i = 1, trace%rows
             call files%line(to_table(trace%time(i))//','//to_table(trace%acceleration(i))//','// &
                & to_table(trace%rotation(i))//','//to_table(trace%velocity(i))//','// &
-               & to_table(abs(trace%rotation(i))/capacity))
+               & to_table(abs(trace%rotation(i))/capacity)//','//to_text(nint(trace%side(i)))//','// &
+               & to_text(merge(1, 0, trace%after_impact(i))))
          end do
       end associate
    end subroutine write_history

@@ -23,7 +23,7 @@ module dondolo_run_case
    public :: run_case, plan_case
 
    !> Memory that a row of a time history takes while it grows [bytes]
-   real(wp), parameter :: bytes_of_row = 96.0_wp
+   real(wp), parameter :: bytes_of_row = 140.0_wp
 
 contains
 

@@ -48,6 +48,10 @@ module dondolo_response
       real(wp), allocatable :: rotation(:)
       !> Angular velocity, side * q' [rad/s]
       real(wp), allocatable :: velocity(:)
+      !> Side, +1 or -1; at rest that of the last motion
+      real(wp), allocatable :: side(:)
+      !> Whether the row is the one just after an impact; the row before it, of the same time, is just before it
+      logical, allocatable :: after_impact(:)
    contains
       !> Add a row
       procedure :: add
@@ -76,8 +80,8 @@ contains
          & (self%edp + safety*self%edp_error >= edp_limit .or. self%edp_error > saturated*edp_limit)
    end function is_unsure
 
-   !> Add a row
-   pure subroutine add(self, time, acceleration, rotation, velocity)
+   !> Add a row; that after an impact is marked by its caller
+   pure subroutine add(self, time, acceleration, rotation, velocity, side)
       !> The history
       class(trace_type), intent(inout) :: self
       !> Time [s]
@@ -88,6 +92,8 @@ contains
       real(wp), intent(in) :: rotation
       !> Signed angular velocity [rad/s]
       real(wp), intent(in) :: velocity
+      !> Side, +1 or -1
+      real(wp), intent(in) :: side
 
       if (.not. allocated(self%time)) then
          call resize(self, 1024)
@@ -100,6 +106,8 @@ contains
       self%acceleration(self%rows) = acceleration
       self%rotation(self%rows) = rotation
       self%velocity(self%rows) = velocity
+      self%side(self%rows) = side
+      self%after_impact(self%rows) = .false.
    end subroutine add
 
    !> Give back the room that was not used
@@ -117,12 +125,21 @@ contains
       !> Rows there shall be room for
       integer, intent(in) :: room
 
-      logical :: ok(4)
+      logical, allocatable :: wider(:)
+      logical :: ok(6)
+      integer :: stat
 
       call resize_column(self%time, self%rows, room, ok(1))
       call resize_column(self%acceleration, self%rows, room, ok(2))
       call resize_column(self%rotation, self%rows, room, ok(3))
       call resize_column(self%velocity, self%rows, room, ok(4))
+      call resize_column(self%side, self%rows, room, ok(5))
+      allocate (wider(room), source=.false., stat=stat)
+      ok(6) = stat == 0 .and. room >= self%rows
+      if (ok(6)) then
+         if (allocated(self%after_impact)) wider(:min(self%rows, room)) = self%after_impact(:min(self%rows, room))
+         call move_alloc(wider, self%after_impact)
+      end if
       self%lacks_memory = self%lacks_memory .or. .not. all(ok)
    end subroutine resize
 

@@ -127,6 +127,7 @@ contains
       !> Time history
       type(trace_type), intent(inout), optional :: trace
 
+      real(wp) :: side
       integer :: from, i
       logical :: found
 
@@ -136,12 +137,13 @@ contains
       ending = at_rest
       if (motion%interval > last) return
       from = motion%interval
+      side = motion%excitation%side
       call scene%rest%next_start(record, scene%scale, motion%interval, motion%time, motion%excitation%side, found)
       if (found) ending = 0
       if (.not. present(trace)) return
       i = merge(motion%interval, last + 1, found)
       do from = from + 1, i
-         call trace%add(real(from - 1, wp)*record%dt, scene%scale*record%acceleration(from), 0.0_wp, 0.0_wp)
+         call trace%add(real(from - 1, wp)*record%dt, scene%scale*record%acceleration(from), 0.0_wp, 0.0_wp, side)
       end do
    end subroutine wait
 
@@ -278,7 +280,10 @@ contains
       if (present(trace)) call add_row(motion, record, scene%scale, trace)
       motion%v = -mechanism%restitution*motion%v
       if (mechanism%two_sided) motion%excitation%side = -motion%excitation%side
-      if (present(trace)) call add_row(motion, record, scene%scale, trace)
+      if (present(trace)) then
+         call add_row(motion, record, scene%scale, trace)
+         if (.not. trace%lacks_memory) trace%after_impact(trace%rows) = .true.
+      end if
 
       associate (ground => motion%excitation)
          call scene%rest%settle(record, scene%scale, motion%interval, motion%time, &
@@ -319,7 +324,8 @@ contains
          if (i < size(a)) acceleration = scale*(a(i) + x*(a(i + 1) - a(i)))
          if (i == size(a) .and. x == 0.0_wp) acceleration = scale*a(i)
          ! Adding zero makes no row show a negative zero.
-         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q + 0.0_wp, s*motion%v + 0.0_wp)
+         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q + 0.0_wp, &
+            & s*motion%v + 0.0_wp, s)
       end associate
    end subroutine add_row
 
