@@ -66,7 +66,16 @@ network() {
 }
 
 root=$(mktemp -d "$base.run.XXXXXX")
-trap 'rm -rf --one-file-system "$root"' EXIT
+child=
+leave() {
+   if [ -n "$child" ]; then
+      kill "$child" 2>/dev/null && wait "$child" || true
+   fi
+   rm -rf --one-file-system "$root"
+}
+trap leave EXIT
+trap 'exit 130' INT
+trap 'exit 143' HUP TERM
 cp -a "$base/." "$root"
 network
 git clone --quiet . "$root/home/dondolo"
@@ -77,7 +86,7 @@ mapfile -t environment < <(env | grep -Ei '^((https?|no)_proxy|ssl_cert_file|req
 
 # Mounts and processes end with their namespaces, so that nothing of this machine is in the folder that is removed.
 inside() {
-   unshare --mount --pid --fork --kill-child bash -euc '
+   exec unshare --mount --pid --fork --kill-child bash -euc '
       root=$1 verb=$2
       shift 2
       mount -t proc proc "$root/proc"
@@ -89,7 +98,11 @@ inside() {
 
 for verb; do
    printf '== ./run %s in a fresh Debian 12\n' "$verb" >&2
-   inside "$verb"
+   # In the background, so that a signal is heard at once
+   inside "$verb" &
+   child=$!
+   wait "$child"
+   child=
    if [ "$verb" = demo ]; then
       figures=$(find "$root/home/dondolo/out" -name '*.png' | wc -l)
       printf '== %s figures\n' "$figures" >&2
