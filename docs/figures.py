@@ -14,11 +14,11 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from dondolo.drawing import shape
 from dondolo.processing import velocity
 
 import dondolo as dd
 from dondolo import style
-from dondolo.drawing import shape
 
 root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")

@@ -7,11 +7,11 @@ import pickle
 
 import numpy as np
 import pytest
+from dondolo.drawing import shape
 from hypothesis import given
 from hypothesis import strategies as st
 
 import dondolo as dd
-from dondolo.drawing import shape
 
 WALLS = [
     dd.OneSidedWall(height=3.0, thickness=0.25),

@@ -24,7 +24,7 @@ module dondolo_plausibility
    !> A bound that is never reached
    real(wp), parameter :: none = huge(1.0_wp)
 
-   !> The limits, in the order in which outside() looks at them
+   !> The limits, in the order in which look() fills in the values
    type(range_type), parameter :: ranges(6) = [ &
       & range_type('height', 'm', 0.0_wp, 60.0_wp, 'is it in centimetres?'), &
       & range_type('thickness', 'm', 0.0_wp, 3.0_wp, 'is it in centimetres?'), &
