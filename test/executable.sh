@@ -455,6 +455,9 @@ refused "a folder for a case" 'records: is a folder, must be a namelist file' re
 refused "empty file" 'empty.nml: the file is empty' empty.nml
 echo '! nothing' >comment.nml
 refused "only a comment" 'comment.nml: no group' comment.nml
+{ printf '&job '; head -c 1048576 /dev/zero | tr '\0' ','; echo /; } >long.nml
+refused "a case of 1 MB" 'long.nml: has 1048583 bytes: must be at most 1048576' long.nml
+rm long.nml
 head -c 3000 /dev/urandom >noise.nml
 check "noise: exit code" equal "$(run noise.nml; echo $rc)" 2
 refused "an accelerogram for a case" 'stands outside a group: must be &name ... /' records/r1.txt
@@ -679,9 +682,9 @@ awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3
 seconds=$SECONDS
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
 awk 'BEGIN { for (i = 1; i <= 100000; i++) printf "c%d,", i; print "name" }' >walls.csv
-refused "population: 100001 columns" "walls.csv: column 'c1': no such column" people.nml
-{ printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo a; } >walls.csv
-refused "population: a line of 20 MB" 'walls.csv: line 2: 20000001 cells: must be 5' people.nml
+refused "population: 100001 columns" 'walls.csv: line 1: more than 10000 cells' people.nml
+{ printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo; } >walls.csv
+refused "population: a line of 20 MB" 'walls.csv: line 2: longer than 1048576 bytes' people.nml
 check "population: none of these takes long: $((SECONDS - seconds)) s" test $((SECONDS - seconds)) -lt 20
 people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5;0.25\n' \
    "walls.csv: line 2: thickness = '0.25': must be a number, with a decimal comma as elsewhere in the table and no point"
@@ -725,6 +728,16 @@ check "file limit: exit code" equal "$(cat rc)" 1
 check "file limit: says so" contains stderr 'cannot be written whole: is the disk full?'
 check "file limit: no table left" equal "$(find . -name 'people_*')" ""
 rm -rf out walls.csv limit.nml
+
+# Too little memory: one line
+good_case | sed 's/levels = .*/first = 0.01, last = 1.0, count = 1000/; s/^ *0.6, 1.0$//' >memory.nml
+awk 'BEGIN { print "file,dt_s,units,name"; for (i = 1; i <= 2000; i++) print "r1.txt,0.01,m/s2,n" i }' >records/many.csv
+sed 's/records.csv/many.csv/' memory.nml >many.nml
+(ulimit -v 500000; timeout 60 "$exe" --threads 1 many.nml >/dev/null 2>"$work/stderr"; echo $? >"$work/rc")
+check "memory: exit code" equal "$(cat rc)" 1
+check "memory: one line, not: $(cat stderr)" equal "$(grep -c '^dondolo: .*not enough memory: needs [0-9]* MB$' stderr)/$(wc -l <stderr)" 1/1
+check "memory: no file" equal "$(find out -type f 2>/dev/null)" ""
+rm -rf out records/many.csv memory.nml many.nml
 
 # --- counts of parts -----------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 """Long work in blocks: many histories of one wall or of many, each block one call of Fortran.
 
-A block takes less than half a second, so that Ctrl-C is answered soon and what is finished is kept.
+A block takes less than half a second, so that little is lost when Ctrl-C breaks it off and what is finished is kept.
 """
 
 from __future__ import annotations
@@ -75,9 +75,9 @@ class Request:
     settings: FloatArray
     threads: int
 
-    def _arguments(self) -> tuple[Any, ...]:
+    def _arguments(self, levels: slice = slice(None)) -> tuple[Any, ...]:
         words = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        return (*self.records, self.values, self.levels, *words, self.settings, self.threads)
+        return (*self.records, self.values, self.levels[levels], *words, self.settings, self.threads)
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
@@ -101,16 +101,19 @@ class Request:
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
         flats = [wall._flat for wall in self.walls]
-        arguments = self._arguments()
         works: list[Work] = []
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
             one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
-            before = int(ends[one - 1]) if one else 0
-            walls = _binding.join_walls(flats[one : last + 1])
+            first = done - (int(ends[one - 1]) if one else 0)
+            # Of one wall only the levels that it touches: each block plans all that it is given.
+            low = first // int(histories[one]) if one == last else 0
+            high = (first + count - 1) // int(histories[one]) + 1 if one == last else None
+            first -= low * int(histories[one])
+            arguments = (*_binding.join_walls(flats[one : last + 1]), *self._arguments(slice(low, high)))
             with _binding.stoppable():
-                *rows, counts, stat, message = _core.run_block(*walls, *arguments, done - before + 1, count)
+                *rows, counts, stat, message = _core.run_block(*arguments, first + 1, count)
             _binding.check(stat, message)
             here = slice(done, done + count)
             edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows

@@ -900,7 +900,7 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
 
    curves = 0
    statuses = 0
-   call check_room(error, reals=100.0_c_double*m)
+   call check_room(error, reals=40.0_c_double*m)
    call report(error, stat, message)
    if (allocated(error)) return
    worst = k + 1

@@ -355,8 +355,8 @@ contains
          end if
          quotes = quotes + occurrences(more, '"')
          if (length + len(more) >= longest_line) then
-            call raise_input(error, self%place()//': a row of more than '//to_text(longest_line)// &
-               & ' bytes: is a double quote not closed?')
+            call raise_input(error, self%place()//': a double quote is not closed within '//to_text(longest_line)// &
+               & ' bytes')
             return
          end if
          call append(row, length, new_line('a')//more)
