@@ -154,7 +154,7 @@ contains
       call check_error(error, 'the file is empty', 'blanks')
       call read_text_file(scratch//'/none.txt', text, error)
       call check_error(error, scratch//'/none.txt: no such file', 'missing file')
-      call check(error%stat == 2, 'a missing file is wrong input')
+      call check(error%stat == status_missing, 'a missing file is wrong input')
       call read_text_file(scratch//'/folder', text, error)
       call check_error(error, scratch//'/folder: ', 'folder')
       call read_text_file('', text, error)
