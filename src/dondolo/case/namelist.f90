@@ -7,7 +7,7 @@
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
 module dondolo_namelist
-   use dondolo_encoding, only : encoding_problem
+   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_namelist_group, only : group_type, value_type, variable_type
    use dondolo_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
@@ -44,15 +44,13 @@ contains
 
       type(text_file_type) :: text
       type(token_type), allocatable :: tokens(:)
-      character(len=:), allocatable :: problem
       integer :: i
 
       call read_text_file(file, text, error)
       if (allocated(error)) return
       do i = 1, text%lines()
-         call encoding_problem(text%line(i), problem)
-         if (len(problem) == 0) cycle
-         call raise_input(error, text%place(i)//': '//problem)
+         if (is_utf8(text%line(i))) cycle
+         call raise_input(error, text%place(i)//': '//encoding_problem(text%line(i)))
          return
       end do
       call cut(text, tokens, error)
