@@ -96,7 +96,7 @@ def test_a_case_with_tables_of_spreadsheets(tmp_path):
     assert (case.task, case.polarity, case.engine, case.im) == ("typology", "both", "lanes", "sa(0.5)")
     assert case.population[0].thickness == 0.25
     assert case.records[0].acceleration[1] == 0.5 * 9.80665
-    assert case.records[0].processing == ("decimal commas read",)
+    assert case.records[0].metadata["processing"] == "decimal commas read"
 
 
 @pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])

@@ -469,7 +469,7 @@ def test_files(hazard, tmp_path):
         ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: 3 cells: must be 2"),
         ("pga,annual_frequency\n0,1,0,01\n", r"line 2: 4 cells: .*commas need decimal points"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: annual_frequency = '1_0e-4': must be a number"),
-        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", "line 7: annual_frequency = '?': must be"),
+        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", r"line 7: annual_frequency = '\?': must be"),
         ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
@@ -496,7 +496,7 @@ NTC = "TR [anni];ag [g];F0 [-];TC* [s]\n30;0,05;2,4;0,28\n475;0,2;2,5;0,33\n"
         (NTC, ("semicolons, decimal commas", "columns that are not used: F0 [-], TC* [s]")),
         ("\ufeffFerrara, 2024;;;\n" + NTC + ";;;\n", ("line 1 is a title", "not used")),
         # 1 - exp(-50/30), and of another time in each row
-        ("poe,investigation_time,pga\n0.8111243971624382,50,0.05\n0.1,50.04739,0.2\n", ()),
+        ("poe,investigation_time,pga\n0.8111243971624382,50,0.05\n0.1,50.04624493746748,0.2\n", ()),
     ],
 )
 def test_published_hazard(content, warned, tmp_path):
