@@ -481,13 +481,14 @@ def test_files(hazard, tmp_path):
     own = dd.HazardCurve.from_csv(tmp_path / "own.csv")
     assert (own.im, own(0.3)) == ("sa(0.5)", pytest.approx(0.001))
     for text, sentence in (
-        ("", "the first line must be"),
-        ("0.1,0.01\n", "the first line must be"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: must be two numbers"),
-        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", "line 7: must be two numbers"),
+        ("", "the file is empty"),
+        ("0.1,0.01\n", "column '0.1': must be an intensity measure"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: annual_frequency = 'x': must be a number"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: 1 cells: must be 2"),
+        ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: 3 cells: must be 2"),
+        ("pga,annual_frequency\n0,1,0,01\n", r"line 2: 4 cells: .*commas need decimal points"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: annual_frequency = '1_0e-4': must be a number"),
+        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", r"line 7: annual_frequency = '\?': must be"),
         ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
@@ -495,12 +496,86 @@ def test_files(hazard, tmp_path):
         with pytest.raises(dd.InputError, match=sentence):
             dd.HazardCurve.from_csv(tmp_path / "own.csv")
     (tmp_path / "long.csv").write_text("pga,annual_frequency\n0.1," + "1" * 200000 + "\n")
-    with pytest.raises(dd.InputError, match=r"long\.csv: line 2: field larger than field limit"):
+    with pytest.raises(dd.InputError, match=r"long\.csv: line 2: annual_frequency = "):
         dd.HazardCurve.from_csv(tmp_path / "long.csv")
-    with pytest.raises(dd.InputError, match="cannot be read"):
+    with pytest.raises(dd.MissingFileError, match="no such file"):
         dd.HazardCurve.from_csv(tmp_path / "none.csv")
     with pytest.raises(dd.InputError, match=r"path = 3\.5: must be the path of a file"):
         dd.HazardCurve.from_csv(3.5)
+
+
+NTC = "TR [anni];ag [g];F0 [-];TC* [s]\n30;0,05;2,4;0,28\n475;0,2;2,5;0,33\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "warned"),
+    [
+        ("pga,annual_frequency\n0.05,0.03333333333333333\n0.2,0.002105263157894737\n", ()),
+        ("return_period,pga\n30,0.05\n475,0.2\n", ()),
+        ("Return_Period (years),ag (g/10)\n30,0.5\n475,2\n", ()),
+        ("tr,ag (m/s²)\n30,0.4905\n475,1.962\n", ()),
+        ("PGA [cm/s^2],TR\n49.05,30\n196.2,475\n", ()),
+        (NTC, ("semicolons, decimal commas", "columns that are not used: F0 [-], TC* [s]")),
+        ("\ufeffFerrara, 2024;;;\n" + NTC + ";;;\n", ("line 1 is a title", "not used")),
+        # 1 - exp(-50/30), and of another time in each row
+        ("poe,investigation_time,pga\n0.8111243971624382,50,0.05\n0.1,50.04624493746748,0.2\n", ()),
+    ],
+)
+def test_published_hazard(content, warned, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text(content, encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        curve = dd.HazardCurve.from_csv(path)
+    assert curve.im == "pga"
+    np.testing.assert_allclose(curve.im_levels, [0.05, 0.2], rtol=1e-12)
+    np.testing.assert_allclose(curve.annual_frequency, [1 / 30, 1 / 475], rtol=1e-6)
+    assert len(caught) == len(warned)
+    for warning, words in zip(caught, warned, strict=True):
+        assert words in str(warning.message)
+        assert warning.filename == __file__
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("TR;ag\n30;0,05\n475;0,2\n", r"column 'ag': the unit must follow the name: 'ag \(g\)'"),
+        ("TR,ag (t)\n30,0.05\n475,0.2\n", r"column 'ag \(t\)': the unit must be one of 'g', 'g/10', 'm/s2'"),
+        ("TR (days),pga\n30,0.05\n", r"column 'TR \(days\)': return_period must be in years"),
+        ("TR,pga\n0,0.05\n475,0.2\n", "return_period = 0: must be positive, in years"),
+        ("poe,pga\n0.1,0.05\n", "poe and investigation_time .* belong together"),
+        ("TR,investigation_time,pga\n30,50,0.05\n", "poe and investigation_time .* belong together"),
+        ("poe,investigation_time,pga\n81,50,0.05\n10,50,0.2\n", "poe = 81: must lie between 0 and 1"),
+        ("poe (%),investigation_time,pga\n81,50,0.05\n", "poe must be a probability between 0 and 1"),
+        ("poe,investigation_time,pga\n0.8,0,0.05\n0.1,0,0.2\n", "investigation_time = 0: must be positive"),
+        ("poe,TR,pga\n0.1,475,0.05\n", "one column must be .* there is return_period, poe"),
+        ("TR,return_period,pga\n30,30,0.05\n", "return_period stands there twice"),
+        ("TR,pga,pgv\n30,0.05,0.05\n", "one column must be the levels of a measure, .* there is 'pga', 'pgv'"),
+        ("TR,F0\n30,2.4\n", "one column must be the levels of a measure, .* there is none"),
+        ("pga,remark\n0.1,2\n", "column 'remark': must be an intensity measure, ag, annual_frequency"),
+        ("pga;TR\n0.100;30\n1.200;475\n", None),
+        ("pga;TR\n1.100;30\n1.200;475\n", "line 2: pga = '1.100': may be thousands or decimals"),
+    ],
+)
+def test_published_hazard_that_is_wrong(content, sentence, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text(content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        if sentence is None:
+            assert dd.HazardCurve.from_csv(path).im_levels[1] == 1.2
+        else:
+            with pytest.raises(dd.InputError, match=sentence) as caught:
+                dd.HazardCurve.from_csv(path)
+            assert str(caught.value).startswith(f"{path}: ")
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+def test_hazard_that_is_no_utf8(encoding, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text("# città\npga,annual_frequency\n0.1,0.01\n0.2,0.001\n", encoding=encoding)
+    with pytest.raises(dd.InputError, match=r"line 1: is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"):
+        dd.HazardCurve.from_csv(path)
 
 
 def test_shown(hazard, curve):

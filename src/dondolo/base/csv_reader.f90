@@ -8,7 +8,7 @@
 !> end. `note` says how such a table was read. What is not UTF-8 is refused.
 module dondolo_csv_reader
    use dondolo_decimal_mark, only : decimal_mark_type
-   use dondolo_encoding, only : encoding_problem
+   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type, longest_line
@@ -233,7 +233,7 @@ contains
 
       separator = separator_of(row)
       associate (first => verify(row, blanks//separator), last => verify(row, blanks//separator, back=.true.))
-         is_one_cell = scan(unquoted(row(first:last)), separator) == 0
+         is_one_cell = .not. has_outside_quotes(row(first:last), separator)
       end associate
    end function is_one_cell
 
@@ -245,32 +245,30 @@ contains
       !> or a tab, if there is one
       character(len=1) :: separator
 
-      character(len=:), allocatable :: bare
-
-      bare = unquoted(row)
       separator = ','
-      if (index(bare, tab) > 0) separator = tab
-      if (index(bare, ';') > 0) separator = ';'
-      if (index(bare, ',') > 0 .and. scan(bare(len(bare):), ';'//tab) == 0) separator = ','
+      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0) return
+      if (has_outside_quotes(row, tab)) separator = tab
+      if (has_outside_quotes(row, ';')) separator = ';'
    end function separator_of
 
-   !> A row without what is in double quotes
-   pure function unquoted(row) result(bare)
+   !> Is a character in a row, outside of double quotes?
+   pure logical function has_outside_quotes(row, character) result(has)
       !> Text of the row
       character(len=*), intent(in) :: row
-      !> The same with blanks for what is in quotes
-      character(len=len(row)) :: bare
+      !> Character
+      character(len=1), intent(in) :: character
 
       integer :: i
       logical :: is_quoted
 
-      bare = row
+      has = .false.
       is_quoted = .false.
       do i = 1, len(row)
          if (row(i:i) == '"') is_quoted = .not. is_quoted
-         if (is_quoted) bare(i:i) = ' '
+         has = row(i:i) == character .and. .not. is_quoted
+         if (has) return
       end do
-   end function unquoted
+   end function has_outside_quotes
 
    !> Take the row that was read as the names of the columns
    subroutine take_header(self, error)
@@ -311,7 +309,7 @@ contains
       !> A quote that is not closed, more bytes than a row of a table has, a text that is not UTF-8
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: more, problem
+      character(len=:), allocatable :: more
       integer :: length, quotes
       logical :: found
 
@@ -324,10 +322,9 @@ contains
       do
          call self%lines%next(row, found, error)
          if (allocated(error) .or. .not. found) return
-         call encoding_problem(row, problem)
-         if (len(problem) > 0) then
+         if (.not. is_utf8(row)) then
             self%line = self%lines%number
-            call raise_input(error, self%place()//': '//problem)
+            call raise_input(error, self%place()//': '//encoding_problem(row))
             ! One such line is as good as all
             call self%close()
             return
@@ -347,10 +344,12 @@ contains
       do while (modulo(quotes, 2) == 1)
          call self%lines%next(more, found, error)
          if (allocated(error)) return
-         problem = 'a double quote is not closed'
-         if (found) call encoding_problem(more, problem)
-         if (len(problem) > 0) then
-            call raise_input(error, self%place()//': '//problem)
+         if (.not. found) then
+            call raise_input(error, self%place()//': a double quote is not closed')
+            return
+         else if (.not. is_utf8(more)) then
+            call raise_input(error, self%lines%file//': line '//to_text(self%lines%number)//': '//encoding_problem(more))
+            call self%close()
             return
          end if
          quotes = quotes + occurrences(more, '"')
@@ -421,7 +420,7 @@ contains
       !> What is wrong, or empty
       character(len=:), allocatable, intent(out) :: problem
 
-      character(len=:), allocatable :: spaces
+      character(len=2) :: spaces
       integer :: first, mark, length
 
       problem = ''
@@ -562,11 +561,11 @@ contains
       !> The cell is not one finite decimal number, or may be one of two; the place is left to be added
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: problem
+      logical :: ok
 
       associate (cell => self%cells(column)%text)
-         call self%mark%parse(cell, value, problem)
-         if (len(problem) > 0) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//problem)
+         call self%mark%parse(cell, value, ok)
+         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//self%mark%problem(cell))
       end associate
    end subroutine get_real
 

@@ -22,6 +22,8 @@ module dondolo_decimal_mark
       procedure :: look
       !> Read a cell
       procedure :: parse
+      !> What to say of a cell that cannot be read
+      procedure :: problem
    end type decimal_mark_type
 
    !> Characters of numbers
@@ -49,36 +51,56 @@ contains
    end subroutine look
 
    !> Read a cell, after all cells of the table were looked at
-   pure subroutine parse(self, cell, value, problem)
+   pure subroutine parse(self, cell, value, ok)
       !> What is known
       class(decimal_mark_type), intent(in) :: self
       !> The cell
       character(len=*), intent(in) :: cell
-      !> Its number
+      !> Its number, 0 unless ok
       real(wp), intent(out) :: value
-      !> What is wrong with it, or empty
-      character(len=:), allocatable, intent(out) :: problem
+      !> It is one number, and not one of two
+      logical, intent(out) :: ok
 
       character(len=len(cell)) :: with_point
       integer :: comma
-      logical :: ok
 
-      problem = ''
-      with_point = cell
       if (self%has_comma) then
-         ok = index(cell, '.') == 0
+         with_point = cell
          comma = index(cell, ',')
          if (comma > 0) with_point(comma:comma) = '.'
-         if (ok) call parse_real(with_point, value, ok)
-         if (.not. ok) problem = 'must be a number, with a decimal comma as elsewhere in the table and no point'
-      else if (.not. self%has_point .and. (is_grouped(cell, '.') .or. is_grouped(cell, ','))) then
-         problem = 'may be thousands or decimals, and no other number of the table shows which: write it in another way'
+         call parse_real(with_point, value, ok)
+         ok = ok .and. index(cell, '.') == 0
       else
          call parse_real(cell, value, ok)
-         if (.not. ok) problem = 'must be a number, with a decimal point'
+         ok = ok .and. .not. is_ambiguous(self, cell)
       end if
-      if (len(problem) > 0) value = 0.0_wp
+      if (.not. ok) value = 0.0_wp
    end subroutine parse
+
+   !> What to say of a cell that is not one number
+   pure function problem(self, cell)
+      !> What is known
+      class(decimal_mark_type), intent(in) :: self
+      !> The cell
+      character(len=*), intent(in) :: cell
+      !> Half a sentence
+      character(len=:), allocatable :: problem
+
+      problem = 'must be a number, with a decimal point'
+      if (self%has_comma) problem = 'must be a number, with a decimal comma as elsewhere in the table and no point'
+      if (is_ambiguous(self, cell)) problem = 'may be thousands or decimals, and no other number of the table shows '// &
+         & 'which: write it in another way'
+   end function problem
+
+   !> Does nothing show what the mark in a number is?
+   pure logical function is_ambiguous(self, cell)
+      !> What is known
+      class(decimal_mark_type), intent(in) :: self
+      !> A cell
+      character(len=*), intent(in) :: cell
+
+      is_ambiguous = .not. (self%has_point .or. self%has_comma) .and. (is_grouped(cell, '.') .or. is_grouped(cell, ','))
+   end function is_ambiguous
 
    !> Can a mark in a number separate its thousands?
    pure logical function is_grouped(cell, mark)

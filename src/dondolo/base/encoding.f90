@@ -3,27 +3,26 @@ module dondolo_encoding
    implicit none
    private
 
-   public :: encoding_problem
+   public :: is_utf8, encoding_problem
 
 contains
 
-   !> What is wrong with the encoding of a text, for messages
-   pure subroutine encoding_problem(text, problem)
-      !> Bytes, such as a line or a whole file
+   !> What is wrong with a text that is not UTF-8, and what to do, for messages
+   pure function encoding_problem(text) result(problem)
+      !> Bytes, such as a line
       character(len=*), intent(in) :: text
-      !> What is wrong and what to do, empty if it is UTF-8
-      character(len=:), allocatable, intent(out) :: problem
+      !> Half a sentence
+      character(len=:), allocatable :: problem
 
       character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
       character(len=*), parameter :: little_endian = achar(255)//achar(254), big_endian = achar(254)//achar(255)
 
-      problem = ''
-      if (.not. is_utf8(text)) problem = 'is not UTF-8 (Windows-1252?)'//remedy
+      problem = 'is not UTF-8 (Windows-1252?)'//remedy
       if (index(text, little_endian) == 1 .or. index(text, big_endian) == 1 .or. index(text, achar(0)) > 0) &
          & problem = 'is UTF-16, or no text'//remedy
-   end subroutine encoding_problem
+   end function encoding_problem
 
-   !> Is a text UTF-8? (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF)
+   !> Is a text UTF-8, without NUL? (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF)
    pure logical function is_utf8(text)
       !> Bytes
       character(len=*), intent(in) :: text
@@ -35,7 +34,7 @@ contains
       do while (i < len(text))
          i = i + 1
          byte = iachar(text(i:i))
-         if (byte < 128) cycle
+         if (byte > 0 .and. byte < 128) cycle
          ! The range of the second byte depends on the first
          lowest = 128
          highest = 191

@@ -8,7 +8,7 @@
 !>            name = 'facade' /
 module dondolo_namelist
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_encoding, only : encoding_problem
+   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_name_index, only : name_index_type
    use dondolo_namelist_group, only : group_type, value_type, variable_type
@@ -49,15 +49,13 @@ contains
 
       type(text_file_type) :: text
       type(token_type), allocatable :: tokens(:)
-      character(len=:), allocatable :: problem
       integer :: i
 
       call read_text_file(file, text, error, longest_file)
       if (allocated(error)) return
       do i = 1, text%lines()
-         call encoding_problem(text%line(i), problem)
-         if (len(problem) == 0) cycle
-         call raise_input(error, text%place(i)//': '//problem)
+         if (is_utf8(text%line(i))) cycle
+         call raise_input(error, text%place(i)//': '//encoding_problem(text%line(i)))
          return
       end do
       call cut(text, tokens, error)
