@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -129,12 +130,30 @@ def test_documented():
 
 
 def test_examples_in_the_docstrings(tmp_path, monkeypatch):
-    """They run as they are copied: in an empty folder, with no names but those that they import."""
+    """Each runs as a reader copies it: in an empty folder, with only the names that it imports."""
     monkeypatch.chdir(tmp_path)
     modules = ["dondolo", *(module.name for module in pkgutil.walk_packages(dd.__path__, "dondolo."))]
     results = {name: doctest.testmod(importlib.import_module(name), globs={}) for name in modules}
     assert [name for name, result in results.items() if result.failed] == []
     assert sum(result.attempted for result in results.values()) > 30
+
+
+def test_mutations_match_the_package(root):
+    """Each edit of test/mutations.py applies to exactly one place, and its test exists."""
+    spec = importlib.util.spec_from_file_location("mutations", root / "test/mutations.py")
+    mutations = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(mutations)
+    assert mutations.stale(Path(dd.__file__).parent) == []
+
+
+def test_warning_filters_do_not_import_the_package(root, tmp_path):
+    """Coverage starts after pytest has read its filters, and misses what was imported before."""
+    (tmp_path / "early.py").write_text(
+        "import sys\n\n\ndef pytest_load_initial_conftests():\n    assert 'dondolo' not in sys.modules\n"
+    )
+    command = [sys.executable, "-m", "pytest", "-p", "early", "-c", root / "pyproject.toml", tmp_path]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == pytest.ExitCode.NO_TESTS_COLLECTED, done.stderr
 
 
 def test_defaults_are_those_of_fortran(wall, sine):
