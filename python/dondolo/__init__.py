@@ -1,10 +1,14 @@
 """dondolo: fragility of masonry walls that rock and overturn in earthquakes.
 
 >>> import dondolo as dd
->>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
->>> records = dd.read_catalogue("records.csv")                         # doctest: +SKIP
->>> stripes = dd.multiple_stripe(wall, records, levels=[0.1, 0.2, 0.3])  # doctest: +SKIP
->>> curve = stripes.fit()                                               # doctest: +SKIP
+>>> wall = dd.OneSidedWall(height=1.5, thickness=0.25)
+>>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+>>> stripes = dd.multiple_stripe(wall, records, levels=[0.6, 0.8, 1.0], progress=False)
+>>> curve = stripes.fit()
+>>> curve.status
+'ok'
+
+`dondolo.read_catalogue` reads recorded accelerograms.
 """
 
 from dondolo._binding import build_variant

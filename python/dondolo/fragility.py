@@ -293,7 +293,8 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
 
     Examples
     --------
-    >>> curve = fit_fragility([0.2, 0.4], [11, 33], 44)
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
     >>> round(curve.theta, 9), round(curve.beta, 9)
     (0.282842712, 0.513830774)
     """

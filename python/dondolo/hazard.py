@@ -54,7 +54,8 @@ class HazardCurve(Shown):
 
     Examples
     --------
-    >>> hazard = HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
+    >>> import dondolo as dd
+    >>> hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
     >>> round(hazard(0.2), 6)
     0.002
     """

@@ -60,7 +60,10 @@ def report(
 
     Examples
     --------
-    >>> dd.report(dd.read_results("out/historic_centre"), "report.html")  # doctest: +SKIP
+    >>> import dondolo as dd
+    >>> (record,) = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow")
+    >>> response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
+    >>> dd.report(response, "report.html", title="Parapet")
     """
     import matplotlib.pyplot as plt
 

@@ -314,9 +314,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
 
     Examples
     --------
-    >>> from dondolo import fit_fragility
-    >>> curve = fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
-    >>> risk = mean_annual_frequency(curve, HazardCurve.power_law(1e-4, 2.5))
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+    >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
     >>> round(risk.return_period, 3)
     186.44
     """

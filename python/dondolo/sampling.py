@@ -97,12 +97,13 @@ def sample_population(
 
     Examples
     --------
-    >>> facades = sample_population(
-    ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": Triangular(0.5, 0.6, 0.75)}},
+    >>> import dondolo as dd
+    >>> facades = dd.sample_population(
+    ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75)}},
     ...     n=100,
     ...     seed=1,
-    ...     height=Lognormal(3.2, 0.15, low=2.4, high=4.5),
-    ...     thickness=Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
+    ...     height=dd.Lognormal(3.2, 0.15, low=2.4, high=4.5),
+    ...     thickness=dd.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
     ...     correlation={("height", "thickness"): 0.5},
     ...     group="facades",
     ... )

@@ -151,7 +151,8 @@ class Wall:
 
         Examples
         --------
-        >>> wall = TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+        >>> import dondolo as dd
+        >>> wall = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
         >>> terms = wall.terms([0.0, 0.05])
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
@@ -238,7 +239,8 @@ class OneSidedWall(Wall):
 
     Examples
     --------
-    >>> wall = OneSidedWall(height=3.0, thickness=0.25)
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
     >>> round(wall.frequency_parameter, 6)
     2.210895
     """

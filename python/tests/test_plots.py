@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import matplotlib
 
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from dondolo.drawing import peak_rotation, shape
 from matplotlib.image import imread
+from scipy import stats
 
 import dondolo as dd
 
@@ -101,6 +103,22 @@ def test_fragility_shows_fractions_curve_and_band(stripes):
     band = ax.collections[0].get_paths()[0].vertices
     assert band[:, 1].max() <= 1.0
     assert band[:, 1].min() >= 0.0
+
+
+def test_bars_end_at_the_saturation():
+    """Exact binomial intervals of the walls that can collapse, times their share of the population."""
+    collapses, share = [0, 8, 20, 41, 44], 0.5
+    curve = replace(dd.fit_fragility(LEVELS, collapses, 44), saturation=share)
+    ax = dd.plot_fragility(curve, level=0.9)
+    container = ax.containers[0]
+    np.testing.assert_allclose(container.lines[0].get_ydata(), np.array(collapses) / 88, rtol=1e-12)
+    exact = [stats.binomtest(count, 44).proportion_ci(0.9, method="exact") for count in collapses]
+    segments = np.array(container.lines[2][0].get_segments())
+    np.testing.assert_allclose(segments[:, :, 1], share * np.array(exact), rtol=1e-9, atol=1e-15)
+    drawn = line(ax, "θ")
+    expected = stats.lognorm(curve.beta, scale=curve.theta).cdf(drawn.get_xdata())
+    np.testing.assert_allclose(drawn.get_ydata(), share * expected, rtol=1e-12)
+    assert ax.collections[0].get_paths()[0].vertices[:, 1].max() < share
 
 
 def test_fragility_without_a_fit_shows_the_bracket():

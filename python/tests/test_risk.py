@@ -1,6 +1,5 @@
 """Risk: hazard curves, the mean annual frequency of collapse, its bounds and its deaggregation."""
 
-import doctest
 import functools
 import itertools
 import warnings
@@ -18,8 +17,6 @@ from scipy import integrate, stats
 
 import dondolo as dd
 from dondolo import _risk_integrals as integrals_module
-from dondolo import hazard as hazard_module
-from dondolo import risk as risk_module
 
 LEVELS = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
 FREQUENCY = [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9]
@@ -194,6 +191,16 @@ def test_bounds_hold_the_truth(curve):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 100.0], 1e-4 * np.array([0.01, 100.0]) ** -2.5))
+
+
+def test_bounds_end_at_the_saturation(curve):
+    """All contributions are those of the walls that can collapse, those beyond the hazard curve too."""
+    hazard = dd.HazardCurve([0.3, 0.6], [4e-3, 1e-3])
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        some, every = (dd.mean_annual_frequency(replace(curve, saturation=share), hazard) for share in (0.7, 1.0))
+    for part in ("inside", "below", "above", "bounds"):
+        assert getattr(some, part) == pytest.approx(0.7 * np.array(getattr(every, part)), rel=1e-12), part
+    assert some.above[1] == pytest.approx(7e-4, rel=1e-12)
 
 
 def test_a_step_is_the_hazard_itself(hazard):
@@ -584,8 +591,6 @@ def test_shown(hazard, curve):
     assert "return period" in repr(dd.mean_annual_frequency(curve, hazard))
     assert "<table>" in dd.mean_annual_frequency(curve, hazard)._repr_html_()
     assert list(hazard.to_frame()["pga"]) == LEVELS
-    for module in (hazard_module, risk_module):
-        assert doctest.testmod(module).failed == 0
 
 
 @pytest.mark.parametrize("endless", [False, True])

@@ -163,7 +163,16 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     partial = caught.value.partial
     assert len(partial.walls) == sum(done) // (len(few) * len(LEVELS))
     assert 0 < len(partial.walls) < len(population)
-    assert partial.fit().has_fit or partial.fit().status
+    # The partial result is the typology of these walls alone.
+    monkeypatch.undo()
+    alone = dd.typology(population[: len(partial.walls)], few, LEVELS, progress=False)
+    np.testing.assert_array_equal(partial.collapses, alone.collapses)
+    assert alone.fit().has_fit
+    assert (partial.weight, partial.fit().theta, partial.fit().beta) == (
+        alone.weight,
+        alone.fit().theta,
+        alone.fit().beta,
+    )
 
 
 def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
