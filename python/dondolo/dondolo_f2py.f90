@@ -411,7 +411,7 @@ end subroutine read_records
 subroutine read_number_table(path, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
    use dondolo_boundary, only : pack_lines, pack_note, parcel_type, report, send
-   use dondolo_csv_reader, only : cell_type
+   use dondolo_csv_row, only : cell_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type

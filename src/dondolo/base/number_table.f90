@@ -1,6 +1,7 @@
 !> Tables of numbers alone, such as hazard curves.
 module dondolo_number_table
-   use dondolo_csv_reader, only : cell_type, csv_reader_type
+   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_row, only : cell_type
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    implicit none
