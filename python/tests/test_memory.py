@@ -1,5 +1,6 @@
 """Too little memory is a MemoryError, and never the end of the process."""
 
+import os
 import subprocess
 import sys
 
@@ -60,8 +61,9 @@ def folder(tmp_path_factory):
 def test_lack_of_memory(work, folder):
     program = HEAD.replace("WORK", WORKS[work]).replace("FOLDER", repr(str(folder)))
     extras = [1, 20, 50, 80, 110, 150, 1500]
+    environment = os.environ | {"OMP_NUM_THREADS": "2"}
     command = [sys.executable, "-W", "ignore", "-c", program, *map(str, extras)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=100, env={"OMP_NUM_THREADS": "2"})
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100, env=environment)
     assert done.returncode == 0, done.stderr
     words = done.stdout.split()
     assert len(words) == len(extras)

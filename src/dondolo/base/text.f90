@@ -22,6 +22,28 @@ module dondolo_text
 
 contains
 
+   !> Length of the text of a number
+   pure integer function real_length(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=:), allocatable :: plain
+
+      call make_real(value, plain)
+      real_length = len(plain)
+   end function real_length
+
+   !> Length of the text of a count
+   pure integer function count_length(value)
+      !> Count
+      integer(int64), intent(in) :: value
+
+      character(len=24) :: buffer
+
+      write (buffer, '(i0)') value
+      count_length = len_trim(buffer)
+   end function count_length
+
    !> Shortest decimal that reads back as the same number
    pure function real_to_text(value) result(text)
       !> Number
@@ -55,17 +77,6 @@ contains
       write (buffer, '(es24.3e4)') value
       read (buffer, *) four_digits
    end function four_digits
-
-   !> Length of the text of a number
-   pure integer function real_length(value)
-      !> Number
-      real(wp), intent(in) :: value
-
-      character(len=:), allocatable :: shortest
-
-      call make_real(value, shortest)
-      real_length = len(shortest)
-   end function real_length
 
    !> Write the shortest decimal that reads back as the same number
    pure subroutine make_real(value, text)
@@ -143,17 +154,6 @@ contains
 
       write (text, '(i0)') value
    end function count_to_text
-
-   !> Length of the text of a count
-   pure integer function count_length(value)
-      !> Count
-      integer(int64), intent(in) :: value
-
-      character(len=24) :: buffer
-
-      write (buffer, '(i0)') value
-      count_length = len_trim(buffer)
-   end function count_length
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
