@@ -4,7 +4,7 @@ program test_record
    use dondolo_catalogue, only : read_catalogue
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_encoding, only : is_utf8
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record, only : record_type
@@ -154,7 +154,7 @@ contains
       call check_error(error, 'the file is empty', 'blanks')
       call read_text_file(scratch//'/none.txt', text, error)
       call check_error(error, scratch//'/none.txt: no such file', 'missing file')
-      call check(error%stat == status_missing, 'a missing file is wrong input')
+      call check(error%stat == status_missing, 'a missing file is one')
       call read_text_file(scratch//'/folder', text, error)
       call check_error(error, scratch//'/folder: ', 'folder')
       call read_text_file('', text, error)

@@ -87,7 +87,7 @@ class Checkpoint:
             self._file.execute(f"PRAGMA busy_timeout = {_OPENING}")
             self._open(study)
             self._take()
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:
             self._file.close()
             raise self._failure(error) from error
         except BaseException:
@@ -142,14 +142,15 @@ class Checkpoint:
                 "SELECT first, rows, work, flags, checksum FROM block ORDER BY first"
             ):
                 # SQLite keeps a value of any type in any column.
-                typed = isinstance(rows, int) and isinstance(work, str) and isinstance(flags, bytes)
+                typed = all(map(isinstance, (first, rows, work, flags), (int, int, str, bytes)))
                 fits = typed and end <= first and 1 <= rows <= self._rows - first
                 if not fits or _checksum(first, rows, work, flags) != checksum:
-                    raise InputError(f"{self._name}: is damaged (the block of row {first + 1}): delete it")
+                    row = first + 1 if isinstance(first, int) else "?"
+                    raise InputError(f"{self._name}: is damaged (the block of row {row}): delete it")
                 end = first + rows
                 self._done += rows
                 yield Stored(first, rows, Work(*json.loads(work)), flags)
-        except sqlite3.Error as error:
+        except (sqlite3.Error, UnicodeDecodeError) as error:
             raise self._failure(error) from error
 
     def claim(self) -> None:
@@ -183,10 +184,10 @@ class Checkpoint:
     ) -> None:
         self._file.close()
 
-    def _failure(self, error: sqlite3.Error) -> DondoloError:
-        """What a failure of SQLite means to the user."""
-        code = getattr(error, "sqlite_errorcode", 0) & 0xFF
-        if code in (sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_FORMAT):
+    def _failure(self, error: sqlite3.Error | UnicodeDecodeError) -> DondoloError:
+        """What a failure of SQLite means to the user; what it cannot decode, or does not understand, is damaged."""
+        code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
+        if code in (sqlite3.SQLITE_ERROR, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_FORMAT):
             return InputError(f"{self._name}: is no checkpoint, or damaged ({error})")
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
             return DondoloError(f"{self._name}: is being written by another run")

@@ -101,7 +101,14 @@ class ResultFile:
 
     def numbers(self, name: str) -> FloatArray:
         """A column of finite numbers."""
-        values = np.asarray([self.number(name, i) for i in range(len(self))])
+        cells = self.texts(name)
+        try:
+            values = np.array([float(cell) for cell in cells])
+        except ValueError:
+            values = np.array([math.nan])
+        if not np.isfinite(values).all():
+            # Names the first that is no number
+            values = np.array([self.number(name, i) for i in range(len(self))])
         values.flags.writeable = False
         return values
 

@@ -212,6 +212,10 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
         with closing(sqlite3.connect(path)) as file, file:
             file.execute(f"UPDATE block SET {column} = ? WHERE first = 0", (value,))
         refused(r"is damaged \(the block of row 1\)")
+    # A schema that is not UTF-8, or has no such column
+    for name in (b"fl\xe0gs", b"flegs"):
+        path.write_bytes(content.replace(b"flags BLOB", name + b" BLOB"))
+        refused("is no checkpoint, or damaged")
     path.write_bytes(content)
     with closing(sqlite3.connect(path)) as file, file:
         file.execute("UPDATE study SET value = ? WHERE what = 'im'", (b"pga",))
