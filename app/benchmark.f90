@@ -11,10 +11,9 @@ module dondolo_benchmark
    use dondolo_population, only : member_type
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : rounded, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names
-   use dondolo_warnings, only : rounded
    use dondolo_work, only : work_type
    implicit none
    private

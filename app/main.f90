@@ -4,10 +4,10 @@ program dondolo_main
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type, read_case
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
    use dondolo_kinds, only : wp
-   use dondolo_lane_variants, only : build_variant
+   use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
@@ -17,7 +17,7 @@ program dondolo_main
    use dondolo_run_population, only : merge_population
    use dondolo_ensemble, only : available_threads
    use dondolo_summary, only : print_summary
-   use dondolo_system, only : outlive_file_limit, stderr_is_terminal
+   use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template
    use dondolo_version, only : dondolo_version_text
    implicit none
@@ -32,16 +32,24 @@ program dondolo_main
    case ('help')
       call print_help()
    case ('version')
+      call check_variant(error)
+      if (allocated(error)) call give_up(error)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//trim(build_variant())
    case ('template')
       call print_template(arguments%task)
    case ('benchmark')
+      call check_variant(error)
+      if (allocated(error)) call give_up(error)
       call run_benchmark(arguments%seconds, team(0), arguments%quiet, error)
       if (allocated(error)) call give_up(error)
    case default
       call serve(arguments, error)
       if (allocated(error)) call give_up(error)
    end select
+   if (.not. output_arrives()) then
+      call raise_failure(error, 'standard output: cannot be written whole: is the disk full?')
+      call give_up(error)
+   end if
 
 contains
 
@@ -64,6 +72,7 @@ contains
       end if
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
+      call print_lines('note', case%notes)
       if (arguments%action == 'check') then
          if (.not. arguments%quiet) call print_plan(case, error)
          return
@@ -111,7 +120,7 @@ contains
          ! The checkpoint of a whole population has served; parts are the user's
          if (case%job%task == 'typology' .and. arguments%action == 'run') call results%counts%remove()
       end if
-      call print_warnings(results%warnings)
+      call print_lines('warning', results%warnings)
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
    end subroutine finish_run
 
@@ -125,17 +134,19 @@ contains
       if (team == 0) team = available_threads()
    end function team
 
-   !> Print warnings
-   subroutine print_warnings(warnings)
-      !> Warnings
-      type(lines_type), intent(in) :: warnings
+   !> Print notes or warnings
+   subroutine print_lines(kind, lines)
+      !> What they are
+      character(len=*), intent(in) :: kind
+      !> The lines
+      type(lines_type), intent(in) :: lines
 
       integer :: i
 
-      do i = 1, warnings%count
-         write (error_unit, '(a)') 'dondolo: warning: '//warnings%line(i)%text
+      do i = 1, lines%count
+         write (error_unit, '(a)') 'dondolo: '//kind//': '//lines%line(i)%text
       end do
-   end subroutine print_warnings
+   end subroutine print_lines
 
    !> Print an error, one line for each thing that is wrong, and end with its exit code
    subroutine give_up(error)
@@ -150,7 +161,12 @@ contains
          write (error_unit, '(a)') 'dondolo: '//error%message(first:first + length - 1)
          first = first + length + 1
       end do
-      stop error%stat, quiet=.true.
+      select case (error%stat)
+      case (status_input, status_missing)
+         stop status_input, quiet=.true.
+      case default
+         stop status_failure, quiet=.true.
+      end select
    end subroutine give_up
 
 end program dondolo_main

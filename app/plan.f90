@@ -3,17 +3,19 @@ module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
    use dondolo_counts_file, only : counts_file_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
+   use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
    use dondolo_run_population, only : find_start
-   use dondolo_text, only : to_text
-   use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : rounded, scale_warning_type, size_warning_type
+   use dondolo_text, only : rounded, to_text
+   use dondolo_wall, only : wall_input_type, wall_type
+   use dondolo_warnings, only : scale_warning_type, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -33,8 +35,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(scale_warning_type) :: scales
-      type(size_warning_type) :: sizes
-      type(lines_type) :: warnings
+      type(wall_warning_type) :: oddities
       type(counts_file_type) :: file
       type(work_type) :: work
       logical :: has_begun
@@ -49,17 +50,16 @@ contains
          call find_start(case, file, has_begun, error)
          if (.not. allocated(error)) call print_population(case, error)
          if (allocated(error)) return
-         sizes = case%survey%sizes
+         oddities = case%survey%oddities
       else
          call print_wall(case%wall)
-         call sizes%look(case%wall)
+         call oddities%look(case%wall)
       end if
-      call sizes%warn(warnings)
-      if (warnings%count > 0) write (output_unit, '(a)') 'warning: '//warnings%line(1)%text, ''
       call print_records(case)
       if (case%job%task == 'history') then
          write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
+         call print_warnings(oddities, case%records(case%history%record:case%history%record), case, scales)
          return
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
@@ -74,7 +74,31 @@ contains
          & to_text(file%last - file%first + 1)//' rows, in '//file%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
+      call print_warnings(oddities, case%records, case, scales)
    end subroutine print_plan
+
+   !> Print what a run would warn of beforehand: last, where it is seen
+   subroutine print_warnings(oddities, records, case, scales)
+      !> What there is to say of the walls
+      type(wall_warning_type), intent(in) :: oddities
+      !> The records that would be run
+      type(record_type), intent(in) :: records(:)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> What there is to say of scale factors
+      type(scale_warning_type), intent(in) :: scales
+
+      type(lines_type) :: warnings
+      integer :: i
+
+      call oddities%warn(warnings)
+      call warn_of_records(records, case%solver%gravity, warnings)
+      call scales%warn(warnings)
+      if (warnings%count > 0) write (output_unit, '(a)') ''
+      do i = 1, warnings%count
+         write (output_unit, '(a)') 'warning: '//warnings%line(i)%text
+      end do
+   end subroutine print_warnings
 
    !> Print the one wall and its static quantities
    subroutine print_wall(wall)
@@ -112,10 +136,13 @@ contains
          call print_head(name_width)
          do i = survey%first, min(survey%last, survey%first + shown_rows - 1)
             call reader%next(member, found, error)
-            if (allocated(error) .or. .not. found) return
+            if (.not. found .and. .not. allocated(error)) &
+               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (allocated(error)) exit
             call print_row(member%wall, name_width)
          end do
          call reader%close()
+         if (allocated(error)) return
          if (survey%last >= i) write (output_unit, '(a)') '... and '//to_text(survey%last - i + 1)//' more'
       end associate
       write (output_unit, '(a)') ''
@@ -138,11 +165,34 @@ contains
       !> Width of the column of names
       integer, intent(in) :: width
 
-      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4)') left(wall%input%name, width), &
+      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%input%name, width), &
          & wall%input%mechanism, wall%input%height, wall%input%thickness, &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
-         & wall%mechanism%capacity, wall%mechanism%restitution
+         & wall%mechanism%capacity, wall%mechanism%restitution, load_of(wall%input)
    end subroutine print_row
+
+   !> The load on a wall, and where it bears
+   pure function load_of(input) result(text)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Blanks and a few words, empty without a load
+      character(len=:), allocatable :: text
+
+      real(wp) :: half
+
+      text = ''
+      if (.not. allocated(input%overburden)) return
+      if (.not. input%overburden > 0.0_wp) return
+      half = 0.5_wp*input%thickness
+      text = '  load '//rounded(input%overburden)//' N/m, '
+      if (input%eccentricity < 0.0_wp) then
+         text = text//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
+      else if (input%eccentricity > 0.0_wp) then
+         text = text//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
+      else
+         text = text//'on the centreline'
+      end if
+   end function load_of
 
    !> Print the records
    subroutine print_records(case)

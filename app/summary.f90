@@ -7,9 +7,8 @@ module dondolo_summary
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_wall
    use dondolo_results, only : results_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : rounded, to_text
    use dondolo_typology, only : whole_population
-   use dondolo_warnings, only : rounded
    implicit none
    private
 
@@ -53,6 +52,9 @@ contains
                & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
          end if
       end select
+      if (case%job%task /= 'typology' .or. allocated(results%typologies)) write (output_unit, '(a)') &
+         & 'the records move the base of the wall: ground records underestimate the demand on parapets, gables, '// &
+         & 'pinnacles and upper storeys'
       write (output_unit, '(a)') ''
       if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
       do i = 1, paths%count
@@ -91,24 +93,9 @@ contains
       associate (work => results%work)
          write (output_unit, '(a)') 'never moved: '//share(work%still, work%histories)//' histories; rocking: '// &
             & share(work%rocked, work%intervals)//' sample intervals'
-         write (output_unit, '(a)') 'for each history that moved: '//mean(work%steps)//' steps, '// &
-            & mean(work%evaluations)//' evaluations, '//mean(work%impacts)//' impacts'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
             & '(to estimate errors every history was run a second time, with halved steps)'
       end associate
-
-   contains
-
-      !> Mean of a count over the histories that moved
-      pure function mean(number) result(text)
-         !> The count
-         integer(int64), intent(in) :: number
-         !> Its mean
-         character(len=:), allocatable :: text
-
-         text = rounded(real(number, wp)/real(max(results%work%histories - results%work%still, 1_int64), wp))
-      end function mean
-
    end subroutine print_work
 
    !> A part of a whole: both counts and the percentage
@@ -194,29 +181,58 @@ contains
       write (output_unit, '(a)') ''
       do k = 1, size(results%row%curve) - 1
          write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
-         call print_fit(results%row%curve(k), case%stripes%scaling%unit_after_blank())
+         call print_fit(case, results%row%curve(k))
       end do
       if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
-      call print_fit(results%row%curve(size(results%row%curve)), case%stripes%scaling%unit_after_blank())
+      call print_fit(case, results%row%curve(size(results%row%curve)))
+      if (any(results%row%curve%has_fit())) write (output_unit, '(a)') 'the standard errors take the records for '// &
+         & 'independent between stripes, which share them; bootstrap() in Python does not'
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes
 
    !> Print a curve, or why there is none
-   subroutine print_fit(curve, unit)
+   subroutine print_fit(case, curve)
+      !> The case
+      type(case_type), intent(in) :: case
       !> The curve
       type(fragility_type), intent(in) :: curve
-      !> Unit of the levels with a blank before it
-      character(len=*), intent(in) :: unit
 
       if (curve%has_fit()) then
-         write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//unit//' (standard error of ln theta '// &
-            & rounded(curve%se_ln_theta())//'), beta = '//rounded(curve%beta)//' (standard error '// &
-            & rounded(curve%se_beta())//'), status '//trim(curve%status)
+         write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
+            & ' (standard error of ln theta '//rounded(curve%se_ln_theta())//'), beta = '//rounded(curve%beta)// &
+            & ' (standard error '//rounded(curve%se_beta())//'), status '//trim(curve%status), &
+            & case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '//fractiles(case, curve, 1.0_wp)
       else
          write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
       end if
    end subroutine print_fit
+
+   !> Levels at which 16, 50 and 84 % collapse
+   pure function fractiles(case, curve, saturation) result(text)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> Share that can collapse
+      real(wp), intent(in) :: saturation
+      !> The levels and their unit; a dash where so many cannot collapse
+      character(len=:), allocatable :: text
+
+      real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
+      integer :: i
+
+      text = ''
+      do i = 1, size(shares)
+         if (i > 1) text = text//', '
+         if (shares(i) < saturation) then
+            text = text//rounded(curve%level(shares(i)/saturation))
+         else
+            text = text//'-'
+         end if
+      end do
+      text = text//case%stripes%scaling%unit_after_blank()
+   end function fractiles
 
    !> Print the curves of a population
    subroutine print_curves(case, results)
@@ -285,7 +301,8 @@ contains
                   write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
-                     & '), status '//trim(typology%fit%status)
+                     & '), status '//trim(typology%fit%status)//'; at 16, 50, 84 %: '// &
+                     & fractiles(case, typology%fit, typology%saturation)
                else
                   write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
                end if

@@ -21,8 +21,10 @@ module dondolo_template
       & '   restitution_factor = 1.0    ! factor on the model''s speed ratio', &
       & '   ! hinge = 0.5               ! only two_block: height of the intermediate hinge / height of the wall', &
       & '   ! overburden = 0.0          ! only two_block: vertical load on the top, N per metre of wall', &
-      & '   ! eccentricity = 0.0        ! only two_block: its distance from the centreline towards the active', &
-      & '                               ! top hinge, m', &
+      & '   ! bearing = ''centre''        ! only two_block: where that load bears: ''inner'', ''outer'' or ''centre''', &
+      & '   ! bearing_distance = 0.06   ! its resultant from the inner or outer face, m: half the length that joists bear', &
+      & '   ! eccentricity = 0.0        ! or instead of both: from the centreline towards the active top hinge, m: the', &
+      & '                               ! outer face where the wall folds outwards, negative for an inner bearing', &
       & '/']
 
    !> The population
@@ -32,8 +34,9 @@ module dondolo_template
       & '                                        ! of this file; put yours. Columns: name, mechanism,', &
       & '                                        ! height, thickness, density, hinge, restitution,', &
       & '                                        ! restitution_value, restitution_factor, overburden,', &
-      & '                                        ! eccentricity (m, kg/m3, N/m), weight (default 1),', &
-      & '                                        ! group, p_occ (that the mechanism can occur, 0 to 1).', &
+      & '                                        ! bearing, bearing_distance or eccentricity (m, kg/m3,', &
+      & '                                        ! N/m), weight (default 1), group, p_occ (that the', &
+      & '                                        ! mechanism can occur, 0 to 1).', &
       & '                                        ! Rows with one name are mechanisms of one wall', &
       & '/']
 

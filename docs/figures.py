@@ -14,6 +14,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from dondolo.drawing import shape
 from dondolo.processing import velocity
 
 import dondolo as dd
@@ -33,6 +34,7 @@ def main() -> None:
     quick_start()
     intensities()
     mechanisms()
+    bearing()
     processing()
     pulses()
     overturning()
@@ -76,6 +78,30 @@ def mechanisms():
         dd.plot_wall(shown, rotation=part * shown.capacity_angle, ax=ax)
         ax.set_title(shown.name, loc="left", family="monospace")
     figure.savefig(figures / "mechanisms.png", dpi=100)
+
+
+def bearing():
+    """The same joists on a wall that folds outwards, about the outer edge of its top, and on one that folds inwards."""
+    load = {"overburden": 8000.0, "bearing": "inner", "bearing_distance": 0.06}
+    wall = dd.TwoBlockWall(height=1.2, thickness=0.25, hinge=0.6, **load)
+    figure, axes = new_axes(1, 2, (8.4, 4.6))
+    joists = {"color": style.GREY, "linewidth": 7.0, "alpha": 0.55, "solid_capstyle": "butt", "zorder": 3}
+    arrow = {"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 1.6}
+    for ax, part, title in zip(axes, (0.35, -0.35), ("outwards", "inwards"), strict=True):
+        dd.plot_wall(wall, rotation=part * wall.capacity_angle, ax=ax)
+        _, _, outer, inner = shape(wall, part * wall.capacity_angle).blocks[1]
+        if part < 0.0:
+            # A mirrored block is drawn clockwise
+            outer, inner = inner, outer
+        x, y = inner + (outer - inner) * 0.06 / wall.thickness
+        ax.plot([-0.35, inner[0] + 0.12], [y + 0.045, y + 0.045], **joists)
+        ax.annotate("", (x, y), (x, y + 0.3), arrowprops=arrow, zorder=5)
+        ax.annotate("N", (x, y + 0.3), (5, 0), textcoords="offset points", va="top", color=style.BLUE)
+        ax.annotate("inner", (-0.07, 0.4), ha="right", fontsize=8.5)
+        ax.annotate("outer", (0.34, 0.4), fontsize=8.5)
+        ax.set_ylim(-0.05, 1.62)
+        ax.set_title(title, loc="left")
+    figure.savefig(figures / "bearing.png", dpi=100)
 
 
 def processing():

@@ -137,6 +137,13 @@ check "stripes: some history collapses, some survives" test \
 check "stripes: both polarities" equal "$(grep -c ',reversed,' out/deep/wall_histories.csv)" 20
 check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
 check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
+check "stripes: summary has the median between the levels at 16 and 84 %" equal \
+   "$(sed -n 's/^pga at a probability of 16, 50, 84 %: [0-9.]*, \(.*\), [0-9.]* g$/\1/p' stdout)" \
+   "$(sed -n 's/^theta = \([0-9.]*\) g .*/\1/p' stdout)"
+check "stripes: summary says what the standard errors take for independent" grep -q \
+   '^the standard errors take the records for independent between stripes' stdout
+check "stripes: summary says what the records move" grep -q \
+   '^the records move the base of the wall: ground records underestimate the demand on parapets, gables' stdout
 check "stripes: summary names the engine" grep -qE ' threads, engine lanes \([a-z0-9]+\)$' stdout
 check "stripes: no escape sequence where there is no terminal" lacks stderr $'\033'
 run --quiet good.nml
@@ -161,7 +168,7 @@ rm -rf one two out
 sed 's/levels = 0.1, 0.2, 0.4/levels = 0.08, 0.085, 0.4/' good.nml >calm.nml
 run calm.nml
 check "work: summary of still ones" grep -qE '^never moved: [0-9.]+ %, [0-9]+ of 40 histories; rocking: ' stdout
-check "work: summary of steps" grep -qE '^for each history that moved: [0-9.]+ steps, ' stdout
+check "work: steps are in the files only" lacks stdout ' steps, '
 check "work: in the head of every file" equal "$(grep -lE '^# work: histories = 40, still = [0-9]+, intervals = 15960, ' out/deep/*.csv | wc -l)" 4
 still=$(sed -n 's/^# work: .*still = \([0-9]*\),.*/\1/p' out/deep/wall_walls.csv)
 check "work: still ones are those without an EDP" equal "$still" \
@@ -221,6 +228,10 @@ check "typology: header" equal "$(header out/people_typology.csv)" \
    "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
+check "typology: levels at 16, 50, 84 % of each curve" equal \
+   "$(grep -cE '^population, .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, [0-9.]+, [0-9.]+ g$' stdout)" \
+   "$(grep -c '^population, .*: theta = ' stdout)"
+check "typology: summary says what the records move" contains stdout 'the records move the base of the wall: '
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
 check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $4 + 0 }' | tr '\n' ' ')" "2 1 3 "
 check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $1 }' | tr '\n' ' ')" \
@@ -230,6 +241,18 @@ check "typology: mean fraction" equal \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $(NF - 1) / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out
+population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
+run people.nml
+check "typology: no level where so many cannot collapse" grep -qE \
+   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g$' stdout
+printf 'mechanism,height,thickness,overburden,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
+   'two_block,3,0.25,8000,inner,0.06,' 'two_block,3,0.25,8000,,,-0.065' >walls.csv
+run people.nml
+check "typology: a bearing is an eccentricity" equal \
+   "$(grep '^wall 1,' out/people_stripes.csv | cut -d, -f 2-)" "$(grep '^wall 2,' out/people_stripes.csv | cut -d, -f 2-)"
+check "typology: a bearing is an eccentricity: there are rows" equal "$(grep -c '^wall 1,' out/people_stripes.csv)" 4
+rm -rf out
+population >walls.csv
 for threads in 1 2 3; do
    run --quiet --threads $threads people.nml
    mv out people$threads
@@ -243,7 +266,10 @@ run history.nml
 check "history: exit code" equal "$rc" 0
 check "history: files" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
 check "history: header" equal "$(header out/deep/wall_history.csv)" \
-   "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp"
+   "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact"
+check "history: marks of impacts" equal \
+   "$(awk -F, '!/^#/ && $1 <= 3.9900001 { n += $7 } END { print n + 0 }' out/deep/wall_history.csv)" \
+   "$(sed -n 's/^# impacts: //p' out/deep/wall_history.csv)"
 check "history: rows" test "$(rows out/deep/wall_history.csv)" -gt 400
 check "history: scaled to the level" equal \
    "$(grep -v '^#' out/deep/wall_history.csv | awk -F, 'NR > 1 { a = $2 < 0 ? -$2 : $2; if (a > m) m = a } END { printf "%.6f", m }')" 1.471500
@@ -274,6 +300,16 @@ check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
 sed "s/'history'/'stripes'/" history.nml >both.nml
 run both.nml
 check "history group in a stripes case" equal "$rc" 0
+run history.nml
+check "results of another task are not left" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+echo 'my own notes' >out/deep/wall_stripes.csv
+cp history.nml out/deep/wall_typology.csv
+run history.nml
+check "a file that is no result is left" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
+run --check both.nml
+check "--check removes nothing" equal "$(ls out/deep | tr '\n' ' ')" \
+   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
 rm -rf out
 
 printf '\xef\xbb\xbf%s' "$(sed 's/$/\r/' good.nml)" >dos.nml
@@ -308,7 +344,7 @@ run --template
 check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
-   restitution_value restitution_factor overburden eccentricity file catalogue polarity im levels first last count \
+   restitution_value restitution_factor overburden bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
    engine rtol atol edp_limit estimate_error gravity record scale im_level; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
@@ -369,6 +405,20 @@ run --check history.nml
 check "check: history" contains stdout "one history: record 'r3'"
 run --check people.nml
 check "check: population" contains stdout '32 histories'
+run people.nml
+bodies() { cat out/people_*.csv | grep -v '^#'; }
+bodies >as_given
+{ echo 'Survey, 2024;;;;;;;'; population | tr , ';' | sed -E 's/([0-9])\.([0-9])/\1,\2/g; s/$/;/'; echo ';;;;;;;'; } >walls.csv
+sed "s/'typology'/'TYPOLOGY'/; s/&stripes/\&stripes im = 'PGA'/; s/file/FILE/" people.nml >upper.nml
+run upper.nml
+note='walls.csv: read with columns separated by semicolons, decimal commas, line 1 is a title'
+check "a table of a spreadsheet: note" equal "$(head -n 1 stderr)" "dondolo: note: $note"
+check "a table of a spreadsheet: the same results" equal "$(bodies)" "$(cat as_given)"
+check "a table of a spreadsheet: note in the head" contains out/people_typology.csv "# note: $note"
+run --check upper.nml
+check "a table of a spreadsheet: note on --check" equal "$(cat stderr)" "dondolo: note: $note"
+population >walls.csv
+rm upper.nml as_given out/people_*
 
 # refused WHAT PART ARGUMENTS...: exit code 2, one line with a part, no output, no file
 refused() {
@@ -405,6 +455,9 @@ refused "a folder for a case" 'records: is a folder, must be a namelist file' re
 refused "empty file" 'empty.nml: the file is empty' empty.nml
 echo '! nothing' >comment.nml
 refused "only a comment" 'comment.nml: no group' comment.nml
+{ printf '&job '; head -c 1048576 /dev/zero | tr '\0' ','; echo /; } >long.nml
+refused "a case of 1 MB" 'long.nml: has 1048583 bytes: must be at most 1048576' long.nml
+rm long.nml
 head -c 3000 /dev/urandom >noise.nml
 check "noise: exit code" equal "$(run noise.nml; echo $rc)" 2
 refused "an accelerogram for a case" 'stands outside a group: must be &name ... /' records/r1.txt
@@ -412,9 +465,16 @@ refused "an accelerogram for a case" 'stands outside a group: must be &name ... 
 # --- wrong cases: what is changed (sed), what must be said ---------------------------------------------------------
 
 touch bad.nml
+DONDOLO_VARIANT=bogus refused "a build variant that there is not" "DONDOLO_VARIANT = 'bogus': this build and this processor have '" \
+   good.nml
+DONDOLO_VARIANT=bogus refused "its name" "DONDOLO_VARIANT = 'bogus': this build and this processor have '" --version
 bad() {
    good_case | sed -E -e "$1" >bad.nml
    refused "$1" "$2" bad.nml
+   # A group that is not there is in no line.
+   if grep -qi "^$(grep -oE '&[a-z]+' stderr | head -n 1)" bad.nml && grep -q '^dondolo: bad.nml: ' stderr; then
+      check "$1: names a line, not: $(cat stderr)" grep -qE 'lines? [0-9]+' stderr
+   fi
 }
 while IFS='|' read -r change part; do
    [ -n "$change" ] && bad "$change" "$part"
@@ -427,7 +487,7 @@ s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are '
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
 s/thickness = 0.25/thickness = 0.25 height = 2/|bad.nml: &wall: height: given twice, in lines 11 and 12
-s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0
+s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0 (line 11)
 s/height = 3.0/height = 3.0 4.0/|bad.nml: &wall: height = 3.0, 4.0: must be one value, not 2
 s/height = 3.0/height = '3.0'/|bad.nml: &wall: height = '3.0': must be a number without quotes
 s/height = 3.0/height = tall/|bad.nml: &wall: height = tall: must be a number, such as 0.25
@@ -460,6 +520,8 @@ s/thickness = 0.25/thickness = 0.25 eccentricity = 0.1/|bad.nml: &wall: eccentri
 s/one_sided'/two_block' hinge = 1/|bad.nml: &wall: hinge = 1: must lie between 0.01 and 0.99
 s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9
 s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
+s/one_sided'/two_block' bearing = 'inner'/|bad.nml: &wall: bearing_distance: must be given with bearing = 'inner'
+s/one_sided'/two_block' bearing = 'centre' eccentricity = 0/|bad.nml: &wall: eccentricity = 0: give either eccentricity or bearing
 s/one_sided'/one_sided' restitution = 'impulse'/|bad.nml: &wall: restitution = 'impulse': must be one of
 s/one_sided'/one_sided' restitution = 'constant'/|bad.nml: &wall: restitution_value: must be given with
 s/one_sided'/one_sided' restitution_value = 0.5/|bad.nml: &wall: restitution_value = 0.5: only with restitution
@@ -483,6 +545,11 @@ s/name = 'wall, one'/name = 'wall, one/|bad.nml: line 9: the quote before 'wall,
 s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: paths and other texts must stand in quotes
 s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'records/none.csv': there is no file records/none.csv
 s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
+s/'records.records.csv'/'records\\records.csv'/|bad.nml: &records: catalogue = 'records\records.csv': there is no file records\records.csv (paths are relative to the case); folders must be separated by /, not \
+s/output = .*/output = 'a\\b'/|bad.nml: &job: output = 'a\b': must have / between folders, not \
+s/'It''s a wall'/‘It is a wall’/|bad.nml: line 4: the quote ‘ of a word processor: must be a straight one, '
+s/'It''s a wall'/“It is a wall”/|bad.nml: line 4: the quote “ of a word processor: must be a straight one, '
+s/'It''s a wall'/«It is a wall»/|bad.nml: line 4: the quote « of a word processor: must be a straight one, '
 s/'records.records.csv'/''/|bad.nml: &records: catalogue = '': must name a CSV table
 s/^ *catalogue.*//|bad.nml: &records: catalogue: must be given
 s/'both'/'backwards'/|bad.nml: &records: polarity = 'backwards': must be one of 'as_recorded', 'reversed', 'both'
@@ -493,13 +560,13 @@ s/'pga'/'sa(30)'/|bad.nml: &stripes: im = 'sa(30)': must be one of 'pga'
 s/'pga'/'d5-95'/|bad.nml: &stripes: im = 'd5-95': a duration stays as it is when a record is scaled
 s/'pga'/'arias'/;s/0.6, 1.0/0.6, 1e9/|bad.nml: &stripes: levels = 1000000000: scales record
 s/0.1, 0.2/0.2, 0.1/|bad.nml: &stripes: levels = 0.2, 0.1: must increase strictly
-s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly
+s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictly (line 20)
 s/0.1, 0.2/-0.1, 0.2/|bad.nml: &stripes: levels = -0.1: must be positive
 s/0.1, 0.2/0.1,, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
 s/0.1, 0.2/, 0.1, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
 s/0.1, 0.2/0,1, 0,2/|bad.nml: &stripes: levels = 0, 1, 0, 2, 0.4, 0.6, ...: a decimal point is needed, such as 0.1
 s/0.1, 0.2/0.1, 0.2g/|bad.nml: &stripes: levels: value 2 = 0.2g: must be a number
-s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number
+s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number, such as 0.25 (line 20)
 s/0.1, 0.2/0.1, '0.2'/|bad.nml: &stripes: levels: value 2 = '0.2': must be a number without quotes
 s/0.6, 1.0/0.6, 1e6/|bad.nml: &stripes: levels = 1000000: scales record 'r1' beyond 10000 m/s2
 s/im = 'pga'/im = 'pga' first = 0.1/|bad.nml: &stripes: last: must be given: first, last and count belong together
@@ -508,7 +575,7 @@ s/levels.*/first = 0.1, last = 0.5, count = 1/;/0.6, 1.0/d|bad.nml: &stripes: co
 s/levels.*/first = 0.1, last = 0.5, count = 2000000000/;/0.6, 1.0/d|bad.nml: &stripes: count = 2000000000: must lie between 2 and 1000
 s/levels.*/first = 0.5, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: last = 0.1: must be greater than first = 0.5
 s/levels.*/first = 0, last = 0.1, count = 5/;/0.6, 1.0/d|bad.nml: &stripes: first = 0: must be positive
-s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given
+s/levels.*//;/0.6, 1.0/d|bad.nml: &stripes: levels: must be given, such as levels = 0.1, 0.2, 0.3; or first, last and count (line 18)
 s/'auto'/'rk4'/|bad.nml: &solver: engine = 'rk4': must be one of 'auto', 'rk45', 'lanes'
 s/rtol = 1.0e-8/rtol = 1/|bad.nml: &solver: rtol = 1: must lie between
 s/rtol = 1.0e-8/rtol = 1.0d-400/|bad.nml: &solver: rtol = 
@@ -517,10 +584,10 @@ s/edp_limit = 1.0/edp_limit = 0/|bad.nml: &solver: edp_limit = 0: must be positi
 s/edp_limit = 1.0/estimate_error = yes/|bad.nml: &solver: estimate_error = yes: must be .true. or .false.
 s/edp_limit = 1.0/estimate_error = '.true.'/|bad.nml: &solver: estimate_error = '.true.': must be .true. or .false.
 s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
-s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2
+s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2 (line 27)
 s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81
 s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8): not for task = 'stripes', which takes &wall
-8,13d|bad.nml: &wall: must be given for task = 'stripes'
+8,13d|bad.nml: &wall: must be given for task = 'stripes' (line 3)
 14,17d|bad.nml: &records: catalogue: must be given
 18,22d|bad.nml: &stripes: levels: must be given
 13d|bad.nml: &wall: not closed: a / must stand before &records in line 13
@@ -539,6 +606,13 @@ s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: mu
 s/task = 'stripes'/task = 'history'/|bad.nml: &records: polarity = 'both': must be 'as_recorded' or 'reversed' for task = 'history'
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale = 1e9 \//|bad.nml: &history: the scale 1000000000 makes record 'r1' exceed 10000 m/s2
 TABLE
+
+# Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029
+for bytes in '\x1b' '\xc2\x85' '\xe2\x80\xa8' '\xe2\x80\xa9'; do
+   bad "s/wall, one/a${bytes}b/" "must stand on one line, without control characters"
+   bad "s/It''s a wall/a${bytes}b/" "must stand on one line, without control characters"
+   bad "s/out.deep.wall/a${bytes}b/" "must stand on one line, without control characters"
+done
 
 # Output that would replace or hide what is there
 mkdir -p taken_walls.csv
@@ -564,6 +638,10 @@ catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
 catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
 catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' stands there twice"
+catalogue "a name of two lines" 'file,dt_s,units,name\nr1.txt,0.01,g,"a\n# collapsed: 1"\n' \
+   "records/bad.csv: line 2: name = 'a # collapsed: 1': must stand on one line, without control characters"
+catalogue "a name with a line separator" 'file,dt_s,units,name\nr1.txt,0.01,g,a\0342\0200\0250b\n' \
+   "records/bad.csv: line 2: name = 'a   b': must stand on one line"
 printf '1\n2\nx\n' >records/broken.txt
 catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
 rm records/broken.txt records/bad.csv
@@ -604,11 +682,16 @@ awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3
 seconds=$SECONDS
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
 awk 'BEGIN { for (i = 1; i <= 100000; i++) printf "c%d,", i; print "name" }' >walls.csv
-refused "population: 100001 columns" "walls.csv: column 'c1': no such column" people.nml
+refused "population: 100001 columns" 'walls.csv: line 1: more than 10000 cells' people.nml
 { printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo; } >walls.csv
-refused "population: a line of 20 MB" 'walls.csv: line 2: 20000001 cells: must be 5' people.nml
+refused "population: a line of 20 MB" 'walls.csv: line 2: longer than 1048576 bytes' people.nml
 check "population: none of these takes long: $((SECONDS - seconds)) s" test $((SECONDS - seconds)) -lt 20
-people "semicolons" 'name;mechanism\na;one_sided\n' 'walls.csv: line 1'
+people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5;0.25\n' \
+   "walls.csv: line 2: thickness = '0.25': must be a number, with a decimal comma as elsewhere in the table and no point"
+people "decimal commas between commas" "${head}a,one_sided,3,5,0,25,1\n" \
+   'walls.csv: line 2: 7 cells: must be 5 as in the header (columns separated by commas need decimal points)'
+people "Windows-1252" "${head}a\0340,one_sided,3,0.25,1\nb\0340,one_sided,3,0.25,1\n" \
+   'walls.csv: line 2: is not UTF-8 (Windows-1252?): save it as UTF-8 (in Excel: CSV UTF-8)'
 people "an empty file" '' 'walls.csv: the file is empty'
 rm walls.csv
 refused "population: no file" "people.nml: &population: file = 'walls.csv': there is no file walls.csv" people.nml
@@ -620,6 +703,13 @@ refused "population and a wall" "bad.nml: &wall (line 5): not for task = 'typolo
 # --- failures while running ----------------------------------------------------------------------------------------
 
 if [ -c /dev/full ]; then
+   for arguments in --version --help '--template stripes' '--check good.nml' good.nml; do
+      # shellcheck disable=SC2086
+      timeout 60 "$exe" $arguments >/dev/full 2>stderr
+      check "full standard output, $arguments: exit code" equal "$?" 1
+      check "full standard output, $arguments: says so" contains stderr 'dondolo: standard output: cannot be written whole'
+   done
+   rm -rf out
    mkdir -p out/deep
    ln -s /dev/full out/deep/wall_histories.csv.part
    run good.nml
@@ -638,6 +728,16 @@ check "file limit: exit code" equal "$(cat rc)" 1
 check "file limit: says so" contains stderr 'cannot be written whole: is the disk full?'
 check "file limit: no table left" equal "$(find . -name 'people_*')" ""
 rm -rf out walls.csv limit.nml
+
+# Too little memory: one line
+good_case | sed 's/levels = .*/first = 0.01, last = 1.0, count = 1000/; s/^ *0.6, 1.0$//' >memory.nml
+awk 'BEGIN { print "file,dt_s,units,name"; for (i = 1; i <= 2000; i++) print "r1.txt,0.01,m/s2,n" i }' >records/many.csv
+sed 's/records.csv/many.csv/' memory.nml >many.nml
+(ulimit -v 500000; timeout 60 "$exe" --threads 1 many.nml >/dev/null 2>"$work/stderr"; echo $? >"$work/rc")
+check "memory: exit code" equal "$(cat rc)" 1
+check "memory: one line, not: $(cat stderr)" equal "$(grep -c '^dondolo: .*not enough memory: needs [0-9]* MB$' stderr)/$(wc -l <stderr)" 1/1
+check "memory: no file" equal "$(find out -type f 2>/dev/null)" ""
+rm -rf out records/many.csv memory.nml many.nml
 
 # --- counts of parts -----------------------------------------------------------------------------------------------
 
@@ -676,11 +776,29 @@ warned 's/0.6, 1.0/0.6, 5.0/' 'scale factors above 10 in 6 of 40 histories, the 
 warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at 0.08333 g'
 warned 's/levels.*/levels = 0.09, 0.1/;/0.6, 1.0/d' 'no collapse at levels 0.09 to 0.1'
 warned 's/levels.*/levels = 2, 3/;/0.6, 1.0/d;s/height = 3.0/height = 1.0/;s/0.25/0.05/' 'every history collapses at levels 2 to 3'
-warned 's/height = 3.0/height = 300/' "wall '.*' is thicker than 3 m or higher than 60 m: is it in metres?"
+warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60 m: is it in centimetres?"
+warned 's/thickness = 0.25/thickness = 25/' "wall '.*': thickness = 25 m is more than 3 m: is it in centimetres?"
+warned 's/thickness/density = 18 thickness/' "density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
+warned 's/thickness/density = 1.800 thickness/' "density = 1.8 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
+warned "s/one_sided'/two_block' overburden = 15/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv
 warned 's/records.csv/bad.csv/' "record 'still' has a PGA of 0"
+awk 'BEGIN { for (k = 0; k < 10; k++) print 100 * k }' >records/strong.txt
+echo 'strong.txt,0.01,g,here' >>records/bad.csv
+warned 's/records.csv/bad.csv/' "record 'strong': a PGA of 899.7 g, more than 3 g: wrong units? (1 of 6 records)"
+good_case | sed 's/records.csv/bad.csv/; s/thickness/density = 18 thickness/; s/0.6, 1.0/0.6, 5.0/' >warn.nml
+run --check warn.nml
+check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more than 3 g: wrong units\?; ' stdout
+check "check: warnings last" equal "$(tail -n 5 stdout | cut -c 1-24 | tr '\n' ';')" \
+   ";warning: wall 'wall, one;warning: record 'still' ;warning: record 'strong';warning: scale factors a;"
+good_case | sed "s/one_sided'/two_block' overburden = 8000 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
+run --check good2.nml
+check "check: where the load bears" contains stdout '  load 8000 N/m, 0.06 m from the inner face, folding outwards'
+run good2.nml
+check "a bearing is an eccentricity in the results" contains out/deep/wall_fragility.csv ' eccentricity = -0.065'
+rm -rf out
 good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/; s/records.csv/bad.csv/; \$s/\$/\n\&history record = 5, im_level = 1 \//" >bad.nml
 refused "a record without motion to a level" "bad.nml: &history: im_level = 1: record 'still' has a pga of 0" bad.nml
 

@@ -66,18 +66,27 @@ network() {
 }
 
 root=$(mktemp -d "$base.run.XXXXXX")
-trap 'rm -rf --one-file-system "$root"' EXIT
+child=
+leave() {
+   if [ -n "$child" ]; then
+      kill "$child" 2>/dev/null && wait "$child" || true
+   fi
+   rm -rf --one-file-system "$root"
+}
+trap leave EXIT
+trap 'exit 130' INT
+trap 'exit 143' HUP TERM
 cp -a "$base/." "$root"
 network
 git clone --quiet . "$root/home/dondolo"
 if [ -n "$(git status --porcelain)" ]; then
    printf 'a clone of %s: changes that are not committed are not in it\n' "$(git rev-parse --short HEAD)" >&2
 fi
-mapfile -t environment < <(env | grep -Ei '^((https?|no)_proxy|ssl_cert_file|requests_ca_bundle|curl_ca_bundle|pip_[a-z_]+)=' || true)
+mapfile -t environment < <(env | grep -Ei '^((https?|no)_proxy|ssl_cert_file|requests_ca_bundle|curl_ca_bundle|pip_(cert|default_timeout|index_url|extra_index_url))=' || true)
 
 # Mounts and processes end with their namespaces, so that nothing of this machine is in the folder that is removed.
 inside() {
-   unshare --mount --pid --fork --kill-child bash -euc '
+   exec unshare --mount --pid --fork --kill-child bash -euc '
       root=$1 verb=$2
       shift 2
       mount -t proc proc "$root/proc"
@@ -89,7 +98,11 @@ inside() {
 
 for verb; do
    printf '== ./run %s in a fresh Debian 12\n' "$verb" >&2
-   inside "$verb"
+   # In the background, so that a signal is heard at once
+   inside "$verb" &
+   child=$!
+   wait "$child"
+   child=
    if [ "$verb" = demo ]; then
       figures=$(find "$root/home/dondolo/out" -name '*.png' | wc -l)
       printf '== %s figures\n' "$figures" >&2

@@ -290,6 +290,7 @@ contains
       type(trace_type), intent(out) :: trace
       character(len=*), intent(in) :: what
       type(response_type) :: traced
+      logical, allocatable :: at_rest(:)
       real(wp) :: highest
       integer :: rows
 
@@ -300,6 +301,12 @@ contains
       ! After the record the peak follows from the energy, and the rows from steps: see the balance of energy.
       rows = count(trace%time <= history%record%duration())
       call check(rows <= size(history%record%acceleration) + 2*response%impacts + 1, what//': number of rows')
+      call check(count(trace%after_impact(:rows)) == response%impacts, what//': marks of impacts')
+      call check(all(abs(trace%side) == 1.0_wp .and. trace%side*trace%rotation >= 0.0_wp), what//': sides')
+      ! It changes at an impact, or when the wall starts from rest, to which it may have come just after an impact.
+      at_rest = .not. (abs(trace%rotation) > 0.0_wp .or. abs(trace%velocity) > 0.0_wp)
+      call check(all(trace%after_impact(2:) .or. trace%side(2:) == trace%side(:trace%rows - 1) &
+         & .or. at_rest(:trace%rows - 1) .or. trace%after_impact(:trace%rows - 1)), what//': changes of side')
       highest = maxval(abs(trace%rotation(:rows)))/history%wall%mechanism%capacity
       call check(highest <= response%edp*(1.0_wp + 4.0_wp*epsilon(highest)), what//': a row beyond the peak')
    end subroutine check_trace

@@ -36,8 +36,7 @@ contains
 
       before_impact = .false.
       if (row == trace%rows) return
-      before_impact = trace%rotation(row) == 0.0_wp .and. trace%rotation(row + 1) == 0.0_wp &
-         & .and. trace%time(row + 1) == trace%time(row) .and. trace%velocity(row) /= 0.0_wp
+      before_impact = trace%after_impact(row + 1)
    end function before_impact
 
    !> Free rocking from 0.9 q_c: between impacts the energy stays, at an impact it falls by e^2

@@ -503,12 +503,17 @@ contains
       ! Ten waves that grow and decay leave no velocity
       wave = [(cos(0.05_wp*pi*(i - 1))*sin(pi*(i - 1)/400.0_wp)**2, i=1, size(wave))]
       call new_record(records(1), wave, 0.01_wp, 'wave', error)
-      call check_text(record_problems(records(1)), '', 'a sound record')
+      call check_text(record_problems(records(1), 10.0_wp), '', 'a sound record')
       call new_record(records(2), min(abs(wave), 0.7_wp) + 0.2_wp, 0.01_wp, 'clipped', error)
-      call check_text(record_problems(records(2)), 'begins at 22 % of its PGA; ends at 100 % of its PGV; '// &
+      call check_text(record_problems(records(2), 10.0_wp), 'begins at 22 % of its PGA; ends at 100 % of its PGV; '// &
          & '11 samples in a row at its PGA', 'a record that begins late, drifts and is clipped')
       call new_record(records(3), [0.0_wp, 0.0_wp], 0.01_wp, 'nothing', error)
-      call check_text(record_problems(records(3)), 'no motion', 'a record of zeros')
+      call check_text(record_problems(records(3), 10.0_wp), 'no motion', 'a record of zeros')
+      call new_record(records(3), 4340.0_wp*wave, 0.01_wp, 'nothing', error)
+      call check_text(record_problems(records(3), 10.0_wp), 'a PGA of 434 g, more than 3 g: wrong units?', 'too strong')
+      call new_record(records(3), 0.005_wp*wave, 0.01_wp, 'nothing', error)
+      call check_text(record_problems(records(3), 10.0_wp), 'a PGA of 0.0005 g, less than 0.005 g: wrong units?', &
+         & 'too weak')
       call records(1)%metadata%set('event', 'Friuli')
       call records(1)%metadata%set('station', 'TLM'//achar(27))
       call records(2)%metadata%set('date', '1976-05-06')

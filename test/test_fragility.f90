@@ -42,6 +42,10 @@ contains
       call check_close(curve%beta, 0.513830774_wp, 1.0e-9_wp, 'beta')
       call check_close(curve%probability(0.2_wp), 0.25_wp, 1.0e-12_wp, 'P(0.2)')
       call check_close(curve%probability(0.4_wp), 0.75_wp, 1.0e-12_wp, 'P(0.4)')
+      call check_close(curve%level(0.25_wp), 0.2_wp, 1.0e-12_wp, 'level of 25 %')
+      call check_close(curve%level(0.5_wp), curve%theta, 1.0e-14_wp, 'level of 50 %')
+      call check_close(curve%level(0.84_wp), curve%theta*exp(0.994457883209753_wp*curve%beta), 1.0e-14_wp, &
+         & 'level of 84 %')
       call check_close(curve%bracket(1), 0.2_wp, 0.0_wp, 'bracket below')
       call check_close(curve%bracket(2), 0.4_wp, 0.0_wp, 'bracket above')
    end subroutine test_two_stripes
@@ -91,6 +95,9 @@ contains
       call expect('decreasing', x, [30.0_wp, 20.0_wp, 10.0_wp], n, 0.3_wp, 0.1_wp)
       call expect('decreasing', x, [10.0_wp, 10.0_wp, 10.0_wp], n, 0.3_wp, huge(0.0_wp))
       call expect('decreasing', x, [44.0_wp, 44.0_wp, 0.0_wp], n, 0.3_wp, 0.1_wp)
+      ! Newton's method does not reach the top of a likelihood that is flat but for rounding
+      call expect('not_converged', [0.2_wp, 0.4_wp, 0.8_wp], 1.0e-12_wp*[1.0_wp, 10.0_wp, 30.0_wp], n, 0.8_wp, &
+         & huge(0.0_wp))
       ! Rising by so little that the median is beyond all numbers
       call expect('decreasing', [0.1_wp, 0.2_wp, 0.4001_wp], [1.0_wp, 0.0_wp, 1.0_wp], n, 0.4001_wp, huge(0.0_wp))
    end subroutine test_statuses

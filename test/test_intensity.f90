@@ -262,7 +262,7 @@ contains
 
    !> Names, units, and what is refused
    subroutine test_names()
-      character(len=14), parameter :: refused(15) = [character(len=14) :: 'PGA', 'sa', 'sa(T)', 'sa()', 'sa(0)', &
+      character(len=14), parameter :: refused(15) = [character(len=14) :: 'PG', 'sa', 'sa(T)', 'sa()', 'sa(0)', &
          & 'sa(-1)', 'sa(21)', 'sa(nan)', 'sa( 1)', 'sa(1', 'sa(1))', 'saavg(1)', 'saavg(2:1)', &
          & 'saavg(1:1)', 'saavg(:1)']
       type(measure_type) :: measure
@@ -286,6 +286,10 @@ contains
       end do
       call new_measure(measure, 'saavg(0.20:02.0)', error)
       call check_text(measure%name, 'saavg(0.2:2)', 'name with short periods')
+      call new_measure(measure, 'SA(0.50)', error)
+      call check_text(measure%name, 'sa(0.5)', 'capital letters')
+      call new_scaling(scaling, 'PGA/a0', error)
+      call check_text(scaling%name, 'pga/a0', 'capital letters of a measure of a wall')
       do i = 1, size(refused)
          call new_measure(measure, trim(refused(i)), error)
          call check_error(error, 'im = '''//trim(refused(i))//''': must be one of ''pga''', refused(i))

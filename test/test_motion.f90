@@ -130,7 +130,7 @@ contains
 
       n = 0
       do i = 2, trace%rows
-         if (trace%rotation(i) /= 0.0_wp .or. trace%time(i) /= trace%time(i - 1)) cycle
+         if (.not. trace%after_impact(i)) cycle
          n = n + 1
          amplitude(n) = 1.0_wp - sqrt(1.0_wp - (trace%velocity(i)/(p*alpha))**2)
          time(n) = trace%time(i)
@@ -226,6 +226,9 @@ contains
       call check(trace%time(trace%rows) >= 13.98_wp .or. trace%velocity(trace%rows) == 0.0_wp, &
          & 'until rest or 10 s after it')
       call check(maxval(abs(trace%rotation))/wall%mechanism%capacity >= 0.999_wp*one%edp, 'the peak after the record')
+      call check(count(trace%after_impact .and. trace%time <= record%duration()) == one%impacts, &
+         & 'marks of impacts in the record')
+      call check(count(trace%after_impact .and. trace%time > record%duration()) >= 3, 'marks of impacts after it')
    end subroutine test_trace
 
    !> Which results an estimated error leaves in doubt

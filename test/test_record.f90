@@ -3,6 +3,7 @@ program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
    use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_encoding, only : is_utf8
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
@@ -23,6 +24,8 @@ program test_record
    call test_text_file()
    call test_csv()
    call test_csv_errors()
+   call test_spreadsheets()
+   call test_encodings()
    call test_units()
    call test_one_column()
    call test_two_columns()
@@ -151,7 +154,7 @@ contains
       call check_error(error, 'the file is empty', 'blanks')
       call read_text_file(scratch//'/none.txt', text, error)
       call check_error(error, scratch//'/none.txt: no such file', 'missing file')
-      call check(error%stat == 2, 'a missing file is wrong input')
+      call check(error%stat == status_missing, 'a missing file is wrong input')
       call read_text_file(scratch//'/folder', text, error)
       call check_error(error, scratch//'/folder: ', 'folder')
       call read_text_file('', text, error)
@@ -225,12 +228,125 @@ contains
       call check_csv('a,b'//lf//'1,2"3"'//lf, ': line 2: cell 2: a double quote inside')
       call check_csv('a,b'//lf//'1,"2"3'//lf, ': line 2: cell 2: text after the closing double quote')
       call check_csv('a,,b'//lf//'1,2,3'//lf, ': line 1: column 2 has no name')
-      call check_csv('a,b,'//lf, ': line 1: column 3 has no name')
+      call check_csv('a,b'//lf//'1,5,2,25'//lf, ': line 2: 4 cells: must be 2 as in the header (columns separated by '// &
+         & 'commas need decimal points)')
+      call check_csv('a,,b,'//lf, ': line 1: column 2 has no name')
+      call check_csv('a,b,'//lf//'1,2,3'//lf, ': line 2: cell 3 = ''3'': its column has no name')
       call check_csv('# x'//lf//'a,b,A'//lf, ': line 2: column ''A'' stands there twice')
-      call check_csv('a;b'//lf//'1;2'//lf, ': line 1: header ''a;b'': columns must be separated by commas')
       call check_csv('', ': the file is empty')
       call check_csv('# only a remark'//lf, ': no header')
    end subroutine test_csv_errors
+
+   !> Tables as spreadsheets write them
+   subroutine test_spreadsheets()
+      character(len=*), parameter :: title = ': read with line 1 is a title', semicolons = 'columns separated by semicolons'
+
+      call suite('spreadsheets')
+      call check_numbers('a,b'//lf//'1.5,2'//lf, [1.5_wp, 2.0_wp], '')
+      call check_numbers('a;b'//lf//'1,5;2'//lf, [1.5_wp, 2.0_wp], ': read with '//semicolons//', decimal commas')
+      call check_numbers('a;b'//lf//'1.5;2'//lf, [1.5_wp, 2.0_wp], ': read with '//semicolons)
+      call check_numbers('a'//tab//'b'//lf//'1,5'//tab//'2'//lf, [1.5_wp, 2.0_wp], &
+         & ': read with columns separated by tabs, decimal commas')
+      call check_numbers(achar(239)//achar(187)//achar(191)//'"a";b;;'//cr//lf//'1,5;"2";;'//cr//lf//';;;'//cr//lf// &
+         & ' ; ;;'//cr//lf, [1.5_wp, 2.0_wp], ': read with '//semicolons//', decimal commas')
+      call check_numbers('a,b'//lf//',,'//lf//'1.5,2'//lf//','//lf, [1.5_wp, 2.0_wp], '')
+      call check_numbers('Walls of 2024'//lf//'a,b'//lf//'1.5,2'//lf, [1.5_wp, 2.0_wp], title)
+      call check_numbers('Walls, 2024;'//lf//'a;b'//lf//'1,5;2'//lf, [1.5_wp, 2.0_wp], &
+         & ': read with '//semicolons//', decimal commas, line 1 is a title')
+      call check_numbers('# remark'//lf//'Walls, 2024'//lf//lf//'a;b'//lf//'1,5;2'//lf, [1.5_wp, 2.0_wp], &
+         & ': read with '//semicolons//', decimal commas, line 2 is a title')
+      ! Thousands or decimals? Other numbers of the table tell, or the number is refused
+      call check_numbers('a;b'//lf//'1,800;0,25'//lf, [1.8_wp, 0.25_wp], ': read with '//semicolons//', decimal commas')
+      call check_numbers('a;b'//lf//'1.800;0.25'//lf, [1.8_wp, 0.25_wp], ': read with '//semicolons)
+      call check_no_numbers('a;b'//lf//'1.800;2'//lf, 'a = ''1.800'': may be thousands or decimals')
+      call check_no_numbers('a;b'//lf//'1,800;2'//lf, 'a = ''1,800'': may be thousands or decimals')
+      call check_no_numbers('a;b'//lf//'1.800;0,25'//lf, 'a = ''1.800'': must be a number, with a decimal comma as')
+      call check_no_numbers('a;b'//lf//'1.800,5;1'//lf, 'a = ''1.800,5'': must be a number, with a decimal comma as')
+      call check_no_numbers('a;b'//lf//'1.5;1'//lf//'1,5;2'//lf, 'a = ''1.5'': must be a number, with a decimal comma as')
+      call check_no_numbers('a,b'//lf//'"1,5",2'//lf, 'a = ''1,5'': must be a number, with a decimal point')
+   end subroutine test_spreadsheets
+
+   !> A table of two numbers, and how it was read
+   subroutine check_numbers(content, want, note)
+      character(len=*), intent(in) :: content, note
+      real(wp), intent(in) :: want(2)
+      type(csv_reader_type) :: table
+      type(error_type), allocatable :: error
+      real(wp) :: value
+      integer :: i
+      logical :: found
+
+      call write_file('numbers.csv', content)
+      call table%open(scratch//'/numbers.csv', error)
+      if (.not. allocated(error)) call table%find_decimal_mark([1, 2], error)
+      if (.not. allocated(error)) call table%next(found, error)
+      call check_ok(error, 'table '//content)
+      if (allocated(error)) return
+      do i = 1, 2
+         call table%get_real(i, value, error)
+         call check_ok(error, 'number in '//content)
+         call check_close(value, want(i), 0.0_wp, 'number in '//content)
+      end do
+      if (len(note) == 0) then
+         call check_text(table%note(), '', 'no note on '//content)
+      else
+         call check_text(table%note(), scratch//'/numbers.csv'//note, 'note on '//content)
+      end if
+      call table%next(found, error)
+      call check_ok(error, 'end')
+      call check(.not. found, 'one row in '//content)
+   end subroutine check_numbers
+
+   !> A table whose first number is refused
+   subroutine check_no_numbers(content, part)
+      character(len=*), intent(in) :: content, part
+      type(csv_reader_type) :: table
+      type(error_type), allocatable :: error
+      real(wp) :: value
+      logical :: found
+
+      call write_file('numbers.csv', content)
+      call table%open(scratch//'/numbers.csv', error)
+      if (.not. allocated(error)) call table%find_decimal_mark([1, 2], error)
+      if (.not. allocated(error)) call table%next(found, error)
+      call check_ok(error, 'table '//content)
+      if (allocated(error)) return
+      call table%get_real(1, value, error)
+      call check_error(error, part, 'number in '//content)
+      call table%close()
+   end subroutine check_no_numbers
+
+   !> What is UTF-8, and what is not
+   subroutine test_encodings()
+      character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
+      integer, parameter :: right(4, 5) = reshape([97, 98, 99, 100, 195, 160, 97, 98, 226, 130, 172, 97, &
+         & 240, 159, 143, 155, 238, 128, 128, 97], [4, 5])
+      ! Windows-1252, an overlong form, a surrogate, beyond U+10FFFF, a form that is cut off
+      integer, parameter :: wrong(4, 5) = reshape([97, 224, 98, 99, 192, 175, 97, 98, 237, 160, 128, 97, &
+         & 244, 144, 128, 128, 97, 98, 226, 130], [4, 5])
+      integer :: i
+
+      call suite('encodings')
+      do i = 1, size(right, 2)
+         call check(is_utf8(bytes(right(:, i))), 'UTF-8')
+         call check(.not. is_utf8(bytes(wrong(:, i))), 'not UTF-8')
+      end do
+      call check_csv('a,b'//lf//'1,2'//lf//'x'//achar(224)//',y'//achar(224)//lf//achar(224)//',1'//lf, &
+         & ': line 3: is not UTF-8 (Windows-1252?)'//remedy)
+      call check_csv(achar(255)//achar(254)//'a'//achar(0)//','//achar(0)//'b'//achar(0)//lf//achar(0), &
+         & ': line 1: is UTF-16, or no text'//remedy)
+   end subroutine test_encodings
+
+   !> A text of bytes
+   pure function bytes(codes) result(text)
+      integer, intent(in) :: codes(:)
+      character(len=size(codes)) :: text
+      integer :: i
+
+      do i = 1, size(codes)
+         text(i:i) = achar(codes(i))
+      end do
+   end function bytes
 
    !> A table with an error
    subroutine check_csv(content, part)
@@ -333,7 +449,14 @@ contains
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'0.02,1.x'//lf, ': line 3: value ''1.x'': must be a number')
       call check_bad_file('0,0'//lf//'0.01,1'//lf//'nan,1'//lf, ': line 3: value ''nan'': must be a number')
       call check_bad_file('t,a'//lf//'0,1'//lf, ': line 2: 1 sample: a record needs at least two')
-      call check_bad_file('0,005;0,12'//lf//'0,010;0,13'//lf, ': the format is not known')
+      ! Decimal commas, where they can be nothing else, and rows of empty cells
+      call check_file('commas.txt', 't; a'//cr//lf//'0;0'//cr//lf//'0,01;0,1'//cr//lf//'0,02;-0,25'//cr//lf// &
+         & '0,03;0,001'//cr//lf//'0,04;0,05'//cr//lf//';'//cr//lf, .true.)
+      call check_file('commas_tab.txt', '0,00'//tab//'0,0'//lf//'0,01'//tab//'0,1'//lf//'0,02'//tab//'-0,25'//lf// &
+         & '0,03'//tab//'0,001'//lf//'0,04'//tab//'0,05'//lf, .true.)
+      call check_bad_file('0;0'//lf//'0,01;1.5'//lf//'0,02;2'//lf, ': line 2: value ''0,01'': must be a number')
+      call check_bad_file('0,5'//lf//'0,25'//lf//'-0,5'//lf, &
+         & ': line 2: all times are 0: must increase (columns separated by commas need decimal points)')
    end subroutine test_two_columns
 
    !> Times as programs print them: rounded steps of 1/256 s, 5 digits beyond 100 s, single precision
@@ -561,6 +684,9 @@ contains
          & 'bad.csv: line 3: '//scratch//'/folder/bad.txt: line 3: value ''x'': must be a number')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,"0,01",g'//lf, &
          & 'bad.csv: line 2: dt_s = ''0,01'': must be a number')
+      call check_catalogue('file;dt_s;units'//lf//'sub/a.txt;0,010;g'//lf//';;'//lf, '')
+      call check_catalogue('file,dt_s,units'//lf//'sub\a.txt,.01,g'//lf, 'bad.csv: line 2: '//scratch// &
+         & '/folder/sub\a.txt: no such file: folders must be separated by /, not \')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,0,g'//lf, 'a.txt: dt = 0: must be positive')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,,g'//lf, 'a.txt: the file does not state its time step')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,'//lf, 'a.txt: the file does not state its units')

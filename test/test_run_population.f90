@@ -4,7 +4,7 @@ program test_run_population
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_error, check_ok, check_text, finish, suite
    use dondolo_case, only : case_type, read_case
-   use dondolo_counts, only : counts_type
+   use dondolo_counts, only : counts_type, pack_counts, shape_type, unpack_counts
    use dondolo_counts_file, only : append_counts, counts_file_type, create_counts, inspect_counts
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
@@ -12,11 +12,12 @@ program test_run_population
    use dondolo_population, only : member_type, read_population
    use dondolo_reports, only : write_reports
    use dondolo_results, only : results_type
-   use dondolo_run_case, only : run_case
+   use dondolo_run_case, only : plan_case, run_case
    use dondolo_run_population, only : counts_path, merge_population
    use dondolo_run_rows, only : run_rows
    use dondolo_system, only : remove_file
    use dondolo_text, only : to_text
+   use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
    implicit none
 
@@ -476,7 +477,36 @@ contains
          end do
       end do
       call remove_file(path)
+      call test_sizes()
    end subroutine test_damaged
+
+   !> Numbers that are too few, or are of another shape, are seen before they are read
+   subroutine test_sizes()
+      type(counts_type) :: row
+      type(counts_type), allocatable :: rows(:)
+      type(work_type) :: work
+      character(len=:), allocatable :: bytes
+      logical :: ok
+      integer :: i
+
+      row%histories = 2
+      allocate (row%reached(3, 1), source=1)
+      allocate (row%curve(1), row%response(2, 3))
+      bytes = pack_counts([row, row], work)
+      call unpack_counts(bytes, 2, shape_type(3, 1, .true.), rows, work, ok)
+      call check(ok, 'all numbers of two rows')
+      if (ok) call check(size(rows(2)%response) == 6, 'and their histories')
+      do i = 0, len(bytes) - 1
+         call unpack_counts(bytes(:i), 2, shape_type(3, 1, .true.), rows, work, ok)
+         call check(.not. ok, to_text(i)//' bytes only')
+      end do
+      call unpack_counts(bytes, 1, shape_type(3, 1, .true.), rows, work, ok)
+      call check(.not. ok, 'another number of rows')
+      call unpack_counts(bytes, 2, shape_type(3, 1, .false.), rows, work, ok)
+      call check(.not. ok, 'no histories')
+      call unpack_counts(bytes, 2, shape_type(1, 2, .true.), rows, work, ok)
+      call check(.not. ok, 'levels and thresholds exchanged')
+   end subroutine test_sizes
 
    !> A file that another run writes, or that has another name than its rows, and a table that changes during the run
    subroutine test_meddled()
@@ -486,6 +516,7 @@ contains
       type(counts_type), allocatable :: rows(:)
       type(member_type), allocatable :: members(:)
       type(work_type) :: work
+      type(scale_warning_type) :: scales
       type(error_type), allocatable :: error
       character(len=:), allocatable :: whole, path
       logical :: exists
@@ -526,6 +557,10 @@ contains
       if (allocated(error)) call check(error%stat == 1, 'a failure')
       inquire (file=path, exist=exists)
       call check(.not. exists, 'its counts are removed')
+
+      call write_file('walls.csv', population(:index(population, 'd,two_block') - 1))
+      call plan_case(case, work, scales, error)
+      call check_error(error, 'walls.csv: has changed while it was read', 'a table that is shorter than it was is planned')
       call write_file('walls.csv', population)
    end subroutine test_meddled
 
@@ -548,6 +583,12 @@ contains
       call refuse(case, other, elsewhere, 'a level')
       other%stripes%thresholds(1) = 0.3_wp
       call refuse(case, other, elsewhere, 'a threshold')
+      other%stripes%levels = case%stripes%levels(:5)
+      other%stripes%thresholds = [case%stripes%levels(6), case%stripes%thresholds]
+      call refuse(case, other, elsewhere, 'a level as a threshold')
+      other%stripes%levels = [case%stripes%levels, case%stripes%thresholds(1)]
+      other%stripes%thresholds = case%stripes%thresholds(2:)
+      call refuse(case, other, elsewhere, 'a threshold as a level')
       other%stripes%scaling%name = 'pgv'
       call refuse(case, other, elsewhere, 'the intensity measure')
       other%records_input%polarity = 'reversed'

@@ -16,6 +16,7 @@ program test_wall
    call test_thin_two_block()
    call test_energy()
    call test_overburden()
+   call test_bearing()
    call test_restitution_models()
    call test_wrong_input()
    call finish()
@@ -229,6 +230,47 @@ contains
       wall = made(input)
       call check_terms(wall, 0.0_wp, [1584.5625_wp, -717.5390625_wp, 3310.875_wp, 1215.0_wp])
    end subroutine test_overburden
+
+   !> A load by its bearing is the load of a wall that folds outwards
+   subroutine test_bearing()
+      type(wall_input_type) :: input
+      type(wall_type) :: wall
+
+      call suite('bearing')
+      input = strip(3.0_wp, 0.25_wp, 0.6_wp)
+      input%overburden = 8.0e3_wp
+      input%bearing = 'inner'
+      input%bearing_distance = 0.06_wp
+      wall = made(input)
+      call check_close(wall%input%eccentricity, -0.065_wp, tight, 'inner face')
+      call check(.not. (allocated(wall%input%bearing) .or. allocated(wall%input%bearing_distance)), 'one form is kept')
+      input%bearing = 'outer'
+      wall = made(input)
+      call check_close(wall%input%eccentricity, 0.065_wp, tight, 'outer face')
+      input%bearing_distance = 0.0_wp
+      wall = made(input)
+      call check_close(wall%mechanism%capacity, wall%alpha, 0.0_wp, 'on the outer edge: on the hinge')
+      input%eccentricity = 0.0_wp
+      call refuse(input, 'eccentricity = 0: give either eccentricity or bearing and bearing_distance')
+      deallocate (input%eccentricity)
+      input%bearing_distance = 0.3_wp
+      call refuse(input, 'bearing_distance = 0.3: must lie between 0 and 0.25 (the thickness)')
+      input%bearing = 'inside'
+      call refuse(input, 'bearing = ''inside'': must be one of ''inner'', ''outer'', ''centre''')
+      input%bearing = 'centre'
+      call refuse(input, 'bearing_distance = 0.3: not with bearing = ''centre'', measure it from a face')
+      deallocate (input%bearing)
+      call refuse(input, 'bearing_distance = 0.3: only with bearing = ''inner'' or ''outer''')
+      deallocate (input%bearing_distance)
+      input%bearing = 'outer'
+      call refuse(input, 'bearing_distance: must be given with bearing = ''outer''')
+      input%bearing = 'centre'
+      wall = made(input)
+      call check_close(wall%input%eccentricity, 0.0_wp, 0.0_wp, 'centreline')
+      input = parapet()
+      input%bearing = 'centre'
+      call refuse(input, 'bearing = ''centre'': only for mechanism = ''two_block''')
+   end subroutine test_bearing
 
    subroutine test_restitution_models()
       type(wall_input_type) :: input

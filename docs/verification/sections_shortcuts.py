@@ -208,6 +208,9 @@ def tests():
     return [
         "## 7. Verified by tests",
         "",
-        *paragraph("`./run test` runs them all."),
+        *paragraph(
+            "`./run test` runs them all. `./run mutations` makes formulas of the statistics wrong, one at a time, and "
+            "checks that a test catches each ([mutations](../test/mutations.py))."
+        ),
         *table(["what", "against", "where"], rows),
     ]

@@ -1,10 +1,14 @@
 """dondolo: fragility of masonry walls that rock and overturn in earthquakes.
 
 >>> import dondolo as dd
->>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
->>> records = dd.read_catalogue("records.csv")                         # doctest: +SKIP
->>> stripes = dd.multiple_stripe(wall, records, levels=[0.1, 0.2, 0.3])  # doctest: +SKIP
->>> curve = stripes.fit()                                               # doctest: +SKIP
+>>> wall = dd.OneSidedWall(height=1.5, thickness=0.25)
+>>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+>>> stripes = dd.multiple_stripe(wall, records, levels=[0.6, 0.8, 1.0], progress=False)
+>>> curve = stripes.fit()
+>>> curve.status
+'ok'
+
+`dondolo.read_catalogue` reads recorded accelerograms.
 """
 
 from dondolo._binding import build_variant
@@ -16,7 +20,7 @@ from dondolo.comparison import Comparison, compare
 from dondolo.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.drawing import animate_history, plot_wall
 from dondolo.efficiency import IntensityComparison, compare_intensities
-from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
 from dondolo.fragility import Fragility, fit_fragility
 from dondolo.hazard import HazardCurve
 from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
@@ -75,6 +79,7 @@ __all__ = [
     "Interrupted",
     "Logistic",
     "Lognormal",
+    "MissingFileError",
     "Normal",
     "OneSidedWall",
     "OverturningSpectrum",

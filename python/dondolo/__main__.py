@@ -30,16 +30,16 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except OSError as error:
-        # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        print(f"dondolo: standard output: cannot be written: {error.strerror}", file=sys.stderr)
-        return 1
     except dd.InputError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         return 2
     except dd.DondoloError as error:
         print(f"dondolo: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        print(f"dondolo: standard output: cannot be written: {error.strerror}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("dondolo: interrupted", file=sys.stderr)
@@ -77,8 +77,8 @@ def _parser() -> argparse.ArgumentParser:
     report.add_argument("-o", "--output", help="the report; PREFIX_report.html if left out", metavar="FILE")
     report.add_argument(
         "--hazard",
-        help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, whose head "
-        "names the intensity measure, and annual_frequency",
+        help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, titled with "
+        "their intensity measure or 'ag (g)', and annual_frequency, return_period, or poe and investigation_time",
         metavar="FILE",
     )
     report.set_defaults(run=_report)
@@ -104,12 +104,14 @@ def _parser() -> argparse.ArgumentParser:
         "catalogue",
         help="make a catalogue of a folder of accelerogram files",
         description="Write a catalogue of all accelerogram files in a folder and the folders in it, one row a "
-        "channel. What cannot be read is named on stderr, with the reason.",
+        "channel. What cannot be read is named on stderr, with the reason, and so are vertical components, which are "
+        "left out.",
     )
     catalogue.add_argument("folder", help="where the files are", metavar="FOLDER")
     catalogue.add_argument("-o", "--output", help="the catalogue; FOLDER/catalogue.csv if left out", metavar="FILE")
     catalogue.add_argument("--dt", type=float, help="time step for the files that do not state it", metavar="SECONDS")
     catalogue.add_argument("--units", help="units for the files that do not state them, for example g", metavar="UNITS")
+    catalogue.add_argument("--vertical", action="store_true", help="keep vertical components")
     catalogue.set_defaults(run=_catalogue)
     return parser
 
@@ -121,7 +123,7 @@ def _records(options: argparse.Namespace) -> None:
 
 def _catalogue(options: argparse.Namespace) -> None:
     """Make a catalogue of a folder."""
-    made = build_catalogue(options.folder, options.output, options.dt, options.units)
+    made = build_catalogue(options.folder, options.output, options.dt, options.units, options.vertical)
     for problem in made.problems:
         print(f"dondolo: left out: {problem}", file=sys.stderr)
     print(f"written: {made.path} ({made.records} records)")

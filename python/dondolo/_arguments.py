@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import unicodedata
 from collections.abc import Iterable
 from typing import Any
 
@@ -12,6 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from dondolo.errors import InputError
 
 FloatArray = NDArray[np.float64]
+
+# Control characters (Cc), and what ends a line in Unicode: they could forge lines of a result file
+_UNPRINTED = ("Cc", "Zl", "Zp")
 
 
 def as_number(name: str, value: Any) -> float:
@@ -70,8 +74,8 @@ def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a word into the bytes Fortran takes."""
     if not isinstance(value, str):
         raise InputError(f"{name} = {value!r}: must be a text")
-    if any(character in value for character in "\n\r\0"):
-        raise InputError(f"{name}: must stand on one line")
+    if not value.isprintable() and any(unicodedata.category(character) in _UNPRINTED for character in value):
+        raise InputError(f"{name}: must stand on one line, without control characters")
     try:
         return value.encode()
     except UnicodeEncodeError:

@@ -9,8 +9,10 @@ from __future__ import annotations
 import functools
 import os
 import sys
+import threading
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo import _core
 from dondolo._arguments import FloatArray, as_array, as_number, as_path, as_text
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
 _PACKAGE = Path(__file__).parent
 
@@ -169,9 +171,16 @@ def build_variant() -> str:
     -------
     str
         "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
-        DONDOLO_VARIANT names, if it can; "native" in a build for one processor. Variants differ by rounding only.
+        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+    Raises
+    ------
+    InputError
+        DONDOLO_VARIANT names none that this build and this processor have.
     """
-    return _core.variant().decode().strip()
+    name, stat, message = _core.variant()
+    check(stat, message)
+    return name.decode().strip()
 
 
 def check(stat: int, message: bytes) -> None:
@@ -179,7 +188,24 @@ def check(stat: int, message: bytes) -> None:
     if stat == 0:
         return
     sentence = message.decode("utf-8", "replace").strip()
-    raise InputError(sentence) if stat == 2 else DondoloError(sentence)
+    raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _core.listen()
+    try:
+        yield
+    finally:
+        _core.end_listening()
+
+
+# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
+os.register_at_fork(after_in_child=_core.work_alone)
 
 
 def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:
@@ -238,14 +264,17 @@ def flat_wall(name: str, mechanism: str, restitution: str, numbers: Sequence[flo
 
 
 def describe_wall(
-    name: str | None, mechanism: str, restitution: str | None, numbers: Sequence[Any], gravity: Any
+    name: str | None,
+    mechanism: str,
+    restitution: str | None,
+    numbers: Mapping[str, Any],
+    gravity: Any,
+    bearing: str | None = None,
 ) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
-    values = {
-        what: [as_number(what, value)] for what, value in zip(WALL_NUMBERS, numbers, strict=True) if value is not None
-    }
+    values = {what: [as_number(what, value)] for what, value in numbers.items() if value is not None}
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    return describe_walls([name], [mechanism], [restitution], values, [pull])[0]
+    return describe_walls([name], [mechanism], [restitution], values, [pull], [bearing])[0]
 
 
 def describe_walls(
@@ -254,11 +283,19 @@ def describe_walls(
     restitutions: Sequence[str | None],
     numbers: Mapping[str, ArrayLike],
     gravity: ArrayLike,
+    bearings: Sequence[str | None],
 ) -> list[WallData]:
-    """The same for many walls; numbers that are not there get their defaults."""
+    """The same for many walls; numbers that are not there get their defaults.
+
+    A bearing and the number bearing_distance become the eccentricity.
+    """
     count = len(names)
+    distances, measured = np.zeros(count), np.zeros(count, dtype=np.int32)
     values, given = np.zeros((count, len(WALL_NUMBERS))), np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
     for what, column in numbers.items():
+        if what == "bearing_distance":
+            distances[:], measured[:] = column, 1
+            continue
         values[:, WALL_NUMBERS.index(what)] = column
         given[:, WALL_NUMBERS.index(what)] = 1
     texts = b"\n".join(
@@ -266,7 +303,9 @@ def describe_walls(
         for wall in zip(names, mechanisms, restitutions, strict=True)
         for what, text in zip(("name", "mechanism", "restitution"), wall, strict=True)
     )
-    return unpack_walls(receive(*_core.describe_walls(texts, values.T, given.T, gravity)), count)
+    places = b"\n".join(b"" if text is None else as_text("bearing", text) for text in bearings)
+    parcel = receive(*_core.describe_walls(texts, values.T, given.T, gravity, places, distances, measured))
+    return unpack_walls(parcel, count)
 
 
 def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
@@ -325,6 +364,11 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
     return records
 
 
+def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:
+    """Line of a parcel after its records."""
+    return lines + count + 2 * int(parcel.integers[integers + count : integers + 2 * count].sum())
+
+
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
     """Several walls, one after the other."""
     return FlatWall(
@@ -350,12 +394,25 @@ def read_records(
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
     parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
-    return unpack_records(parcel, len(parcel.integers) // 2)
+    count = len(parcel.integers) // 2
+    warn(parcel.lines[records_end(parcel, count) :])
+    return unpack_records(parcel, count)
+
+
+def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
+    """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
+    parcel = receive(*_core.read_number_table(as_path(path)))
+    columns, rows = (int(count) for count in parcel.integers)
+    warn(parcel.lines[columns:])
+    return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
 
 
 def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
-    return receive(*_core.catalogue_table(as_path(path), constants().gravity)).lines
+    parcel = receive(*_core.catalogue_table(as_path(path), constants().gravity))
+    lines = int(parcel.integers[0])
+    warn(parcel.lines[lines:])
+    return parcel.lines[:lines]
 
 
 def read_walls(
@@ -364,9 +421,10 @@ def read_walls(
     """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.read_walls(as_path(path), pull))
-    count = len(parcel.lines) // 4
+    count = len(parcel.integers) // _WALL_INTEGERS
     weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
-    return unpack_walls(parcel, count), weights, parcel.lines[3 * count :], p_occ
+    warn(parcel.lines[4 * count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[3 * count : 4 * count], p_occ
 
 
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:
@@ -403,16 +461,12 @@ def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
-    """Fit many curves in one call: collapses and histories are (curves, levels).
-
-    A fit that fails has the status '' and raises only where it is the only one.
-    """
+    """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
     curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
-    if stat == 2 or len(codes) == 1:
-        check(stat, message)
-    names = ("", *constants().statuses)
-    return curves.T, [names[code] for code in codes]
+    check(stat, message)
+    names = constants().statuses
+    return curves.T, [names[code - 1] for code in codes]
 
 
 def fit_walls(
@@ -459,6 +513,12 @@ def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, cu
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
     return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+
+
+def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[str]:
+    """What the executable would warn of, of a wall and a record, before it runs one motion."""
+    handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
+    return receive(handle, *rest).lines if handle else []
 
 
 def warnings_of_errors(

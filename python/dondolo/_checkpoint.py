@@ -119,7 +119,7 @@ class Checkpoint:
             raise InputError(f"{self._name}: is a database, but no checkpoint of dondolo")
         if layout != _LAYOUT:
             raise InputError(f"{self._name}: was written by another version of dondolo")
-        known = dict(self._file.execute("SELECT what, value FROM study"))
+        known = {str(what): str(value) for what, value in self._file.execute("SELECT what, value FROM study")}
         differing = [
             _difference(what, known.get(what, ""), study.get(what, ""))
             for what in dict.fromkeys([*study, *known])
@@ -141,7 +141,9 @@ class Checkpoint:
             for first, rows, work, flags, checksum in self._file.execute(
                 "SELECT first, rows, work, flags, checksum FROM block ORDER BY first"
             ):
-                fits = end <= first and 1 <= rows <= self._rows - first
+                # SQLite keeps a value of any type in any column.
+                typed = isinstance(rows, int) and isinstance(work, str) and isinstance(flags, bytes)
+                fits = typed and end <= first and 1 <= rows <= self._rows - first
                 if not fits or _checksum(first, rows, work, flags) != checksum:
                     raise InputError(f"{self._name}: is damaged (the block of row {first + 1}): delete it")
                 end = first + rows

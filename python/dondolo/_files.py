@@ -80,3 +80,22 @@ def check_replaced(path: Any, mark: str, kind: str) -> None:
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
     if mark not in start:
         raise InputError(f"{target}: exists, and is no {kind} of dondolo")
+
+
+def remove_old(path: Path, mark: str) -> None:
+    """Remove a result of an earlier run that a new one does not replace; what begins otherwise stays.
+
+    Parameters
+    ----------
+    path : Path
+        The file; nothing happens where there is none.
+    mark : str
+        What every file of the kind begins with.
+    """
+    with suppress(OSError):
+        if not path.is_file():
+            return
+        with path.open("rb") as file:
+            begin = file.read(len(mark))
+        if begin == mark.encode():
+            path.unlink()

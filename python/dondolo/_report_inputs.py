@@ -64,7 +64,8 @@ def walls_chapter(run: Run) -> Markup:
         wall = walls[0]
         names = {
             "height": "m", "thickness": "m", "density": "kg/m3", "hinge": "of the height", "overburden": "N/m",
-            "eccentricity": "m", "restitution": "model", "restitution_value": "", "restitution_factor": "",
+            "eccentricity": "m, to the outer side", "restitution": "model", "restitution_value": "",
+            "restitution_factor": "",
         }  # fmt: skip
         given = [(name.replace("_", " "), getattr(wall, name, None), unit) for name, unit in names.items()]
         pairs = [

@@ -7,7 +7,7 @@ import warnings
 from typing import Any
 
 from dondolo import _binding
-from dondolo._page import figure, joined, number, paragraph, percent, table
+from dondolo._page import Markup, figure, joined, number, paragraph, percent, table
 from dondolo._report_typology import combined
 from dondolo._report_words import Chapter, state_name
 from dondolo.errors import DondoloWarning
@@ -56,15 +56,11 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         )
     columns: dict[Any, Any] = {
         "curve": [name for name, _ in cases],
-        "annual frequency from": [number(one.bounds[0], 3) for one in risks],
-        "to [1/year]": [number(one.bounds[1], 3) for one in risks],
+        "annual frequency [1/year]": [_ends(*one.bounds) for one in risks],
     }
     if not population:
-        columns["return period from"] = [number(one.return_period_bounds[0], 3) for one in risks]
-        columns["to [years]"] = [number(one.return_period_bounds[1], 3) for one in risks]
-    chances = [one.probability_bounds(_YEARS) for one in risks]
-    columns[f"probability in {_YEARS:g} years from"] = [number(low, 3) for low, _ in chances]
-    columns["to"] = [number(high, 3) for _, high in chances]
+        columns["return period [years]"] = [_ends(*one.return_period_bounds) for one in risks]
+    columns[f"probability in {_YEARS:g} years"] = [_ends(*one.probability_bounds(_YEARS)) for one in risks]
     edges = hazard.im_levels
     parts = risk.deaggregate(edges)
     unit = _binding.unit_of(hazard.im) or "-"
@@ -99,7 +95,11 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
             "Above, the hazard of the site; in the middle, the fragility; below, which intensities the frequency of"
             " collapse comes from.",
         ),
-        table("Mean annual frequencies.", columns),
+        table(
+            "Mean annual frequencies. Two numbers are bounds for what the hazard may be beyond its levels, not a"
+            " confidence interval: the uncertainty of the curves and of the hazard is not included.",
+            columns,
+        ),
         table(
             f"Deaggregation of the frequency of collapse{', whole population' if population else ''}: what intensities"
             " between the levels of the hazard contribute.",
@@ -116,3 +116,9 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
         ),
     )
     return ("risk", "Annual frequency of collapse", content), found
+
+
+def _ends(low: float, high: float) -> Markup:
+    """Both bounds, or one number where they are the same to the digits shown."""
+    ends = number(low, 3), number(high, 3)
+    return ends[0] if ends[0] == ends[1] else joined(ends[0], " to ", ends[1])

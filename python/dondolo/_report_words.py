@@ -28,6 +28,7 @@ STATUSES = {
     "separated": "no overlap between levels that reach the state and levels that do not: any steep curve fits",
     "single_level": "one level only: no curve",
     "decreasing": "the state does not become more frequent with the level: no curve",
+    "not_converged": "the maximum of the likelihood was not found: no curve",
 }
 LOGNORMAL = (
     "The curve is P(C | IM = x) = Φ(ln(x/θ)/β), Φ the standard normal distribution: θ is the median, the level at which"

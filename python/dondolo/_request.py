@@ -1,11 +1,14 @@
 """Long work in blocks: many histories of one wall or of many, each block one call of Fortran.
 
-A block takes less than half a second, so that Ctrl-C is answered soon and what is finished is kept.
+A block takes less than half a second, so that little is lost when Ctrl-C breaks it off and what is finished is kept.
 """
 
 from __future__ import annotations
 
+import builtins
+import functools
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -72,9 +75,9 @@ class Request:
     settings: FloatArray
     threads: int
 
-    def _arguments(self) -> tuple[Any, ...]:
+    def _arguments(self, levels: slice = slice(None)) -> tuple[Any, ...]:
         words = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        return (*self.records, self.values, self.levels, *words, self.settings, self.threads)
+        return (*self.records, self.values, self.levels[levels], *words, self.settings, self.threads)
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
@@ -98,16 +101,19 @@ class Request:
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
         flats = [wall._flat for wall in self.walls]
-        arguments = self._arguments()
         works: list[Work] = []
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
             one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
-            before = int(ends[one - 1]) if one else 0
-            *rows, counts, stat, message = _core.run_block(
-                *_binding.join_walls(flats[one : last + 1]), *arguments, done - before + 1, count
-            )
+            first = done - (int(ends[one - 1]) if one else 0)
+            # Of one wall only the levels that it touches: each block plans all that it is given.
+            low = first // int(histories[one]) if one == last else 0
+            high = (first + count - 1) // int(histories[one]) + 1 if one == last else None
+            first -= low * int(histories[one])
+            arguments = (*_binding.join_walls(flats[one : last + 1]), *self._arguments(slice(low, high)))
+            with _binding.stoppable():
+                *rows, counts, stat, message = _core.run_block(*arguments, first + 1, count)
             _binding.check(stat, message)
             here = slice(done, done + count)
             edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
@@ -191,8 +197,26 @@ def check_threads(threads: int) -> int:
 
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
-    """A progress bar on stderr; silent where that is no terminal. `initial` are done already."""
-    from tqdm import tqdm
+    """A progress bar, hidden where stderr is neither a terminal nor a notebook's. `initial` are done already."""
+    # None: hidden unless stderr is a terminal. A notebook's is none, and shows the bar all the same.
+    hidden = False if hasattr(builtins, "get_ipython") else None
+    return _bar()(
+        total=total,
+        desc=label,
+        unit=f" {unit}",
+        unit_scale=True,
+        initial=initial,
+        disable=hidden if wanted else True,
+        leave=False,
+    )
 
-    hidden = None if wanted else True
-    return tqdm(total=total, desc=label, unit=f" {unit}", unit_scale=True, initial=initial, disable=hidden, leave=False)
+
+@functools.cache
+def _bar() -> Any:
+    """The kind of bar that fits: a widget in a notebook, plain text elsewhere and without ipywidgets."""
+    from tqdm import TqdmWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TqdmWarning)
+        from tqdm.auto import tqdm
+    return tqdm

@@ -67,7 +67,7 @@ class Case:
         Parameters
         ----------
         progress : bool
-            Show a progress bar where stderr is a terminal.
+            Show a progress bar in a terminal or notebook.
 
         Returns
         -------
@@ -136,6 +136,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
     groups = parcel.lines[lines : lines + walls]
     motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
+    _binding.warn(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
     return Case(
         task,
         title,
@@ -165,7 +166,7 @@ def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
     path : path
         A namelist file; paths in it are relative to it.
     progress : bool
-        Show a progress bar where stderr is a terminal.
+        Show a progress bar in a terminal or notebook.
 
     Returns
     -------

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dondolo import tables
+from dondolo._directions import is_search_result, other_quantity, vertical_mark
 from dondolo._files import check_replaced
 from dondolo.errors import InputError
 from dondolo.records import Record, read_records
@@ -28,6 +29,7 @@ def build_catalogue(
     file: str | os.PathLike[str] | None = None,
     dt: float | None = None,
     units: str | None = None,
+    vertical: bool = False,
 ) -> Catalogue:
     """Write a catalogue of all accelerogram files in a folder and the folders in it, one row a channel.
 
@@ -40,11 +42,14 @@ def build_catalogue(
         yet.
     dt, units : optional
         Time step [s] and units for the files that do not state them.
+    vertical : bool
+        Keep vertical components, which are left out otherwise. They are recognised by component, channel and axis in
+        the metadata, else by the file's name: UP, UD, DWN, VERT, HNZ, HGZ, or V or Z at its end.
 
     Returns
     -------
     Catalogue
-        Its path, its number of records, and one line for each file that is left out, with the reason.
+        Its path, its number of records, and one line for each file or channel that is left out, with the reason.
 
     Raises
     ------
@@ -68,6 +73,8 @@ def build_catalogue(
         place = Path(os.path.relpath(path, target.parent)).as_posix()
         try:
             place.encode()
+            if is_search_result(path):
+                raise InputError(f"{path}: a list of search results of PEER, no accelerogram")
             records, given_units = _read(path, dt, units)
         except UnicodeEncodeError:
             problems.append(f"{path}: a name that UTF-8 does not know")
@@ -76,6 +83,14 @@ def build_catalogue(
             problems.append(str(error))
             continue
         for record in records:
+            quantity = other_quantity(record, path)
+            if quantity:
+                problems.append(f"{path}: no acceleration, by {quantity!r} in its name; it does not state its units")
+                continue
+            mark = "" if vertical else vertical_mark(record, path)
+            if mark:
+                problems.append(f"{path}: a vertical component, by its {mark}")
+                continue
             row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
             row += (record.metadata.get("units", given_units),)
             row += tuple(record.metadata.get(key, "") for key in _KEYS)

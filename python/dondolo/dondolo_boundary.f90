@@ -4,13 +4,15 @@
 !> returns its address and its sizes, and `take` copies its contents into arrays of these sizes and frees it.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_intptr_t, c_loc, c_ptr
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : add_place, error_type, raise_failure, raise_input
    use dondolo_fragility, only : fragility_type, status_names
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_lines, only : lines_type
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_memory, only : check_memory => check_room, raise_shortage
    use dondolo_population, only : member_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
+   use dondolo_response, only : response_type, trace_type
    use dondolo_response_spectrum, only : largest_period, smallest_period
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
@@ -19,11 +21,16 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum
-   public :: set_walls, set_records, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
+   public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum, check_room, &
+      & check_parcel, check_trace, check_interrupt
+   public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
    integer, parameter, public :: wall_numbers = 8
+
+   !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
+   real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
+      & bytes_of_sample = 64.0_c_double, bytes_of_history = 200.0_c_double
 
    !> Contents of unknown size on their way to Python
    type :: parcel_type
@@ -156,6 +163,17 @@ contains
       end do
    end function pack_lines
 
+   !> Append a note to the text of a parcel
+   subroutine pack_note(note, parcel)
+      !> The note; empty or not allocated: none
+      character(len=:), allocatable, intent(in) :: note
+      !> The parcel
+      type(parcel_type), intent(inout) :: parcel
+
+      if (.not. allocated(note)) return
+      if (len(note) > 0) parcel%text = parcel%text//note//new_line('a')
+   end subroutine pack_note
+
    !> Settings of the computation
    pure function as_solver(engine, settings) result(solver)
       !> Engine
@@ -172,6 +190,70 @@ contains
       solver%estimate_error = settings(4) > 0.0_c_double
       solver%collapses_only = settings(5) > 0.0_c_double
    end function as_solver
+
+   !> Check that there is room for what is worked on
+   subroutine check_room(error, walls, records, samples, histories, reals)
+      !> There is not
+      type(error_type), allocatable, intent(out) :: error
+      !> Numbers of walls, of records, of their samples, of histories, and of other reals
+      integer(c_int), intent(in), optional :: walls, records, samples
+      real(c_double), intent(in), optional :: histories, reals
+
+      real(c_double) :: bytes
+
+      bytes = 0.0_c_double
+      if (present(walls)) bytes = bytes + bytes_of_wall*real(walls, c_double)
+      if (present(records)) bytes = bytes + bytes_of_record*real(records, c_double)
+      if (present(samples)) bytes = bytes + bytes_of_sample*real(samples, c_double)
+      if (present(histories)) bytes = bytes + bytes_of_history*histories
+      if (present(reals)) bytes = bytes + real(storage_size(reals)/8, c_double)*reals
+      call check_memory(bytes, error)
+   end subroutine check_room
+
+   !> Check that there is room to send what was read
+   subroutine check_parcel(error, walls, records)
+      !> There is not
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of walls
+      integer, intent(in) :: walls
+      !> Records
+      type(record_type), intent(in) :: records(:)
+
+      real(c_double) :: samples
+      integer :: i
+
+      samples = sum([(real(size(records(i)%acceleration), c_double), i=1, size(records))])
+      call check_memory(bytes_of_wall*real(walls, c_double) + bytes_of_record*real(size(records), c_double) &
+         & + bytes_of_sample*samples, error)
+   end subroutine check_parcel
+
+   !> Check that there was room for a time history, and that there is some to send it
+   subroutine check_trace(trace, error)
+      !> The time history
+      type(trace_type), intent(in) :: trace
+      !> There was not, or is not
+      type(error_type), allocatable, intent(out) :: error
+
+      ! Six columns, twice
+      real(c_double), parameter :: bytes_of_row = 96.0_c_double
+
+      if (trace%lacks_memory) then
+         call raise_shortage(2.0_c_double*bytes_of_row*real(trace%rows, c_double), error)
+      else
+         call check_memory(bytes_of_row*real(trace%rows, c_double), error)
+      end if
+   end subroutine check_trace
+
+   !> Check that Ctrl-C did not break off what was computed
+   subroutine check_interrupt(error)
+      !> It did
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(c_int) :: interrupted
+
+      call look_for_interrupt(interrupted)
+      if (interrupted == 1) call raise_failure(error, 'interrupted')
+   end subroutine check_interrupt
 
    !> Check a number of threads
    subroutine check_threads(threads, error)
@@ -229,7 +311,7 @@ contains
    end subroutine check_rotations
 
    !> Make walls
-   subroutine set_walls(walls, texts, numbers, given, gravity, error)
+   subroutine set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
       !> The walls
       type(wall_type), intent(out) :: walls(:)
       !> Three lines a wall: name, mechanism, restitution; empty: not given
@@ -242,11 +324,19 @@ contains
       real(c_double), intent(in) :: gravity(:)
       !> The first thing that is wrong
       type(error_type), allocatable, intent(out) :: error
+      !> A line a wall: where its load bears; empty: not given
+      character(len=*), intent(in), optional :: bearings
+      !> Distance of the load from its face [m]
+      real(c_double), intent(in), optional :: distances(:)
+      !> 1 where that distance was given
+      integer(c_int), intent(in), optional :: measured(:)
 
       type(wall_input_type) :: input
-      integer :: i, at
+      character(len=:), allocatable :: bearing
+      integer :: i, at, line
 
       at = 1
+      line = 1
       do i = 1, size(walls)
          input = wall_input_type()
          call set_text(input%name)
@@ -260,6 +350,11 @@ contains
          call set_number(input%restitution_factor, 6)
          call set_number(input%overburden, 7)
          call set_number(input%eccentricity, 8)
+         if (present(bearings)) then
+            call next_line(bearings, line, bearing)
+            if (len(bearing) > 0) input%bearing = bearing
+            if (measured(i) /= 0) input%bearing_distance = distances(i)
+         end if
          call new_wall(walls(i), input, error, gravity(i))
          if (.not. allocated(error)) cycle
          if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')

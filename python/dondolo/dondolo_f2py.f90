@@ -3,8 +3,8 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
-! 0, or 1 and 2 as the exit codes of the executable. Procedures that compute release Python's lock (threadsafe); those that
-! make texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
+! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that make
+! texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
 subroutine constants(defaults, version, statuses)
@@ -30,13 +30,45 @@ subroutine constants(defaults, version, statuses)
 end subroutine constants
 
 ! Build variant that the engine lanes runs; the environment may change it from call to call
-subroutine variant(name)
-   use dondolo_lane_variants, only : build_variant
+subroutine variant(name, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_lane_variants, only : build_variant, check_variant
    implicit none
    character(len=32), intent(out) :: name
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(error_type), allocatable :: error
 
+   call check_variant(error)
    name = build_variant()
+   call report(error, stat, message)
 end subroutine variant
+
+! Listen to Ctrl-C while something is computed: the main thread alone may
+subroutine listen()
+   use dondolo_interrupt, only : begin => listen
+   implicit none
+
+   call begin()
+end subroutine listen
+
+! Listen no more
+subroutine end_listening()
+   use dondolo_interrupt, only : finish => end_listening
+   implicit none
+
+   call finish()
+end subroutine end_listening
+
+! Let the thread that calls it work alone from now on: OpenMP's other threads do not survive a fork
+subroutine work_alone()
+   use, intrinsic :: omp_lib, only : omp_set_max_active_levels
+   implicit none
+
+   call omp_set_max_active_levels(0)
+end subroutine work_alone
 
 ! Contents of a parcel that another procedure has sent
 subroutine take_parcel(handle, m, n, k, integers, reals, characters)
@@ -52,16 +84,17 @@ subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    call take(handle, integers, reals, characters)
 end subroutine take_parcel
 
-! Walls with their defaults filled in and their static quantities, as pack_walls has them
-subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat, message)
+! Walls with their defaults filled in and their static quantities, as pack_walls has them. Here alone a load can be given
+! by its bearing, a line a wall, and its distance, with a mask of those given: they become the eccentricity
+subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, measured, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_walls, parcel_type, report, send, set_walls
+   use dondolo_boundary, only : check_room, pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
-   character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: w, given(8, w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w)
+   character(len=*), intent(in) :: texts, bearings
+   integer(c_int), intent(in) :: w, given(8, w), measured(w)
+   real(c_double), intent(in) :: numbers(8, w), gravity(w), distances(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -71,8 +104,11 @@ subroutine describe_walls(texts, numbers, given, gravity, w, handle, sizes, stat
 
    handle = 0
    sizes = 0
-   allocate (walls(w))
-   call set_walls(walls, texts, numbers, given, gravity, error)
+   call check_room(error, walls=w)
+   if (.not. allocated(error)) then
+      allocate (walls(w))
+      call set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
+   end if
    if (.not. allocated(error)) then
       call pack_walls(walls, parcel)
       call send(parcel, handle, sizes)
@@ -115,7 +151,7 @@ end subroutine wall_terms
 ! Check what a record is to be made of
 subroutine check_record(acceleration, n, dt, pga, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : report
+   use dondolo_boundary, only : check_room, report
    use dondolo_error, only : error_type
    use dondolo_record, only : new_record, record_type
    implicit none
@@ -129,7 +165,8 @@ subroutine check_record(acceleration, n, dt, pga, stat, message)
    type(error_type), allocatable :: error
 
    pga = 0
-   call new_record(record, acceleration, dt, '', error)
+   call check_room(error, samples=n)
+   if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
    if (.not. allocated(error)) pga = record%pga()
    call report(error, stat, message)
 end subroutine check_record
@@ -184,7 +221,7 @@ end subroutine describe_measure
 ! Intensities of records, in the unit of the levels
 subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, threads, values, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_threads, report, set_records
+   use dondolo_boundary, only : check_room, check_threads, report, set_records
    use dondolo_error, only : error_type
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_record, only : record_type
@@ -202,7 +239,8 @@ subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, thre
    type(error_type), allocatable :: error
 
    values = 0
-   call check_threads(threads, error)
+   call check_room(error, records=r, samples=n)
+   if (.not. allocated(error)) call check_threads(threads, error)
    if (.not. allocated(error)) call new_measure(measure, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
@@ -214,7 +252,7 @@ end subroutine intensities
 ! Values that plan and run_block scale records by
 subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, values, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_threads, report, set_records
+   use dondolo_boundary, only : check_room, check_threads, report, set_records
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling, scaling_type
@@ -232,7 +270,8 @@ subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, v
    type(error_type), allocatable :: error
 
    values = 0
-   call check_threads(threads, error)
+   call check_room(error, records=r, samples=n)
+   if (.not. allocated(error)) call check_threads(threads, error)
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
@@ -244,7 +283,7 @@ end subroutine scaling_values
 ! Spectral displacements of a record
 subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_spectrum, report
+   use dondolo_boundary, only : check_room, check_spectrum, report
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    use dondolo_response_spectrum, only : spectral_displacement
@@ -259,7 +298,8 @@ subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat
    type(error_type), allocatable :: error
 
    displacement = 0
-   call check_spectrum(periods, damping, error)
+   call check_room(error, samples=n, reals=10.0_c_double*m)
+   if (.not. allocated(error)) call check_spectrum(periods, damping, error)
    if (.not. allocated(error)) then
       record%dt = dt
       record%acceleration = acceleration
@@ -269,8 +309,10 @@ subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat
 end subroutine spectrum
 
 ! Velocity of the ground at the samples of a record
-subroutine ground_velocity(acceleration, n, dt, velocity)
+subroutine ground_velocity(acceleration, n, dt, velocity, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room, report
+   use dondolo_error, only : error_type
    use dondolo_ground_motion, only : velocity_of => ground_velocity
    use dondolo_record, only : record_type
    implicit none
@@ -278,35 +320,53 @@ subroutine ground_velocity(acceleration, n, dt, velocity)
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: acceleration(n), dt
    real(c_double), intent(out) :: velocity(n)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
    type(record_type) :: record
+   type(error_type), allocatable :: error
 
-   record%dt = dt
-   record%acceleration = acceleration
-   velocity = velocity_of(record)
+   velocity = 0
+   call check_room(error, samples=n)
+   if (.not. allocated(error)) then
+      record%dt = dt
+      record%acceleration = acceleration
+      velocity = velocity_of(record)
+   end if
+   call report(error, stat, message)
 end subroutine ground_velocity
 
 ! Times at which the integral of the squared acceleration reaches two shares of its end value
-subroutine significant_times(acceleration, n, dt, low, high, times)
+subroutine significant_times(acceleration, n, dt, low, high, times, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room, report
    use dondolo_energy_measures, only : times_of => significant_times
+   use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    implicit none
    !f2py threadsafe
    integer(c_int), intent(in) :: n
    real(c_double), intent(in) :: acceleration(n), dt, low, high
    real(c_double), intent(out) :: times(2)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
    type(record_type) :: record
+   type(error_type), allocatable :: error
 
-   record%dt = dt
-   record%acceleration = acceleration
-   times = times_of(record, low, high)
+   times = 0
+   call check_room(error, samples=n)
+   if (.not. allocated(error)) then
+      record%dt = dt
+      record%acceleration = acceleration
+      times = times_of(record, low, high)
+   end if
+   call report(error, stat, message)
 end subroutine significant_times
 
 ! Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
 ! where they are not given
 subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_records, parcel_type, report, send
+   use dondolo_boundary, only : check_parcel, pack_note, pack_records, parcel_type, report, send
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
@@ -321,6 +381,7 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
    type(record_type), allocatable :: records(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   character(len=:), allocatable :: note
    real(c_double), allocatable :: step
 
    handle = 0
@@ -332,23 +393,66 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
       allocate (records(1))
       call read_record(path, records(1), error, step, units, channel, layout)
    case (1)
-      call read_catalogue(path, records, error)
+      call read_catalogue(path, records, error, note)
    case default
       call read_all(path, records, error, step, units, layout)
    end select
+   if (.not. allocated(error)) call check_parcel(error, 0, records)
    if (.not. allocated(error)) then
       call pack_records(records, parcel)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
 end subroutine read_records
 
-! The table of the records of a catalogue: its lines
+! Read a table of numbers. Integers: columns, rows; reals: its numbers, row by row; text: names of the columns, and how it
+! was read, where there is something to say of it
+subroutine read_number_table(path, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, pack_note, parcel_type, report, send
+   use dondolo_csv_reader, only : cell_type
+   use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_number_table, only : read_table => read_number_table
+   implicit none
+   character(len=*), intent(in) :: path
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(cell_type), allocatable :: columns(:)
+   type(lines_type) :: names
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   real(wp), allocatable :: values(:, :)
+   character(len=:), allocatable :: note
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   call read_table(path, columns, values, note, error)
+   if (.not. allocated(error)) then
+      do i = 1, size(columns)
+         call names%add(columns(i)%text)
+      end do
+      parcel%integers = shape(values)
+      parcel%reals = reshape(values, [size(values)])
+      parcel%text = pack_lines(names)
+      call pack_note(note, parcel)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_number_table
+
+! The table of the records of a catalogue. Integer: number of its lines; text: its lines, and how the catalogue was read,
+! where there is something to say of it
 subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : pack_lines, pack_note, parcel_type, report, send
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    implicit none
@@ -360,22 +464,27 @@ subroutine catalogue_table(path, gravity, handle, sizes, stat, message)
    type(record_type), allocatable :: records(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   type(lines_type) :: table
+   character(len=:), allocatable :: note
 
    handle = 0
    sizes = 0
-   call read_catalogue(path, records, error)
+   call read_catalogue(path, records, error, note)
    if (.not. allocated(error)) then
-      parcel%text = pack_lines(record_table(records, gravity))
+      table = record_table(records, gravity)
+      parcel%integers = [table%count]
+      parcel%text = pack_lines(table)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
 end subroutine catalogue_table
 
 ! Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
-! text: their groups
+! text: their groups, and how the table was read, where there is something to say of it
 subroutine read_walls(path, gravity, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_members, parcel_type, report, send
+   use dondolo_boundary, only : check_room, pack_members, pack_note, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_population, only : member_type, read_population
    implicit none
@@ -387,22 +496,69 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
    type(member_type), allocatable :: members(:)
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
+   character(len=:), allocatable :: note
 
    handle = 0
    sizes = 0
-   call read_population(path, members, error, gravity)
+   call read_population(path, members, error, gravity, note)
+   if (.not. allocated(error)) call check_room(error, walls=size(members))
    if (.not. allocated(error)) then
       call pack_members(members, parcel)
+      call pack_note(note, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
 end subroutine read_walls
 
-! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity
+! What the executable would warn of, of a wall and a record, before it runs one motion
+subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
+   use dondolo_record, only : record_type
+   use dondolo_wall, only : wall_type
+   use dondolo_warnings, only : warn_of_records
+   implicit none
+   character(len=*), intent(in) :: texts, record
+   integer(c_int), intent(in) :: given(8)
+   real(c_double), intent(in) :: numbers(8), gravity, pga
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(wall_type) :: walls(1)
+   type(record_type) :: records(1)
+   type(wall_warning_type) :: oddities
+   type(lines_type) :: warnings
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+
+   handle = 0
+   sizes = 0
+   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) then
+      call oddities%look(walls(1))
+      call oddities%warn(warnings)
+      ! Of the samples the sentences need the largest only
+      records(1)%name = record
+      records(1)%acceleration = [pga]
+      call warn_of_records(records, gravity, warnings)
+      if (warnings%count > 0) then
+         parcel%text = pack_lines(warnings)
+         call send(parcel, handle, sizes)
+      end if
+   end if
+   call report(error, stat, message)
+end subroutine warn_of_motion
+
+! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
+! side and whether it is just after an impact
 subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, pack_response, parcel_type, report, send, set_records, set_walls
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_trace, pack_response, parcel_type, report, &
+      & send, set_records, set_walls
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_response, only : response_type, trace_type
@@ -430,7 +586,8 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   call check_room(error, samples=n)
+   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
    solver = as_solver(engine, settings)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
@@ -443,11 +600,17 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    if (.not. allocated(error)) then
       if (history == 1) then
          call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response, trace)
-         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
-         call send(parcel, handle, sizes)
+         call check_interrupt(error)
+         if (.not. allocated(error)) call check_trace(trace, error)
       else
          call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response)
+         call check_interrupt(error)
       end if
+   end if
+   if (.not. allocated(error) .and. history == 1) then
+      parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+      parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
+      call send(parcel, handle, sizes)
    end if
    call pack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
    call report(error, stat, message)
@@ -458,15 +621,17 @@ end subroutine simulate
 subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_threads, pack_lines, parcel_type, report, send, set_records, set_walls
+   use dondolo_boundary, only : as_solver, check_room, check_threads, pack_lines, parcel_type, report, send, set_records, &
+      & set_walls
    use dondolo_error, only : add_place, error_type
    use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, size_warning_type, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, names, im, polarity, engine
    integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
@@ -480,7 +645,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
-   type(size_warning_type) :: dimensions
+   type(wall_warning_type) :: oddities
    type(lines_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
@@ -490,9 +655,12 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
 
    handle = 0
    sizes = 0
-   allocate (walls(w), histories(w))
-   call check_threads(threads, error)
-   if (.not. allocated(error)) call set_walls(walls, texts, numbers, given, gravity, error)
+   call check_room(error, w, r, n)
+   if (.not. allocated(error)) call check_threads(threads, error)
+   if (.not. allocated(error)) then
+      allocate (walls(w), histories(w))
+      call set_walls(walls, texts, numbers, given, gravity, error)
+   end if
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
@@ -514,12 +682,12 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
          end if
          histories(i) = size(stripes%record)
          call scales%look(stripes, records)
-         call dimensions%look(walls(i))
+         call oddities%look(walls(i))
       end do
    end if
    if (.not. allocated(error)) then
-      call warn_of_records(records, warnings)
-      call dimensions%warn(warnings)
+      call oddities%warn(warnings)
+      call warn_of_records(records, gravity(1), warnings)
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
@@ -535,7 +703,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
       & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
       & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : as_solver, pack_response, report, set_records, set_walls
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, set_walls
    use dondolo_ensemble, only : team_of
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
@@ -571,15 +739,18 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    time_of_peak = 0
    edp_error = 0
    solver = as_solver(engine, settings)
-   allocate (walls(w), stripes(w), before(w + 1))
-   call set_walls(walls, texts, numbers, given, gravity, error)
+   call check_room(error, w, r, n, 2.0_c_double*w*r*m)
+   if (.not. allocated(error)) then
+      allocate (walls(w), stripes(w), before(w + 1))
+      call set_walls(walls, texts, numbers, given, gravity, error)
+   end if
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
    if (.not. allocated(error)) then
       call new_record_set(set, records)
       peaks = records%pga()
+      before(1) = 0
    end if
-   before(1) = 0
    do i = 1, w
       if (allocated(error)) exit
       call plan_stripes(stripes(i), walls(i), records, levels, scaling, values, peaks, polarity, solver, error)
@@ -611,6 +782,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
             end do
          end associate
       end do
+      call check_interrupt(error)
    end if
    work = real(total%counts(), c_double)
    call report(error, stat, message)
@@ -620,7 +792,8 @@ end subroutine run_block
 subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
       & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : as_solver, check_threads, pack_response, report, set_records, set_walls
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_threads, pack_response, report, set_records, &
+      & set_walls
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
@@ -642,7 +815,7 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    type(ensemble_type) :: ensemble
    type(record_set_type) :: set
    type(error_type), allocatable :: error
-   real(c_double) :: edp_error(k)
+   real(c_double), allocatable :: edp_error(:)
    integer :: i
 
    edp = 0
@@ -650,7 +823,8 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    impacts = 0
    time_of_peak = 0
    solver = as_solver(engine, settings)
-   call check_threads(threads, error)
+   call check_room(error, 1, r, n, real(k, c_double))
+   if (.not. allocated(error)) call check_threads(threads, error)
    if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), &
       & [gravity], error)
    if (.not. allocated(error)) call check_solver(solver, error)
@@ -670,7 +844,9 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
       ensemble%scale = scale
       call new_record_set(set, records)
       call run_ensemble(ensemble, walls(1)%mechanism, records, set, solver, threads)
+      allocate (edp_error(k))
       call pack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
+      call check_interrupt(error)
    end if
    call report(error, stat, message)
 end subroutine run_scaled
@@ -706,7 +882,7 @@ end subroutine synthetic_record
 ! Fit k curves, each to m levels. A status of 0 is a fit that failed; message tells of the first that went wrong
 subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : pack_curve, report, status_code
+   use dondolo_boundary, only : check_room, pack_curve, report, status_code
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    implicit none
@@ -723,14 +899,15 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    integer :: i, worst
 
    curves = 0
-   stat = 0
-   message = ''
+   statuses = 0
+   call check_room(error, reals=40.0_c_double*m)
+   call report(error, stat, message)
+   if (allocated(error)) return
    worst = k + 1
    !$omp parallel do default(none) private(curve, error, sentence, this) &
    !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, stat, message)
    do i = 1, k
       call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
-      statuses(i) = 0
       if (allocated(error)) then
          call report(error, this, sentence)
          !$omp critical (first_error)
@@ -756,7 +933,7 @@ end subroutine fit_curves
 ! text: group and mechanism of the population's curves, then warnings
 subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
+   use dondolo_boundary, only : check_room, pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
@@ -783,9 +960,13 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
 
    handle = 0
    sizes = 0
-   allocate (walls(w), curves(r), mechanisms(r), whole(m, w))
-   call split_lines(texts, words)
+   call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
+   if (.not. allocated(error)) then
+      allocate (walls(w), curves(r), mechanisms(r), whole(m, w))
+      call split_lines(texts, words)
+   end if
    do i = 1, r
+      if (allocated(error)) exit
       mechanisms(i) = words%line(3*i - 1)%text
       call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
          & spread(real(histories(i), c_double), 1, m), error)
@@ -868,7 +1049,7 @@ end subroutine warn_of_curve
 ! it is one history
 subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : check_room, pack_lines, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
@@ -887,6 +1068,11 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
+   call check_room(error, histories=real(n, c_double))
+   if (allocated(error)) then
+      call report(error, stat, message)
+      return
+   end if
    records(1)%name = record
    stripes%levels = [level]
    stripes%record = spread(1, 1, n)
@@ -922,10 +1108,11 @@ end subroutine probability
 ! Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
 ! 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
 ! the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
-! task, title, output, im, polarity, engine, then walls, their groups, and records
+! task, title, output, im, polarity, engine, then walls, their groups, and records, and how its tables were read, where
+! there is something to say of it
 subroutine read_case(path, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, pack_members, pack_records, parcel_type, report, send
+   use dondolo_boundary, only : check_parcel, pack_lines, pack_members, pack_records, parcel_type, report, send
    use dondolo_case, only : case_type, load_case => read_case
    use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
@@ -954,6 +1141,7 @@ subroutine read_case(path, handle, sizes, stat, message)
          members(1)%group = ''
       end if
    end if
+   if (.not. allocated(error)) call check_parcel(error, size(members), case%records)
    if (.not. allocated(error)) then
       if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
       scale = 1
@@ -972,6 +1160,7 @@ subroutine read_case(path, handle, sizes, stat, message)
       parcel%text = pack_lines(lines)
       call pack_members(members, parcel)
       call pack_records(case%records, parcel)
+      parcel%text = parcel%text//pack_lines(case%notes)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)

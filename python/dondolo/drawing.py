@@ -218,7 +218,6 @@ def animate_history(response: Response, frames_per_second: int = 25, speed: floa
     InputError
         A speed that is not positive.
     """
-    import matplotlib.pyplot as plt
     from matplotlib.animation import FuncAnimation
 
     if response.time is None or response.rotation is None:
@@ -226,10 +225,7 @@ def animate_history(response: Response, frames_per_second: int = 25, speed: floa
     if not 0.0 < speed < np.inf or frames_per_second < 1:
         raise InputError(f"speed = {speed}, frames_per_second = {frames_per_second}: must be positive")
     wall, time, rotation = response.wall, response.time, response.rotation
-    with plt.rc_context(style.RC):
-        figure, (left, right) = plt.subplots(
-            1, 2, figsize=(7.6, 4.0), layout="constrained", gridspec_kw={"width_ratios": (2, 3)}
-        )
+    left, right = style.new_axes(size=(7.6, 4.0), columns=2, width_ratios=(2, 3))
     _draw_surroundings(left, wall)
     start = shape(wall, 0.0)
     patches = [
@@ -258,4 +254,4 @@ def animate_history(response: Response, frames_per_second: int = 25, speed: floa
         point.set_data([now], [here / wall.capacity_angle])
         return [*patches, hinges, line, point]
 
-    return FuncAnimation(figure, draw, frames=len(instants), interval=1000.0 / frames_per_second, blit=False)
+    return FuncAnimation(left.figure, draw, frames=len(instants), interval=1000.0 / frames_per_second, blit=False)

@@ -16,6 +16,10 @@ class InputError(DondoloError, ValueError):
     """What was asked for is wrong; the message is the sentence of the executable."""
 
 
+class MissingFileError(InputError, FileNotFoundError):
+    """A file that was asked for does not exist."""
+
+
 class DondoloWarning(UserWarning):
     """Results that are correct but may mislead."""
 

@@ -34,8 +34,8 @@ class Fragility(Shown):
     covariance : ndarray, shape (2, 2)
         Covariance of ln theta and beta from the Fisher information.
     status : str
-        'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level' or
-        'decreasing'; the first two have a curve.
+        'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level',
+        'decreasing' or 'not_converged'; the first two have a curve.
     log_likelihood : float
         With the binomial coefficients; NaN without a fit.
     bracket : (float, float)
@@ -293,7 +293,8 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
 
     Examples
     --------
-    >>> curve = fit_fragility([0.2, 0.4], [11, 33], 44)
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
     >>> round(curve.theta, 9), round(curve.beta, 9)
     (0.282842712, 0.513830774)
     """

@@ -9,10 +9,8 @@ H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
 
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +18,8 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_array, as_levels, as_number, increasing, shaped
+from dondolo._files import as_file
+from dondolo._hazard_table import read_hazard
 from dondolo._shown import Shown
 from dondolo.errors import InputError
 
@@ -54,7 +54,8 @@ class HazardCurve(Shown):
 
     Examples
     --------
-    >>> hazard = HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
+    >>> import dondolo as dd
+    >>> hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
     >>> round(hazard(0.2), 6)
     0.002
     """
@@ -124,8 +125,11 @@ class HazardCurve(Shown):
         Parameters
         ----------
         path : path
-            A CSV file of two columns: the levels, whose head names the intensity measure, and 'annual_frequency'. Lines
-            that begin with # are comments::
+            A CSV table. One column is the levels: its title is the intensity measure, or 'ag' with its unit, 'ag (g)',
+            'ag (g/10)' or 'ag (m/s2)', which is the PGA. Another says how often they are exceeded: 'annual_frequency'
+            [1/year], 'return_period' [years] or 'poe', the probability of exceedance in 'investigation_time' [years],
+            a third column. 'TR', 'F0' and 'TC*' of the Italian code's tables are known, and the last two not used.
+            Lines that begin with # are comments::
 
                 # my site, soil class A
                 pga,annual_frequency
@@ -139,31 +143,17 @@ class HazardCurve(Shown):
         Raises
         ------
         InputError
-            The file cannot be read; its first line is no such head, another no two numbers; what it holds is no hazard
-            curve.
+            The file cannot be read, or is no such table; a cell is no number; what it holds is no hazard curve.
+
+        Notes
+        -----
+        ag of the Italian code is that of rigid, level ground: multiply it by the factors of soil and topography of the
+        site. Tables of spreadsheets with semicolons and decimal commas are read as those of walls and records are.
         """
-        if not isinstance(path, (str, os.PathLike)):
-            raise InputError(f"path = {path!r}: must be the path of a file")
-        name = os.fspath(path)
+        name = os.fspath(as_file("path", path))
+        im, levels, frequency = read_hazard(name)
         try:
-            lines = Path(path).read_text(encoding="utf-8-sig").splitlines()
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-            raise InputError(f"{name}: cannot be read: {reason}") from error
-        told = [(number, line) for number, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
-        rows = csv.reader(line for _, line in told)
-        head = [cell.strip() for cell in next(rows, [])]
-        if len(head) != 2 or head[1] != "annual_frequency":
-            raise InputError(f"{name}: the first line must be the name of an intensity measure and 'annual_frequency'")
-        pairs = []
-        for row in rows:
-            try:
-                x, h = map(_number, row)
-            except ValueError:
-                raise InputError(f"{name}: line {told[rows.line_num - 1][0]}: must be two numbers") from None
-            pairs.append((x, h))
-        try:
-            return cls([x for x, _ in pairs], [h for _, h in pairs], head[0])
+            return cls(levels, frequency, im)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
 
@@ -227,10 +217,3 @@ class HazardCurve(Shown):
             ("levels", f"{len(self.im_levels)} of {self.im}, {first:g} to {last:g}{unit}"),
             ("exceeded", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g} times a year"),
         ]
-
-
-def _number(cell: str) -> float:
-    """A cell as a number; Python alone would take 1_0 for 10."""
-    if "_" in cell:
-        raise ValueError
-    return float(cell)

@@ -62,8 +62,14 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
 
     Examples
     --------
-    >>> functions, sentences = dd.nrml_functions(typology)  # doctest: +SKIP
-    >>> dd.write_nrml("centre.xml", functions)  # doctest: +SKIP
+    >>> import dondolo as dd
+    >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> typology = dd.typology(walls, records, levels=[0.6, 0.8, 1.0], progress=False)
+    >>> functions, sentences = dd.nrml_functions(typology)
+    >>> list(functions)
+    ['population/one_sided']
+    >>> dd.write_nrml("centre.xml", functions)
     """
     if not isinstance(typology, Typology):
         raise InputError(f"typology: {type(typology).__name__} is no typology")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import os
 from dataclasses import dataclass
 from typing import Any
@@ -40,6 +41,9 @@ class Response(Shown):
         [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. None with history=False.
     side : ndarray of int, shape (rows,), or None
         +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
+    after_impact : ndarray of bool, shape (rows,), or None
+        True in the row just after an impact; the row before it, of the same time, is just before that impact. Impacts
+        after the end of the record are marked too, so that there may be more of them than `impacts`.
     edp_error : float or None
         Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
     """
@@ -57,6 +61,7 @@ class Response(Shown):
     rotation: FloatArray | None = None
     velocity: FloatArray | None = None
     side: np.ndarray[Any, np.dtype[np.int8]] | None = None
+    after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -147,7 +152,8 @@ def simulate(
     Warns
     -----
     DondoloWarning
-        With an estimated error: a history in doubt.
+        A wall or a PGA that looks as if it were given in another unit, a record without motion; with an estimated
+        error, a history in doubt.
 
     Notes
     -----
@@ -159,44 +165,36 @@ def simulate(
         raise InputError(f"record: {type(record).__name__} is no record")
     factor = as_number("scale", scale)
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
-    edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
-        *wall._flat,
-        record.acceleration,
-        record.dt,
-        record.name.encode(),
-        factor,
-        as_text("engine", engine),
-        settings,
-        int(history),
-    )
+    with _binding.stoppable():
+        edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
+            *wall._flat,
+            record.acceleration,
+            record.dt,
+            record.name.encode(),
+            factor,
+            as_text("engine", engine),
+            settings,
+            int(history),
+        )
     _binding.check(stat, message)
+    if sentences := _warnings(wall, record.name, record.pga):
+        _binding.warn(sentences)
     response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
     if estimate_error:
         object.__setattr__(response, "edp_error", edp_error)
         _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
     if history:
-        rows = _binding.receive(handle, sizes, stat, message).reals.reshape(4, -1)
-        rows.flags.writeable = False
-        side = sides(rows, wall.two_sided)
-        for what, row in zip(
-            ("time", "ground_acceleration", "rotation", "velocity", "side"), (*rows, side), strict=True
-        ):
+        parcel = _binding.receive(handle, sizes, stat, message)
+        side, after = parcel.integers.reshape(2, -1)
+        columns = ("time", "ground_acceleration", "rotation", "velocity", "side", "after_impact")
+        rows = (*parcel.reals.reshape(4, -1), side.astype(np.int8), after == 1)
+        for what, row in zip(columns, rows, strict=True):
+            row.flags.writeable = False
             object.__setattr__(response, what, row)
     return response
 
 
-def sides(rows: FloatArray, two_sided: bool) -> np.ndarray[Any, np.dtype[np.int8]]:
-    """The side of every row: the sign of the rotation, and where that is zero of what comes before or after."""
-    time, _, rotation, velocity = rows
-    if not two_sided:
-        return np.ones(len(time), dtype=np.int8)
-    side = np.sign(rotation)
-    upright = rotation == 0.0
-    # An impact has two rows of the same time: the first is still on the side before it.
-    before = upright & np.append((time[1:] == time[:-1]) & upright[1:], False)
-    leaving = upright & ~before & (velocity != 0.0)
-    side[leaving] = np.sign(velocity[leaving])
-    known = np.maximum.accumulate(np.where(side != 0.0, np.arange(len(side)), 0))
-    side = side[known]
-    side[side == 0.0] = 1.0
-    return side.astype(np.int8)
+@functools.lru_cache
+def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
+    """What looks odd about a wall and a record; kept, since one motion takes little longer."""
+    return _binding.warnings_of_motion(wall._flat, record, pga)

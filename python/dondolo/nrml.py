@@ -93,7 +93,8 @@ class DiscreteFragility(Shown):
 
     Examples
     --------
-    >>> curve = DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75])
+    >>> import dondolo as dd
+    >>> curve = dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75])
     """
 
     levels: FloatArray
@@ -169,7 +170,9 @@ def write_nrml(
 
     Examples
     --------
-    >>> write_nrml("fragility.xml", {"parapets": {"collapse": stripes.fit()}})  # doctest: +SKIP
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+    >>> dd.write_nrml("fragility.xml", {"parapets": {"collapse": curve}})
     """
     check_replaced(path, _MARK, "fragility model")
     if not isinstance(id, str) or not _NAME.fullmatch(id):

@@ -229,7 +229,7 @@ def overturning_spectrum(
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
-        Show progress bars where stderr is a terminal.
+        Show progress bars in a terminal or notebook.
 
     Returns
     -------
@@ -375,15 +375,16 @@ class _Runner(NamedTuple):
         used, record = np.unique(places, return_inverse=True)
         pulses = tuple(self.pulses[i] for i in used)
         scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in pulses])[record]
-        edp, collapsed, impacts, time, stat, message = _core.run_scaled(
-            *self.wall._flat,
-            *flatten(pulses),
-            (record + 1).astype(np.int32),
-            np.ascontiguousarray(scale),
-            self.engine,
-            self.settings,
-            self.threads,
-        )
+        with _binding.stoppable():
+            edp, collapsed, impacts, time, stat, message = _core.run_scaled(
+                *self.wall._flat,
+                *flatten(pulses),
+                (record + 1).astype(np.int32),
+                np.ascontiguousarray(scale),
+                self.engine,
+                self.settings,
+                self.threads,
+            )
         _binding.check(stat, message)
         return edp, collapsed == 1, impacts, time
 

@@ -46,7 +46,12 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
     DondoloError
         The response has no time history.
     """
-    if response.time is None or response.rotation is None or response.ground_acceleration is None:
+    if (
+        response.time is None
+        or response.rotation is None
+        or response.ground_acceleration is None
+        or response.after_impact is None
+    ):
         raise DondoloError("this response has no time history: simulate with history=True")
     if axes is None:
         axes = style.new_axes(2, (7.2, 4.6), sharex=True, height_ratios=(2, 3))
@@ -65,16 +70,17 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
 
     ratio = response.rotation / wall.capacity_angle
     below.plot(time, ratio, color=style.BLUE, label="rotation")
-    impacts = np.flatnonzero((time[1:] == time[:-1]) & (ratio[1:] == 0.0) & (ratio[:-1] == 0.0)) + 1
+    impacts = time[response.after_impact]
+    later = len(impacts) - response.impacts
     below.plot(
-        time[impacts],
+        impacts,
         np.zeros(len(impacts)),
         linestyle="none",
         marker="|",
         markersize=9,
         markeredgewidth=0.8,
         color=style.BLACK,
-        label=f"impacts ({len(impacts)})",
+        label=f"impacts ({response.impacts}{f', and {later} after the record' if later else ''})",
     )
     peak = int(np.argmax(np.abs(ratio)))
     height = np.copysign(response.edp, ratio[peak])
@@ -89,7 +95,8 @@ def plot_history(response: Response, axes: Sequence[Axes] | None = None) -> Any:
     )
     below.set_xlabel("time [s]")
     below.set_ylabel("rotation / capacity")
-    style.legend(below, loc="upper left")
+    # A collapse ends high at the right, a motion that survives fades out there.
+    style.legend(below, loc="upper left" if response.collapsed else "upper right")
     return np.asarray([above, below])
 
 
@@ -261,8 +268,7 @@ def plot_intensities(comparison: IntensityComparison, axes: Sequence[Axes] | Non
     import matplotlib.pyplot as plt
 
     if axes is None:
-        with plt.rc_context(style.RC):
-            _, axes = plt.subplots(1, 2, figsize=(9.0, 4.0), layout="constrained")
+        axes = style.new_axes(size=(9.0, 4.0), columns=2)
     left, right = axes
     order = np.argsort(comparison.ratio)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, len(order)))

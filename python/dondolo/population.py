@@ -51,8 +51,17 @@ class Population(Shown):
 
     Examples
     --------
-    >>> walls = [OneSidedWall(3.0, 0.25, name="a"), TwoBlockWall(3.0, 0.25, name="a"), OneSidedWall(6.0, 0.5, name="b")]
-    >>> population = Population(walls, weights=[2.0, 2.0, 5.0], groups=["low", "low", "high"], p_occ=[0.4, 0.6, 1.0])
+    >>> import dondolo as dd
+    >>> population = dd.Population(
+    ...     [
+    ...         dd.OneSidedWall(3.0, 0.25, name="a"),
+    ...         dd.TwoBlockWall(3.0, 0.25, name="a"),
+    ...         dd.OneSidedWall(6.0, 0.5, name="b"),
+    ...     ],
+    ...     weights=[2.0, 2.0, 5.0],
+    ...     groups=["low", "low", "high"],
+    ...     p_occ=[0.4, 0.6, 1.0],
+    ... )
     >>> population
     <Population: walls 2, mechanisms 3, sum of the weights 7, groups 'low' (1), 'high' (1)>
     >>> population[2].name

@@ -393,12 +393,15 @@ def rotd(
 
 def velocity(record: Record) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
-    return np.asarray(_core.ground_velocity(record.acceleration, record.dt))
+    values, stat, message = _core.ground_velocity(record.acceleration, record.dt)
+    _binding.check(stat, message)
+    return np.asarray(values)
 
 
 def significant_times(record: Record, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
-    first, last = _core.significant_times(record.acceleration, record.dt, low, high)
+    (first, last), stat, message = _core.significant_times(record.acceleration, record.dt, low, high)
+    _binding.check(stat, message)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")
     return float(first), float(last)

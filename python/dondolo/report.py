@@ -60,7 +60,10 @@ def report(
 
     Examples
     --------
-    >>> dd.report(dd.read_results("out/historic_centre"), "report.html")  # doctest: +SKIP
+    >>> import dondolo as dd
+    >>> (record,) = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow")
+    >>> response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
+    >>> dd.report(response, "report.html", title="Parapet")
     """
     import matplotlib.pyplot as plt
 
@@ -72,6 +75,8 @@ def report(
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
+    # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
+    plt.draw_if_interactive()
     with plt.ioff(), silent():
         text = _text(run, hazard)
     tables.write_lines(path, [text.rstrip("\n")])

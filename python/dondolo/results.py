@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from datetime import datetime
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from dondolo._files import as_file
+from dondolo._result_file import ResultFile
 from dondolo.combination import combine
 from dondolo.errors import InputError
 from dondolo.fragility import Fragility
-from dondolo.motion import Response, sides
+from dondolo.motion import Response
 from dondolo.population import Population
 from dondolo.records import Record
 from dondolo.stripes import Stripes
@@ -36,8 +35,6 @@ _WALL_COLUMNS = {
     "overburden_n_m": "overburden",
     "eccentricity_m": "eccentricity",
 }
-
-Rows = dict[str, list[str]]
 
 
 @dataclass(frozen=True)
@@ -85,28 +82,32 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     Raises
     ------
     InputError
-        There are no such files, or they are not result files of dondolo.
+        They are not result files of dondolo; the file and the line are named.
+    MissingFileError
+        There are no such files.
     """
     as_file("prefix", prefix)
     prefix = os.fspath(prefix)
-    walls, comments = _read(prefix + "_walls.csv")
-    gravity = _setting(comments, "gravity", 9.81)
-    written = datetime.fromtimestamp(os.path.getmtime(prefix + "_walls.csv")).astimezone()
-    try:
-        population = _population(walls, gravity)
-        stored = StoredResults(population, comments=tuple(comments), written=written)
+    walls = ResultFile(prefix + "_walls.csv")
+    written = datetime.fromtimestamp(os.path.getmtime(walls.path)).astimezone()
+    with walls.reading():
+        population = _population(walls)
         # The files of another task may lie there from a run before: the walls' file tells the task of the last.
-        task = next((found.group(1) for line in comments if (found := re.match(r"&job task = '(\w+)'", line))), "")
-        if task == "history":
-            return replace(stored, response=_response(prefix + "_history.csv", population.walls[0], comments))
-        if task == "stripes":
-            stripes = _stripes(prefix + "_histories.csv", population.walls[0])
-            return replace(stored, stripes=stripes, fragility=stripes.fit())
-        return replace(stored, typology=_typology(prefix + "_stripes.csv", population))
-    except (KeyError, ValueError, IndexError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{prefix}_*.csv: not result files of dondolo ({error})") from error
+        task = walls.word(r"&job task = '(\w+)'", "")
+        edp_limit = walls.setting("edp_limit", 1.0)
+    stored = StoredResults(population, comments=tuple(walls.comments), written=written)
+    if task == "history":
+        history = ResultFile(prefix + "_history.csv")
+        with history.reading():
+            return replace(stored, response=_response(history, population.walls[0], edp_limit))
+    if task == "stripes":
+        histories = ResultFile(prefix + "_histories.csv")
+        with histories.reading():
+            stripes = _stripes(histories, population.walls[0])
+        return replace(stored, stripes=stripes, fragility=stripes.fit())
+    counts = ResultFile(prefix + "_stripes.csv")
+    with counts.reading():
+        return replace(stored, typology=_typology(counts, population))
 
 
 def heads(start: str, comments: Sequence[str]) -> list[str]:
@@ -114,128 +115,107 @@ def heads(start: str, comments: Sequence[str]) -> list[str]:
     return [line[len(start) :].strip() for line in comments if line.startswith(start)]
 
 
-def _read(path: str) -> tuple[Rows, list[str]]:
-    """Columns and comments of a result file."""
-    try:
-        text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-        raise InputError(f"{path}: cannot be read: {reason}") from error
-    lines = text.splitlines(keepends=True)
-    comments = [line[1:].strip() for line in lines if line.startswith("#")]
-    rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-    if len(rows) < 2:
-        raise InputError(f"{path}: no rows")
-    head, *body = rows
-    return {name: [row[i] for row in body] for i, name in enumerate(head)}, comments
-
-
-def _setting(comments: list[str], name: str, default: float) -> float:
-    """A number of the case that stands in the comments; what stands in quotes, such as a title, is no setting."""
-    for comment in comments:
-        bare = re.sub(r"'(?:[^']|'')*'", "''", comment)
-        found = re.search(rf"(?:^|^&\w+ +|, ){name}\s*[=:]\s*([-+0-9.eEdD]+)", bare)
-        if found and not comment.startswith(("record:", "warning:")):
-            return float(found.group(1).lower().replace("d", "e"))
-    return default
-
-
 def _work(comments: list[str]) -> Work:
     """What was computed, out of the comments."""
     for comment in comments:
         if comment.startswith("work:"):
-            return Work(**{name: int(count) for name, count in re.findall(r"(\w+) = (\d+)", comment)})
-    raise ValueError("no line '# work:'")
+            counts = {name: int(count) for name, count in re.findall(r"(\w+) = (\d+)", comment)}
+            if counts.keys() <= {field.name for field in fields(Work)}:
+                return Work(**counts)
+    raise ValueError("no comment '# work:' with its counts")
 
 
-def _population(rows: Rows, gravity: float) -> Population:
+def _population(table: ResultFile) -> Population:
     """Walls as they were given."""
+    gravity = table.setting("gravity", 9.81)
     walls: list[Wall] = []
-    for i, name in enumerate(rows["wall"]):
+    for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
-            argument: float(rows[column][i]) for column, argument in _WALL_COLUMNS.items() if rows[column][i]
+            argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
         }
-        kind = MECHANISMS[rows["mechanism"][i]]
-        walls.append(kind(name=name, restitution=rows["restitution_model"][i], gravity=gravity, **given))
-    weights = [float(cell) for cell in rows["weight"]]
-    p_occ = [float(cell) for cell in rows["p_occ"]]
-    return Population(tuple(walls), np.asarray(weights), tuple(rows["group"]), np.asarray(p_occ))
+        try:
+            if kind not in MECHANISMS:
+                raise InputError(f"mechanism = {kind!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+            restitution = table.texts("restitution_model")[i]
+            walls.append(MECHANISMS[kind](name=name, restitution=restitution, gravity=gravity, **given))
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"{table.place(i)}: {error}") from error
+    weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
+    return Population(tuple(walls), weights, tuple(table.texts("group")), p_occ)
 
 
-def _numbers(rows: Rows, column: str) -> Any:
-    values = np.asarray([float(cell) for cell in rows[column]])
-    values.flags.writeable = False
-    return values
-
-
-def _response(path: str, wall: Wall, case: list[str]) -> Response:
+def _response(table: ResultFile, wall: Wall, edp_limit: float) -> Response:
     """A motion; its record is what the history shows of it."""
-    rows, comments = _read(path)
-    time, acceleration = _numbers(rows, "time_s"), _numbers(rows, "ground_acceleration_m_s2")
-    rotation, velocity = _numbers(rows, "rotation_rad"), _numbers(rows, "velocity_rad_s")
-    scale = _setting(comments, "scale", 1.0)
+    time, acceleration = table.numbers("time_s"), table.numbers("ground_acceleration_m_s2")
+    rotation, velocity = table.numbers("rotation_rad"), table.numbers("velocity_rad_s")
+    scale = table.setting("scale", 1.0)
     # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
-    steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
+    with np.errstate(over="ignore"):
+        steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
+    if not np.any(steps > 0.0) or scale == 0.0:
+        raise ValueError("no motion: time_s must increase, and scale must not be 0")
     dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
     at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
     _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
-    name = next(comment[len("record:") :].strip() for comment in comments if comment.startswith("record:"))
-    record = Record(acceleration[at_sample][first] / scale, dt, name=name)
+    record = Record(acceleration[at_sample][first] / scale, dt, name=table.word("record:(.*)").strip())
     return Response(
         wall,
         record,
         scale,
-        _setting(comments, "edp", 0.0),
-        _setting(comments, "collapsed", 0.0) == 1.0,
-        int(_setting(comments, "impacts", 0.0)),
-        _setting(comments, "time_of_peak_s", 0.0),
-        _setting(case, "edp_limit", 1.0),
+        table.setting("edp", 0.0),
+        table.setting("collapsed", 0.0) == 1.0,
+        int(table.setting("impacts", 0.0)),
+        table.setting("time_of_peak_s", 0.0),
+        edp_limit,
         time,
         acceleration,
         rotation,
         velocity,
-        sides(np.asarray([time, acceleration, rotation, velocity]), wall.two_sided),
-        next((float(line.split()[1]) for line in comments if line.startswith("edp_error:")), None),
+        table.numbers("side").astype(np.int8),
+        table.numbers("after_impact") == 1.0,
+        table.setting("edp_error", 0.0) if any(line.startswith("edp_error:") for line in table.comments) else None,
     )
 
 
-def _stripes(path: str, wall: Wall) -> Stripes:
+def _stripes(table: ResultFile, wall: Wall) -> Stripes:
     """All histories of a wall."""
-    rows, comments = _read(path)
-    levels = np.unique(_numbers(rows, "im_level"))
-    shape = (len(levels), len(rows["wall"]) // len(levels))
+    levels = np.unique(table.numbers("im_level"))
+    if len(table) % len(levels):
+        raise ValueError(f"{len(table)} rows: must be as many at each of the {len(levels)} levels")
+    shape = (len(levels), len(table) // len(levels))
     first = slice(0, shape[1])
-    engine = next(
-        (found.group(1) for line in comments if (found := re.match(r"&solver engine = '(\w+)'", line))), "auto"
-    )
+    polarity = [-1 if word == "reversed" else 1 for word in table.texts("polarity")[first]]
     return Stripes(
         wall=wall,
-        im=rows["im"][0],
+        im=table.texts("im")[0],
         levels=levels,
-        edp=_numbers(rows, "edp").reshape(shape),
-        collapsed=_numbers(rows, "collapsed").reshape(shape) == 1.0,
-        impacts=_numbers(rows, "impacts").reshape(shape).astype(np.int32),
-        time_of_peak=_numbers(rows, "time_of_peak_s").reshape(shape),
-        scale=_numbers(rows, "scale").reshape(shape),
-        record_names=tuple(rows["record"][first]),
-        polarity=np.asarray([-1 if word == "reversed" else 1 for word in rows["polarity"][first]], dtype=np.int32),
-        engine=engine,
-        rtol=_setting(comments, "rtol", np.nan),
-        atol=_setting(comments, "atol", np.nan),
-        edp_limit=_setting(comments, "edp_limit", 1.0),
-        work=_work(comments),
-        edp_error=_numbers(rows, "edp_error").reshape(shape) if "edp_error" in rows else None,
+        edp=table.numbers("edp").reshape(shape),
+        collapsed=table.numbers("collapsed").reshape(shape) == 1.0,
+        impacts=table.counts("impacts").reshape(shape),
+        time_of_peak=table.numbers("time_of_peak_s").reshape(shape),
+        scale=table.numbers("scale").reshape(shape),
+        record_names=tuple(table.texts("record")[first]),
+        polarity=np.asarray(polarity, dtype=np.int32),
+        engine=table.word(r"&solver engine = '(\w+)'", "auto"),
+        rtol=table.setting("rtol", np.nan),
+        atol=table.setting("atol", np.nan),
+        edp_limit=table.setting("edp_limit", 1.0),
+        work=_work(table.comments),
+        edp_error=table.numbers("edp_error").reshape(shape) if "edp_error" in table else None,
     )
 
 
-def _typology(path: str, population: Population) -> Typology:
+def _typology(table: ResultFile, population: Population) -> Typology:
     """Counts of all walls of a population."""
-    rows, comments = _read(path)
-    levels = np.unique(_numbers(rows, "im_level"))
-    thresholds = np.unique(_numbers(rows, "edp_threshold"))
+    thresholds = np.unique(table.numbers("edp_threshold"))
+    levels = np.unique(table.numbers("im_level"))
     shape = (len(population), len(thresholds), len(levels))
-    counts = _numbers(rows, "collapses").reshape(shape).astype(np.int32).transpose(1, 2, 0)
-    histories = _numbers(rows, "histories").reshape(shape)[:, 0, 0].astype(np.int32)
+    if len(table) != np.prod(shape):
+        product = " x ".join(map(str, shape))
+        raise ValueError(f"{len(table)} rows: must be {product}, one for each wall, damage state and level")
+    counts = table.counts("collapses").reshape(shape).transpose(1, 2, 0)
+    histories = table.counts("histories", 1).reshape(shape)[:, 0, 0]
     everyone = np.ones(len(population), dtype=bool)
-    result = combine(population, rows["im"][0], levels, thresholds, counts, histories, everyone, _work(comments))
-    return replace(result, warnings=tuple(dict.fromkeys([*heads("warning:", comments), *result.warnings])))
+    im = table.texts("im")[0]
+    result = combine(population, im, levels, thresholds, counts, histories, everyone, _work(table.comments))
+    return replace(result, warnings=tuple(dict.fromkeys([*heads("warning:", table.comments), *result.warnings])))

@@ -47,6 +47,7 @@ seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic h
 from __future__ import annotations
 
 import functools
+import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -139,6 +140,11 @@ class Risk(Shown):
         ------
         InputError
             Years that are negative or no number.
+
+        Warns
+        -----
+        DondoloWarning
+            The curve is a plain function, which is taken for that of one wall.
         """
         return self.probability_bounds(years)[0]
 
@@ -159,11 +165,18 @@ class Risk(Shown):
         InputError
             Years that are negative or no number.
 
+        Warns
+        -----
+        DondoloWarning
+            The curve is a plain function, which is taken for that of one wall.
+
         Notes
         -----
         For the `mean` of a typology it is that of a wall drawn by weight, the share of the walls that is lost, from the
         frequencies of all walls. Any other function is taken for the curve of one wall, and the fit of a population for
-        that of walls that are alike, but for its saturation.
+        that of walls that are alike, but for its saturation. A plain function, such as ``lambda x: typology.mean(x)``,
+        hides the walls behind it: the probability is then too high for a population, and a warning says so. Give the
+        method itself, ``typology.mean`` or ``functools.partial(typology.mean, group="high")``.
         """
         time = as_number("years", years)
         if not 0.0 <= time < np.inf:
@@ -171,6 +184,13 @@ class Risk(Shown):
         if time == 0.0:
             # Whatever the frequency
             return 0.0, 0.0
+        if self._of_function:
+            _binding.warn(
+                [
+                    "the curve is a plain function, taken for that of one wall: for a population give typology.mean"
+                    " itself, or functools.partial of it with a mechanism or group"
+                ]
+            )
         return self._walls.probability(time)
 
     @functools.cached_property
@@ -187,6 +207,11 @@ class Risk(Shown):
     def _of_several(self) -> bool:
         """Is the curve the mean of a typology?"""
         return _is_mean(self.fragility)
+
+    @property
+    def _of_function(self) -> bool:
+        """Whether the curve is a plain function, which does not show how many walls are behind it."""
+        return inspect.isfunction(_object_of(self.fragility))
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
@@ -248,10 +273,11 @@ class Risk(Shown):
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
     def _facts(self) -> list[tuple[str, str]]:
+        of = " of one wall" if self._of_function else ""
         facts = [("mean annual frequency of collapse", between(*self.bounds, "a year"))]
         if not self._of_several:
-            facts.append(("return period", between(*self.return_period_bounds, "years")))
-        return [*facts, ("probability in 50 years", between(*self.probability_bounds(50.0)))]
+            facts.append((f"return period{of}", between(*self.return_period_bounds, "years")))
+        return [*facts, (f"probability in 50 years{of}", between(*self._walls.probability(50.0)))]
 
 
 def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
@@ -261,7 +287,8 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     ----------
     fragility : Fragility or callable
         A fitted curve, or a function from intensities (an array) to probabilities that do not fall with the intensity,
-        such as the `mean` of a typology.
+        such as the `mean` of a typology, given as such: wrapped in another function it is taken for the curve of one
+        wall (`Risk.probability_bounds`).
     hazard : HazardCurve
         Of the same intensity measure.
 
@@ -287,9 +314,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
 
     Examples
     --------
-    >>> from dondolo import fit_fragility
-    >>> curve = fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
-    >>> risk = mean_annual_frequency(curve, HazardCurve.power_law(1e-4, 2.5))
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+    >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
     >>> round(risk.return_period, 3)
     186.44
     """

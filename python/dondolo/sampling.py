@@ -23,7 +23,8 @@ from dondolo.walls import MECHANISMS, Wall, wall_from
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
 
-_PROPERTIES = (*_binding.WALL_NUMBERS, "restitution", "weight", "p_occ")
+_TEXTS = ("restitution", "bearing")
+_PROPERTIES = (*_binding.WALL_NUMBERS, "bearing_distance", *_TEXTS, "weight", "p_occ")
 # After so many the order hardly changes any more
 _PASSES = 5
 
@@ -41,8 +42,8 @@ def sample_population(
 ) -> Population:
     """A population of walls with sampled properties.
 
-    A property is a number (or a text, for `restitution`), a distribution, or a function of what was sampled, which
-    gets the samples by name, one array of n numbers each, and returns an array of n numbers or a number.
+    A property is a number (or a text, for `restitution` and `bearing`), a distribution, or a function of what was
+    sampled, which gets the samples by name, one array of n numbers each, and returns an array of n numbers or a number.
 
     Parameters
     ----------
@@ -68,7 +69,7 @@ def sample_population(
         [m/s2], 9.81 if left out.
     **properties
         Those of the walls - height, thickness, density, restitution, restitution_value, restitution_factor, for
-        'two_block' hinge, overburden, eccentricity - and weight and p_occ.
+        'two_block' hinge, overburden, eccentricity or bearing and bearing_distance - and weight and p_occ.
 
     Returns
     -------
@@ -96,12 +97,13 @@ def sample_population(
 
     Examples
     --------
-    >>> facades = sample_population(
-    ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": Triangular(0.5, 0.6, 0.75)}},
+    >>> import dondolo as dd
+    >>> facades = dd.sample_population(
+    ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75)}},
     ...     n=100,
     ...     seed=1,
-    ...     height=Lognormal(3.2, 0.15, low=2.4, high=4.5),
-    ...     thickness=Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
+    ...     height=dd.Lognormal(3.2, 0.15, low=2.4, high=4.5),
+    ...     thickness=dd.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
     ...     correlation={("height", "thickness"): 0.5},
     ...     group="facades",
     ... )
@@ -182,11 +184,11 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 raise InputError(f"{what!r}: no such property of walls; there are {', '.join(_PROPERTIES)}")
             if what == "weight" and mechanism:
                 raise InputError("weight: belongs to the wall, not to one of its mechanisms")
-            if isinstance(value, str) != (what == "restitution"):
-                raise InputError(f"{what} = {value!r}: must be a {'text' if what == 'restitution' else 'number'}")
+            if isinstance(value, str) != (what in _TEXTS):
+                raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
-                if what in _binding.WALL_NUMBERS and what not in MECHANISMS[kind].__dataclass_fields__:
+                if what not in ("weight", "p_occ") and what not in MECHANISMS[kind].__dataclass_fields__:
                     raise InputError(f"{what}: {kind} walls have none; give it to the mechanism that has it")
 
 
@@ -325,9 +327,9 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     """Walls of one mechanism."""
     pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
-    numbers = {what: value for what, value in values.items() if what in _binding.WALL_NUMBERS}
-    restitutions = [values.get("restitution")] * n
-    data = _binding.describe_walls(names, [mechanism] * n, restitutions, numbers, np.full(n, pull))
+    numbers = {what: value for what, value in values.items() if what not in (*_TEXTS, "weight", "p_occ")}
+    restitutions, bearings = ([values.get(what)] * n for what in _TEXTS)
+    data = _binding.describe_walls(names, [mechanism] * n, restitutions, numbers, np.full(n, pull), bearings)
     return [wall_from(one) for one in data]
 
 

@@ -236,7 +236,7 @@ def multiple_stripe(
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
-        Show a progress bar where stderr is a terminal.
+        Show a progress bar in a terminal or notebook.
 
     Returns
     -------
@@ -252,7 +252,8 @@ def multiple_stripe(
     Warns
     -----
     DondoloWarning
-        Scale factors above 10, records without motion; with estimated errors, histories in doubt.
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion;
+        with estimated errors, histories in doubt.
 
     Notes
     -----

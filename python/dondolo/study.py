@@ -57,8 +57,8 @@ def typology(
         are asked for, which takes less time.
     executor : concurrent.futures.Executor, optional
         Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
-        thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A pool of
-        processes must not fork after a run of this process: OpenMP's threads do not survive it.
+        thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A process that is
+        made by a fork works on one thread, whatever `threads` says: OpenMP's other threads do not survive it.
     checkpoint : path, optional
         File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
         results are the same to the bit. It stays when all is done.
@@ -82,7 +82,8 @@ def typology(
     Warns
     -----
     DondoloWarning
-        Scale factors above 10, records without motion, walls without a fit, a fit that extrapolates.
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion,
+        walls without a fit, a fit that extrapolates.
     """
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
     if executor is not None and threads == 0:

@@ -60,13 +60,15 @@ def label(text: str) -> str:
     return f" {text}" if text.startswith("_") else text
 
 
-def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), **options: Any) -> Any:
+def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), columns: int = 1, **options: Any) -> Any:
     """Axes of a new figure in the style of dondolo."""
     import matplotlib.pyplot as plt
 
+    # Not within rc_context: the first figure of a session chooses the backend, which turns interactive mode on, and
+    # leaving the context would turn it off again. Without it a notebook shows no further figure.
+    figure = plt.figure(figsize=size, dpi=RC["figure.dpi"], layout="constrained")
     with plt.rc_context(RC):
-        _, axes = plt.subplots(rows, 1, figsize=size, layout="constrained", **options)
-    return axes
+        return figure.subplots(rows, columns, **options)
 
 
 def legend(ax: Axes, **options: Any) -> None:

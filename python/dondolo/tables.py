@@ -140,6 +140,8 @@ def history_table(response: Response) -> Table:
         "rotation_rad": response.rotation,
         "velocity_rad_s": response.velocity,
         "edp": np.abs(response.rotation) / response.wall.capacity_angle,
+        "side": np.asarray(response.side, dtype=int),
+        "after_impact": np.asarray(response.after_impact, dtype=int),
     }
 
 

@@ -6,6 +6,7 @@ import dataclasses
 import math
 import os
 from collections.abc import Iterable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_levels, as_number, shaped
-from dondolo._files import as_file
+from dondolo._files import as_file, remove_old, whole_file
 from dondolo._flags import Flags
 from dondolo._members import Members
 from dondolo._shown import Shown
@@ -457,7 +458,8 @@ class Typology(Shown):
         """Write all tables into files of the names that the executable gives them.
 
         They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of
-        these names are replaced.
+        these names are replaced when all are written; what an earlier run has left with this prefix beside them, such
+        as ``out/centre_histories.csv``, is removed.
 
         Parameters
         ----------
@@ -477,8 +479,12 @@ class Typology(Shown):
                 f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
             )
         start = as_file("prefix", prefix)
-        for table in self._tables():
-            self.to_csv(start.with_name(f"{start.name}_{table}.csv"), table)
+        with ExitStack() as files:
+            for table in self._tables():
+                part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
+                self.to_csv(part, table)
+        for table in ("histories", "history"):
+            remove_old(start.with_name(f"{start.name}_{table}.csv"), "# dondolo ")
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())

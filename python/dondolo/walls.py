@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from typing import Any, ClassVar, NamedTuple
 
 from numpy.typing import ArrayLike
@@ -58,10 +58,14 @@ class Wall:
     gravity: float | None = None
     name: str | None = None
 
-    def __post_init__(self) -> None:
+    def __post_init__(self, *bearing: Any) -> None:
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
-        self._fill(_binding.describe_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity))
+        numbers = dict(zip(_binding.WALL_NUMBERS, self._numbers(), strict=True))
+        # A two-block wall comes with what takes the place of its eccentricity
+        place, numbers["bearing_distance"] = bearing or (None, None)
+        data = _binding.describe_wall(self.name, self.mechanism, self.restitution, numbers, self.gravity, place)
+        self._fill(data)
 
     def _numbers(self) -> list[Any]:
         """Its numbers in the order of Fortran, None where one does not apply."""
@@ -147,7 +151,8 @@ class Wall:
 
         Examples
         --------
-        >>> wall = TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+        >>> import dondolo as dd
+        >>> wall = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
         >>> terms = wall.terms([0.0, 0.05])
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
@@ -234,7 +239,8 @@ class OneSidedWall(Wall):
 
     Examples
     --------
-    >>> wall = OneSidedWall(height=3.0, thickness=0.25)
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
     >>> round(wall.frequency_parameter, 6)
     2.210895
     """
@@ -267,7 +273,25 @@ class TwoBlockWall(Wall):
     overburden : float, optional
         Vertical load on the top [N per metre of wall], 0 if left out.
     eccentricity : float, optional
-        Its distance from the centreline towards the active top hinge [m], 0 if left out.
+        Its distance from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall that
+        folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
+    bearing : {'inner', 'outer', 'centre'}, optional
+        Where the load bears, instead of the eccentricity: near the inner or the outer face, or on the centreline.
+    bearing_distance : float, optional
+        Distance of the load's resultant from the inner or the outer face [m]; half the length that joists bear on the
+        wall, a third where they bear harder on its edge.
+
+    Notes
+    -----
+    The wall keeps a bearing as its eccentricity. It is that of a wall that folds outwards; docs/theory.md, section 2.
+
+    Examples
+    --------
+    Joists that bear 0.12 m into the wall from its inner face:
+
+    >>> wall = TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    >>> wall.eccentricity
+    -0.065
     """
 
     mechanism: ClassVar[str] = "two_block"
@@ -275,6 +299,8 @@ class TwoBlockWall(Wall):
     hinge: float | None = None
     overburden: float | None = None
     eccentricity: float | None = None
+    bearing: InitVar[str | None] = None
+    bearing_distance: InitVar[float | None] = None
 
 
 MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}

@@ -79,6 +79,33 @@ def test_the_same_sentences(root, run, tmp_path, line):
     assert f"dondolo: {caught.value}\n" == finished.stderr
 
 
+def test_a_case_with_tables_of_spreadsheets(tmp_path):
+    (tmp_path / "walls.csv").write_text("name;mechanism;height;thickness\na;One_Sided;1,5;0,25\n")
+    (tmp_path / "records.csv").write_text("file;dt_s;units\nmotion.txt;0,01;g\n")
+    (tmp_path / "motion.txt").write_text("t;a (g)\n0;0\n0,01;0,5\n0,02;-0,25\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task='TYPOLOGY' /\n&population file='walls.csv' /\n&records catalogue='records.csv' polarity='BOTH' /\n"
+        "&stripes im='SA(0.50)' levels=0.1, 0.2 /\n&solver engine='LANES' /\n"
+    )
+    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas") as caught:
+        case = dd.read_case(tmp_path / "case.nml")
+    assert [str(warning.message).split(": ")[0] for warning in caught] == [
+        str(tmp_path / "records.csv"),
+        str(tmp_path / "walls.csv"),
+    ]
+    assert (case.task, case.polarity, case.engine, case.im) == ("typology", "both", "lanes", "sa(0.5)")
+    assert case.population[0].thickness == 0.25
+    assert case.records[0].acceleration[1] == 0.5 * 9.80665
+    assert case.records[0].metadata["processing"] == "decimal commas read"
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+def test_a_case_that_is_no_utf8(encoding, tmp_path):
+    (tmp_path / "case.nml").write_text("&job title='unità' /\n", encoding=encoding)
+    with pytest.raises(dd.InputError, match=r"case\.nml: line 1: is .*: save it as UTF-8"):
+        dd.read_case(tmp_path / "case.nml")
+
+
 def test_no_case(tmp_path):
     with pytest.raises(dd.InputError, match=r"nothing\.nml"):
         dd.run_case(tmp_path / "nothing.nml")

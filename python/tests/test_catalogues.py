@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -117,6 +118,83 @@ def test_units_and_steps_of_comments(tmp_path):
     x, y = dd.read_catalogue(tmp_path / "catalogue.csv")
     assert (x.dt, x.pga) == (0.02, 0.02)
     assert (y.name, y.pga) == ("y.acc_(g)", 9.80665)
+
+
+def peer(component, quantity="ACCELERATION", units="G"):
+    text = PEER.replace("North, 67", f"North, {component}")
+    return text.replace("ACCELERATION TIME SERIES IN UNITS OF G", f"{quantity} TIME SERIES IN UNITS OF {units}")
+
+
+# Files, and whether they are horizontal accelerograms
+FILES = {
+    # By their metadata, whatever they are called
+    "RSN1_A000.AT2": (peer("0"), True),
+    "RSN1_A-UP.AT2": (peer("90"), True),
+    "RSN1_A-V.AT2": (peer("UP"), False),
+    "RSN2_B.AT2": (peer("DWN"), False),
+    "RSN3_C.AT2": (peer("-UP"), False),
+    "RSN4_D.AT2": (peer("VERT"), False),
+    "IT.ARL..HNE.txt": ("# component: HNZ\n0\n1\n0\n", False),
+    "e.txt": ("# component: N90E\n0\n1\n0\n", True),
+    "f.txt": ("# component: U-D\n0\n1\n0\n", False),
+    # By their names
+    "20090406_AQV_UD.acc": ("0\n1\n0\n", False),
+    "20090406_AQV_WE.acc": ("0\n1\n0\n", True),
+    "GMN_V.txt": ("0\n1\n0\n", False),
+    "V_GMN.txt": ("0\n1\n0\n", True),
+    "GMN_V_NS.txt": ("0\n1\n0\n", True),
+    "UP_EW_corrected.txt": ("0\n1\n0\n", True),
+    "IT.AQK..HNZ.D.ACC.asc": ("0\n1\n0\n", False),
+    "IT.AQK..HGZ.D.ACC.asc": ("0\n1\n0\n", False),
+    "IT.AQK..HGE.D.ACC.asc": ("0\n1\n0\n", True),
+    "B-STUDWN.txt": ("0\n1\n0\n", False),
+    "station.Z": ("0\n1\n0\n", False),
+    "GROUP.txt": ("0\n1\n0\n", True),
+    # No accelerations
+    "RSN5_A000.VT2": (peer("0", "VELOCITY", "CM/S"), None),
+    "RSN5_A000.DT2": (peer("0", "DISPLACEMENT", "CM"), None),
+    "RSN6_A000.VT2": ("0\n1\n0\n", None),
+    "AQV_NS_vel.txt": ("0\n1\n0\n", None),
+    "_SearchResults.csv": ("0,1\n0.01,2\n0.02,1\n", None),
+}
+
+
+def test_vertical_components_and_velocities(tmp_path):
+    for name, (content, _) in FILES.items():
+        (tmp_path / name).write_text(content)
+    target = tmp_path / "all.csv"
+    for option, kept in ([], (True,)), (["--vertical"], (True, False)):
+        code, _, err = run("catalogue", tmp_path, "-o", target, "--dt", "0.01", "--units", "g", *option)
+        assert code == 0
+        files = {line.split(",")[0] for line in target.read_text().splitlines()[2:]}
+        assert files == {name for name, (_, horizontal) in FILES.items() if horizontal in kept}
+        left_out = {line.split(": ")[2] for line in err.splitlines()}
+        assert left_out == {str(tmp_path / name) for name in FILES} - {str(tmp_path / name) for name in files}
+        assert ("a vertical component, by its component 'HNZ'" in err) is not bool(option)
+        assert ("a vertical component, by its name 'GMN_V.txt'" in err) is not bool(option)
+        assert "RSN6_A000.VT2: no acceleration, by 'vt2' in its name; it does not state its units" in err
+        assert "_SearchResults.csv: a list of search results of PEER, no accelerogram" in err
+
+
+def test_vertical_channels(tmp_path):
+    (tmp_path / "three.txt").write_text("t,N-S (g),E-W (g),V (g)\n0,1,2,3\n0.01,-1,3,4\n")
+    code, out, err = run("catalogue", tmp_path)
+    assert (code, "(2 records)" in out) == (0, True)
+    assert err == f"dondolo: left out: {tmp_path / 'three.txt'}: a vertical component, by its channel 'V (g)'\n"
+
+
+@pytest.mark.parametrize("part", ["italy", "formats"])
+def test_vertical_components_of_recordings(part, root, tmp_path):
+    recorded = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    if not (recorded / part).is_dir():
+        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
+    target = tmp_path / "all.csv"
+    code, _, err = run("catalogue", recorded / part, "-o", target, "--dt", "0.005", "--units", "m/s2")
+    vertical = [line for line in err.splitlines() if "a vertical component" in line]
+    assert (code, len(vertical)) == (0, {"italy": 27, "formats": 6}[part])
+    files = [line.split(",")[0] for line in target.read_text().splitlines()[2:]]
+    assert not any("_UD" in name or "_UP" in name or "BNZ" in name for name in files)
+    assert len(files) == {"italy": 54, "formats": 31}[part]
 
 
 def test_nothing_to_read(tmp_path):

@@ -199,6 +199,23 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
     place = content.index(flags[200:240]) + 5
     path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
     refused(r"is damaged \(the block of row 1\)")
+    # SQLite keeps a value of any type in any column.
+    for column, value in (
+        ("flags", "text"),
+        ("flags", 5),
+        ("work", b"bytes"),
+        ("work", "[]"),
+        ("rows", "many"),
+        ("rows", 2.5),
+    ):
+        path.write_bytes(content)
+        with closing(sqlite3.connect(path)) as file, file:
+            file.execute(f"UPDATE block SET {column} = ? WHERE first = 0", (value,))
+        refused(r"is damaged \(the block of row 1\)")
+    path.write_bytes(content)
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute("UPDATE study SET value = ? WHERE what = 'im'", (b"pga",))
+    refused("belongs to another study: im b'pga' there, pga here")
     for wrong in (3, "", "a\0b", b"a"):
         with pytest.raises(dd.InputError, match=r"checkpoint = .*: must be the path of a file"):
             dd.typology(**study.arguments(checkpoint=wrong))

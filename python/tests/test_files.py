@@ -1,8 +1,12 @@
 """Files that Python writes: whole or not at all, and read back."""
 
+import dataclasses
 import os
+import pickle
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -71,6 +75,156 @@ def test_a_typology_is_saved_and_read_back(people, tmp_path):
         assert done.returncode == 0, done.stderr
         assert (tmp_path / f"city_{made}").is_file()
     assert people.warnings[0] in (tmp_path / "city_report.html").read_text().replace("&#x27;", "'")
+
+
+def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
+    for name in ("histories", "history", "typology"):
+        (tmp_path / f"city_{name}.csv").write_text("# dondolo 0.0.1\nwall\n")
+    (tmp_path / "cities_history.csv").write_text("# dondolo 0.0.1\nwall\n")
+    people.save(tmp_path / "city")
+    kept = [f"city_{name}.csv" for name in ("fragility", "stripes", "typology", "walls")]
+    assert sorted(os.listdir(tmp_path)) == ["cities_history.csv", *kept]
+    # What dondolo did not write is not its own to remove.
+    (tmp_path / "city_history.csv").write_text("The history of the city\n")
+    people.save(tmp_path / "city")
+    assert (tmp_path / "city_history.csv").read_text() == "The history of the city\n"
+    # A table that cannot be written leaves the others as they were.
+    before = (tmp_path / "city_typology.csv").read_bytes()
+    (tmp_path / "city_walls.csv").unlink()
+    (tmp_path / "city_walls.csv").mkdir()
+    changed = dataclasses.replace(people, warnings=("other",))
+    with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written"):
+        changed.save(tmp_path / "city")
+    assert (tmp_path / "city_typology.csv").read_bytes() == before
+    assert not list(tmp_path.glob("*.part"))
+
+
+@pytest.fixture(scope="module")
+def damaged(executable, root, tmp_path_factory):
+    """The result files of a task with something replaced, and their prefix."""
+    folder = tmp_path_factory.mktemp("damaged")
+    for task in ("parapet", "history", "population"):
+        subprocess.run([executable, "--quiet", root / f"data/cases/{task}.nml"], cwd=folder, check=True)
+
+    def change(task, table, pattern, instead):
+        prefix = folder / "out" / task
+        path = Path(f"{prefix}_{table}.csv")
+        text = path.read_text()
+        changed, number = re.subn(pattern, instead, text, count=1, flags=re.MULTILINE)
+        assert number
+        path.write_text(changed)
+        try:
+            with pytest.raises(dd.InputError) as caught:
+                dd.read_results(prefix)
+        finally:
+            path.write_text(text)
+        sentence = str(caught.value)
+        assert sentence.startswith(f"{path}: ")
+        return sentence[len(f"{path}: ") :]
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("task", "table", "pattern", "instead", "sentence"),
+    [
+        (
+            "population",
+            "walls",
+            r"^(parapet brick low,.*),.*,.*$",
+            r"\1",
+            r"line \d+: 17 cells: must be 19 as in the header",
+        ),
+        (
+            "population",
+            "stripes",
+            r"^(parapet brick low,.*),.*$",
+            r"\1",
+            r"line \d+: 7 cells: must be 8 as in the header",
+        ),
+        ("parapet", "histories", r"^(parapet,.*),", r"\1", r"line \d+: 10 cells: must be 11 as in the header"),
+        ("parapet", "histories", r"^parapet,", "p" * 200000 + ",", r"line \d+: field larger than field limit"),
+        ("history", "history", r"^# record: .*\n", "", "no comment '# record:'"),
+        ("history", "history", "rotation_rad", "rotation", "no column 'rotation_rad'"),
+        ("history", "history", r"^0\.0*E\+00,", "nan,", r"line \d+: time_s = 'nan': must be a number"),
+        ("parapet", "histories", r"^# work: .*\n", "", "no comment '# work:' with its counts"),
+        ("parapet", "histories", r"^parapet,.*\n", "", r"\d+ rows: must be as many at each of the \d+ levels"),
+        ("population", "stripes", r"^parapet brick low,.*\n", "", r"\d+ rows: must be 24 x 1 x 12, one for each wall"),
+        ("population", "walls", ",one_sided,", ",arch,", r"line \d+: mechanism = 'arch': must be one of 'one_sided'"),
+        (
+            "population",
+            "walls",
+            r"^(parapet brick low,[a-z_]*),[^,]*",
+            r"\1,-1",
+            r"line \d+: height = -1: must be positive",
+        ),
+    ],
+)
+def test_what_is_wrong_with_a_result_file_is_named(damaged, task, table, pattern, instead, sentence):
+    assert re.match(sentence, damaged(task, table, pattern, instead))
+
+
+def test_a_cell_is_no_comment(people, tmp_path):
+    people.save(tmp_path / "city")
+    path = tmp_path / "city_walls.csv"
+    # As a file of an earlier version may have it
+    forged = path.read_text().replace('"b, with a comma"', "\"b\n# &job task = 'history'\"")
+    path.write_text(forged)
+    with pytest.raises(dd.InputError, match=r"city_walls\.csv: line \d+: name: must stand on one line"):
+        dd.read_results(tmp_path / "city")
+
+
+def test_a_missing_file_is_a_missing_file(tmp_path):
+    missing = tmp_path / "none.csv"
+    catalogue = tmp_path / "records.csv"
+    catalogue.write_text("file,dt_s,units\nnone.txt,0.01,g\n")
+    case = tmp_path / "case.nml"
+    case.write_text("&wall mechanism = 'one_sided' height = 3 thickness = 0.3 / &records catalogue = 'none.csv' /\n")
+    for read, path in (
+        (dd.read_record, missing),
+        (dd.read_records, missing),
+        (dd.read_catalogue, missing),
+        (dd.read_catalogue, catalogue),
+        (dd.read_population, missing),
+        (dd.read_case, missing),
+        (dd.read_results, tmp_path / "none"),
+        (dd.HazardCurve.from_csv, missing),
+    ):
+        with pytest.raises(FileNotFoundError) as caught:
+            read(path)
+        assert isinstance(caught.value, dd.InputError)
+        assert pickle.loads(pickle.dumps(caught.value)).args == caught.value.args
+        assert "none" in str(caught.value)
+    case.write_text(case.read_text() + "&stripes levels = 0.1, 0.2 /\n")
+    with pytest.raises(dd.MissingFileError, match=r"&records: catalogue = 'none.csv': there is no file"):
+        dd.read_case(case)
+
+
+@pytest.mark.parametrize("character", ["\n", "\r", "\0", "\x1b", "\x0b", "\x0c", "\x7f", "\x85", "\u2028", "\u2029"])
+def test_names_stand_on_one_line(character, wall, sine, tmp_path):
+    name = f"a{character}b"
+    for make in (
+        lambda: dd.OneSidedWall(3.0, 0.25, name=name),
+        lambda: dd.Record(sine.acceleration, sine.dt, name=name),
+        lambda: dd.Population([wall], groups=[name]),
+        lambda: dd.Population([wall], origin=[name]),
+    ):
+        with pytest.raises(dd.InputError, match="must stand on one line, without control characters"):
+            make()
+    # What a table says is refused as well, and the name that a file gives its record is made plain.
+    (tmp_path / "record.txt").write_text("0\n1\n0\n")
+    for table, header, row in (
+        ("records.csv", "file,dt_s,units,name", f'record.txt,0.01,g,"{name}"'),
+        ("walls.csv", "name,mechanism,height,thickness", f'"{name}",one_sided,3,0.25'),
+    ):
+        (tmp_path / table).write_bytes(f"{header}\n{row}\n".encode())
+        read = dd.read_catalogue if table == "records.csv" else dd.read_population
+        with pytest.raises(dd.InputError, match=rf"{table}: line 2: name = .*: must stand on one line"):
+            read(tmp_path / table)
+    if character != "\0":
+        path = tmp_path / f"{name}.txt"
+        path.write_text("0\n1\n0\n")
+        assert dd.read_record(path, 0.01, "g").name == f"a{' ' * len(character.encode())}b"
 
 
 def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path):

@@ -201,6 +201,22 @@ def test_delta_intervals():
         assert ends == pytest.approx(many.parameter_interval()[name], rel=1e-4)
 
 
+@pytest.mark.parametrize("level", [0.5, 0.95])
+def test_delta_interval_is_that_of_a_probit_regression(level):
+    """Also far from the median, where the covariance of theta and beta matters."""
+    api = pytest.importorskip("statsmodels.api")
+    levels, collapses = np.array([0.2, 0.3, 0.5, 0.8]), np.array([1, 2, 4, 17])
+    curve = dd.fit_fragility(levels, collapses, 20)
+    correlation = curve.covariance[0, 1] / (curve.se_ln_theta * curve.se_beta)
+    assert abs(correlation) > 0.2
+    family = api.families.Binomial(link=api.families.links.Probit())
+    model = api.GLM(np.column_stack([collapses, 20 - collapses]), api.add_constant(np.log(levels)), family=family)
+    x = np.array([0.05, 0.2, 0.6, 3.0])
+    predicted = model.fit(tol=1e-14, maxiter=300).get_prediction(api.add_constant(np.log(x)))
+    found = np.transpose(curve.interval(x, level=level))
+    assert found == pytest.approx(predicted.conf_int(alpha=1.0 - level), rel=1e-6)
+
+
 def test_weak_data_leave_the_profile_open():
     curve = dd.fit_fragility([1.0, 2.0, 3.0], [4, 5, 6], 10)
     ends = curve.parameter_interval(method="profile")
@@ -264,6 +280,51 @@ def test_comparison(stripes, wall, records):
         dd.compare(curve, other, events=list(range(44)))
     with pytest.raises(dd.InputError, match="curves: str is no fragility curve"):
         dd.compare("curve", other)
+
+
+def test_interval_of_the_ratio_of_two_medians():
+    """The variances of ln theta of independent curves add up."""
+    one, other = ([0.2, 0.4, 0.8], [3, 20, 38], 44), ([0.2, 0.4, 0.8], [1, 7, 15], 20)
+    pair = dd.compare(dd.fit_fragility(*one), dd.fit_fragility(*other), level=0.9)
+    fits = [statsmodels_fit(np.array(x), np.array(z), np.full(3, n)) for x, z, n in (one, other)]
+    ratio = stats.norm(np.log(fits[0][0] / fits[1][0]), np.sqrt(fits[0][2] ** 2 + fits[1][2] ** 2))
+    assert pair.ratio == pytest.approx(np.exp(ratio.mean()), rel=1e-6)
+    assert pair.interval == pytest.approx(np.exp(ratio.interval(0.9)), rel=1e-6)
+
+
+def test_p_value_of_the_bootstrap(stripes, records):
+    """Twice the smaller tail of the samples, in which the observed ratio counts as one sample more."""
+    curve, n = stripes.fit(), 399
+    much, little = (
+        dd.multiple_stripe(dd.OneSidedWall(*sizes), records, stripes.levels, progress=False).fit()
+        for sizes in ((2.5, 0.25), (1.5, 0.26))
+    )
+
+    def p_values(other):
+        return [dd.compare(*pair, method="bootstrap", n=n, seed=3).p_value for pair in ((curve, other), (other, curve))]
+
+    # The slender wall has the lower median in all 399 samples.
+    assert p_values(much) == [2.0 / 400.0] * 2
+    assert p_values(curve) == [1.0, 1.0]
+    # Both curves are fitted to the same samples of records.
+    weaker = int(np.sum(curve.bootstrap(n, seed=3).theta > little.bootstrap(n, seed=3).theta))
+    assert 1 < weaker < 30
+    assert p_values(little) == pytest.approx([(weaker + 1) / 200.0] * 2, rel=1e-12)
+
+
+def test_bootstrap_of_events_of_unequal_size(stripes):
+    """Each sample has both of two events or one of them twice, so that it has one of three curves."""
+    parts = [slice(None), slice(30), slice(30, None)]
+    fits = []
+    for part in parts:
+        collapsed = stripes.collapsed[:, part]
+        fits.append(statsmodels_fit(stripes.levels, collapsed.sum(axis=1), np.full(6, collapsed.shape[1]))[:2])
+    boot = stripes.fit().bootstrap(400, seed=3, events=[0] * 30 + [1] * 14)
+    found = np.column_stack([boot.theta, boot.beta])
+    off = np.abs(found[:, None] / np.array(fits) - 1.0).max(axis=2)
+    assert off.min(axis=1).max() < 1e-6
+    often = np.bincount(off.argmin(axis=1), minlength=3)
+    assert stats.chisquare(often, [200, 100, 100]).pvalue > 0.01
 
 
 def test_bootstrap_goes_by_records_and_not_by_names(wall, few):

@@ -241,6 +241,21 @@ def test_one_measure_is_a_comparison(wall, records):
     assert dd.compare_intensities(wall, records, "pga", levels=5, samples=20, progress=False).ims == ("pga",)
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_comparison_draws_events_together(wall, records):
+    """Two copies of each record, labelled as one event, give the intervals of one copy."""
+    some = records[::3]
+    twice = [record for record in some for _ in range(2)]
+    once, paired = (
+        dd.compare_intensities(
+            wall, several, ["pga", "pgv"], levels=6, samples=200, seed=3, events=events, progress=False
+        ).ratio_interval
+        for several, events in ((some, None), (twice, [i // 2 for i in range(len(twice))]))
+    )
+    assert np.ptp(once, axis=1).max() > 0.1
+    assert paired == pytest.approx(once, rel=1e-9)
+
+
 def test_wrong_comparisons(wall, few):
     with pytest.raises(dd.InputError, match="ims: must be given, and differ"):
         dd.compare_intensities(wall, few, ["sa(0.5)", "sa(0.50)"])

@@ -31,27 +31,36 @@ def test_history(sine):
     assert response.ground_acceleration[inside] == pytest.approx(expected, abs=1e-9)
 
 
-def test_sides(sine):
+def test_sides_and_impacts(sine):
     response = dd.simulate(TWO_SIDED, sine, scale=2.0)
     moving = response.rotation != 0.0
     assert np.array_equal(response.side[moving], np.sign(response.rotation[moving]))
     assert set(response.side) == {-1, 1}
     # Before an impact the wall comes back (q' < 0), after it it leaves (q' > 0), on the other side
-    pairs = np.flatnonzero((np.diff(response.time) == 0.0) & ~moving[:-1] & ~moving[1:])
-    assert response.impacts > 2
-    assert len(pairs) >= response.impacts
-    assert np.all((response.side * response.velocity)[pairs] < 0.0)
-    assert np.all((response.side * response.velocity)[pairs + 1] > 0.0)
-    assert np.all(response.side[pairs] == -response.side[pairs + 1])
+    after = np.flatnonzero(response.after_impact)
+    before = after - 1
+    assert np.sum(response.time[after] <= sine.duration) == response.impacts > 2
+    assert len(after) > response.impacts
+    assert np.array_equal(response.time[before], response.time[after])
+    assert not moving[before].any()
+    assert not moving[after].any()
+    speed = response.side * response.velocity
+    assert np.all(speed[before] < 0.0)
+    np.testing.assert_allclose(speed[after], -TWO_SIDED.restitution_coefficient * speed[before], rtol=1e-15)
+    assert np.array_equal(response.side[before], -response.side[after])
+    # No other rows are of an impact
+    assert np.all(np.diff(response.time)[np.setdiff1d(np.arange(len(moving) - 1), before)] > 0.0)
 
 
 def test_one_sided_walls_have_one_side(wall, sine):
-    assert np.all(dd.simulate(wall, sine, scale=3.0).side == 1)
+    response = dd.simulate(wall, sine, scale=3.0)
+    assert np.all(response.side == 1)
+    assert response.after_impact.sum() >= response.impacts > 0
 
 
 def test_without_history(wall, sine):
     short, long = (dd.simulate(wall, sine, scale=3.0, history=history) for history in (False, True))
-    assert short.time is None
+    assert short.time is short.side is short.after_impact is None
     assert (short.edp, short.collapsed, short.impacts) == (long.edp, long.collapsed, long.impacts)
     assert short.time_of_peak == long.time_of_peak
     with pytest.raises(dd.DondoloError, match="no time history"):

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import matplotlib
 
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from dondolo.drawing import peak_rotation, shape
 from matplotlib.image import imread
+from scipy import stats
 
 import dondolo as dd
 
@@ -48,11 +50,21 @@ def test_history_shows_the_motion(motion):
     above, below = dd.plot_history(motion)
     np.testing.assert_array_equal(above.get_lines()[0].get_ydata(), motion.ground_acceleration / 9.81)
     np.testing.assert_array_equal(line(below, "rotation").get_ydata(), motion.rotation / motion.wall.capacity_angle)
-    assert len(line(below, "impacts").get_xdata()) >= motion.impacts > 0
+    np.testing.assert_array_equal(line(below, "impacts").get_xdata(), motion.time[motion.after_impact])
+    assert 0 < motion.impacts == motion.after_impact.sum()
+    assert line(below, "impacts").get_label() == f"impacts ({motion.impacts})"
     assert line(below, "EDP").get_ydata()[0] == motion.edp
     assert line(below, "EDP").get_xdata()[0] == motion.time_of_peak
     assert below.get_xlabel() == "time [s]"
     assert "[g]" in above.get_ylabel()
+
+
+def test_history_counts_the_impacts_after_the_record_apart(sine):
+    motion = dd.simulate(dd.FreeStandingWall(height=6.0, thickness=0.9), sine, 2.0)
+    later = int((motion.after_impact & (motion.time > sine.duration)).sum())
+    drawn = line(dd.plot_history(motion)[1], "impacts")
+    assert later > 0
+    assert drawn.get_label() == f"impacts ({motion.impacts}, and {later} after the record)"
 
 
 def test_history_draws_into_given_axes(motion):
@@ -91,6 +103,22 @@ def test_fragility_shows_fractions_curve_and_band(stripes):
     band = ax.collections[0].get_paths()[0].vertices
     assert band[:, 1].max() <= 1.0
     assert band[:, 1].min() >= 0.0
+
+
+def test_bars_end_at_the_saturation():
+    """Exact binomial intervals of the walls that can collapse, times their share of the population."""
+    collapses, share = [0, 8, 20, 41, 44], 0.5
+    curve = replace(dd.fit_fragility(LEVELS, collapses, 44), saturation=share)
+    ax = dd.plot_fragility(curve, level=0.9)
+    container = ax.containers[0]
+    np.testing.assert_allclose(container.lines[0].get_ydata(), np.array(collapses) / 88, rtol=1e-12)
+    exact = [stats.binomtest(count, 44).proportion_ci(0.9, method="exact") for count in collapses]
+    segments = np.array(container.lines[2][0].get_segments())
+    np.testing.assert_allclose(segments[:, :, 1], share * np.array(exact), rtol=1e-9, atol=1e-15)
+    drawn = line(ax, "θ")
+    expected = stats.lognorm(curve.beta, scale=curve.theta).cdf(drawn.get_xdata())
+    np.testing.assert_allclose(drawn.get_ydata(), share * expected, rtol=1e-12)
+    assert ax.collections[0].get_paths()[0].vertices[:, 1].max() < share
 
 
 def test_fragility_without_a_fit_shows_the_bracket():
@@ -255,6 +283,8 @@ def test_results_do_not_believe_the_title(executable, root, tmp_path):
     stored, run = dd.read_results(tmp_path / "out/history").response, dd.run_case(tmp_path / "case.nml").response
     assert (stored.scale, stored.edp, stored.edp_limit) == (run.scale, run.edp, run.edp_limit)
     assert stored.wall == run.wall
+    for column in ("time", "side", "after_impact"):
+        assert np.array_equal(getattr(stored, column), getattr(run, column)), column
     # Files of another task with the same beginning are not mixed up.
     stripes = (root / "data/cases/parapet.nml").read_text().replace("../records", str(root / "data/records"))
     (tmp_path / "case.nml").write_text(stripes.replace("out/parapet", "out/history"))

@@ -113,12 +113,15 @@ def test_shown():
         ({"weights": [0.0] * 4}, "weight: must be positive for at least one wall"),
         ({"weights": [1.0, 2.0, 1.0, 1.0]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
-        ({"groups": ["x", "x", "a\nb", ""]}, "wall 'b, \"the\" #2': group: must stand on one line"),
+        (
+            {"groups": ["x", "x", "a\nb", ""]},
+            "wall 'b, \"the\" #2': group: must stand on one line, without control characters",
+        ),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
         ({"groups": 5}, "groups = 5: must be a name for each wall"),
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
-        ({"origin": ["two\nlines"]}, "origin: must stand on one line"),
+        ({"origin": ["two\nlines"]}, "origin: must stand on one line, without control characters"),
         ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],
 )
@@ -201,6 +204,28 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
     back = dd.read_population(path)
     assert same(back, people)
     assert math.copysign(1.0, back[0].eccentricity) == math.copysign(1.0, eccentricity)
+
+
+SPREADSHEET = "Rilievo, 2024;;;;\r\nname;mechanism;height;thickness;\r\nunità;ONE_SIDED;3,5;0,25;\r\n;;;;\r\n"
+
+
+def test_table_of_a_spreadsheet(tmp_path):
+    path = tmp_path / "walls.csv"
+    path.write_text(SPREADSHEET, encoding="utf-8-sig")
+    with pytest.warns(dd.DondoloWarning) as caught:
+        (wall,) = dd.read_population(path)
+    note = "read with columns separated by semicolons, decimal commas, line 1 is a title"
+    assert [str(warning.message) for warning in caught] == [f"{path}: {note}"]
+    assert (wall.name, wall.mechanism, wall.height, wall.thickness) == ("unità", "one_sided", 3.5, 0.25)
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+def test_table_that_is_no_utf8(encoding, tmp_path):
+    path = tmp_path / "walls.csv"
+    path.write_text(SPREADSHEET, encoding=encoding)
+    with pytest.raises(dd.InputError, match=r"line \d: is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)") as caught:
+        dd.read_population(path)
+    assert "\n" not in str(caught.value)
 
 
 def test_blanks_of_names_are_kept(tmp_path):

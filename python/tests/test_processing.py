@@ -145,6 +145,18 @@ def test_padding():
     assert abs(tapered.acceleration[0]) < 1e-3 < 0.4 < abs(dd.band_pass(ends, None, 20.0, taper=0.0).acceleration[0])
 
 
+@pytest.mark.parametrize("part", [0.02, 0.1, 0.5])
+def test_taper_is_half_a_cosine(part):
+    """The window rises from 0 at either end to 1 at the given part of the duration."""
+    record = noise()
+    time, length = record.time, part * record.duration
+    to_end = np.minimum(time, record.duration - time)
+    window = np.where(to_end < length, 0.5 - 0.5 * np.cos(np.pi * to_end / length), 1.0)
+    by_hand = dd.Record(window * record.acceleration, record.dt)
+    tapered = dd.band_pass(record, 0.5, 20.0, taper=part).acceleration
+    np.testing.assert_allclose(tapered, dd.band_pass(by_hand, 0.5, 20.0, taper=0.0).acceleration, atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -1,10 +1,15 @@
 """What holds the project together: lists and versions in step, the boundary's kinds, costs of import and call."""
 
+import doctest
+import importlib
+import importlib.util
+import pkgutil
 import re
 import subprocess
 import sys
 import time
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -100,7 +105,7 @@ def test_import_is_quick():
 def test_a_call_costs_little(samples):
     """Four passes of NumPy over the samples, taken in turn, are the measure: about 10 us where nothing else runs."""
     wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, eccentricity=0.05)
-    record = dd.Record(np.zeros(samples), 0.01)
+    record = dd.Record(np.full(samples, 0.1), 0.01)
     calls = (
         lambda: dd.simulate(wall, record, history=False),
         lambda: [np.abs(record.acceleration).max() for _ in "four"],
@@ -124,13 +129,31 @@ def test_documented():
             assert not thing.__doc__.startswith(f"{name}("), name
 
 
-def test_examples_in_the_docstrings():
-    import doctest
+def test_examples_in_the_docstrings(tmp_path, monkeypatch):
+    """Each runs as a reader copies it: in an empty folder, with only the names that it imports."""
+    monkeypatch.chdir(tmp_path)
+    modules = ["dondolo", *(module.name for module in pkgutil.walk_packages(dd.__path__, "dondolo."))]
+    results = {name: doctest.testmod(importlib.import_module(name), globs={}) for name in modules}
+    assert [name for name, result in results.items() if result.failed] == []
+    assert sum(result.attempted for result in results.values()) > 30
 
-    from dondolo import fragility, walls
 
-    for module in (dd, fragility, walls):
-        assert doctest.testmod(module).failed == 0
+def test_mutations_match_the_package(root):
+    """Each edit of test/mutations.py applies to exactly one place, and its test exists."""
+    spec = importlib.util.spec_from_file_location("mutations", root / "test/mutations.py")
+    mutations = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(mutations)
+    assert mutations.stale(Path(dd.__file__).parent) == []
+
+
+def test_warning_filters_do_not_import_the_package(root, tmp_path):
+    """Coverage starts after pytest has read its filters, and misses what was imported before."""
+    (tmp_path / "early.py").write_text(
+        "import sys\n\n\ndef pytest_load_initial_conftests():\n    assert 'dondolo' not in sys.modules\n"
+    )
+    command = [sys.executable, "-m", "pytest", "-p", "early", "-c", root / "pyproject.toml", tmp_path]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == pytest.ExitCode.NO_TESTS_COLLECTED, done.stderr
 
 
 def test_defaults_are_those_of_fortran(wall, sine):

@@ -222,7 +222,7 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     page = read(pages / "typology.html")
     risk = dd.mean_annual_frequency(people.mean, hazard)
     table = page.table("Mean annual frequencies")
-    shown = dict(zip(table["curve"], table["annual frequency from"], strict=True))
+    shown = dict(zip(table["curve"], table["annual frequency [1/year]"], strict=True))
 
     def value(text):
         mantissa, _, power = text.partition(" \N{MULTIPLICATION SIGN} 10")
@@ -233,21 +233,39 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
         "whole population, EDP ≥ 0.3",
         *(f"{who}, collapse" for who in ("whole population", "low", "high")),
     ]
-    assert value(shown["whole population, collapse"]) == pytest.approx(risk.frequency, rel=5e-3)
+
+    def ends(text):
+        return [value(part) for part in text.split(" to ")]
+
+    def expected(low, high):
+        """One number where both are the same to three digits."""
+        same = f"{low:.3g}" == f"{high:.3g}"
+        return pytest.approx([low] if same else [low, high], rel=5e-3)
+
+    assert ends(shown["whole population, collapse"]) == expected(*risk.bounds)
     high = dd.mean_annual_frequency(lambda x: people.mean(x, group="high"), hazard)
-    assert value(shown["high, collapse"]) == pytest.approx(high.frequency, rel=5e-3)
+    assert ends(shown["high, collapse"]) == expected(*high.bounds)
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
     np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
     # A population has no return period; what it loses in some years comes from its walls.
-    ends = ("probability in 50 years from", "to")
-    assert list(table) == ["curve", "annual frequency from", "to [1/year]", *ends]
-    assert [value(table[name][1]) for name in ends] == pytest.approx(risk.probability_bounds(50.0), rel=5e-3)
-    table = read(pages / "stripes.html").table("Mean annual frequencies")
+    assert list(table) == ["curve", "annual frequency [1/year]", "probability in 50 years"]
+    assert ends(table["probability in 50 years"][1]) == expected(*risk.probability_bounds(50.0))
+    page = read(pages / "stripes.html")
+    table = page.table("Mean annual frequencies")
     one = dd.mean_annual_frequency(stripes.fit(), hazard)
-    ends = ("return period from", "to [years]", *ends)
-    expected = (*one.return_period_bounds, *one.probability_bounds(50.0))
-    assert [value(table[name][0]) for name in ends] == pytest.approx(expected, rel=5e-3)
-    assert value(table["to [1/year]"][0]) == pytest.approx(one.bounds[1], rel=5e-3)
+    assert list(table) == ["curve", "annual frequency [1/year]", "return period [years]", "probability in 50 years"]
+    bounds = (one.bounds, one.return_period_bounds, one.probability_bounds(50.0))
+    assert [ends(table[name][0]) for name in list(table)[1:]] == [expected(*pair) for pair in bounds]
+    assert "not a confidence interval" in page.text
+
+
+def test_bounds_of_the_risk_are_two_numbers_only_where_they_differ(stripes, tmp_path):
+    shown = []
+    for levels in (np.geomspace(0.005, 20.0, 12), [0.05, 0.4]):
+        dd.report(stripes, tmp_path / "report.html", hazard=dd.HazardCurve(levels, 1e-4 * np.power(levels, -2.5)))
+        table = read(tmp_path / "report.html").table("Mean annual frequencies")
+        shown.append(["to" in table[name][0] for name in list(table)[1:]])
+    assert shown == [[False] * 3, [True] * 3]
 
 
 @pytest.mark.parametrize("case", ["two_block", "history", "population"])

@@ -1,6 +1,5 @@
 """Risk: hazard curves, the mean annual frequency of collapse, its bounds and its deaggregation."""
 
-import doctest
 import functools
 import itertools
 import warnings
@@ -18,8 +17,6 @@ from scipy import integrate, stats
 
 import dondolo as dd
 from dondolo import _risk_integrals as integrals_module
-from dondolo import hazard as hazard_module
-from dondolo import risk as risk_module
 
 LEVELS = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
 FREQUENCY = [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9]
@@ -196,6 +193,16 @@ def test_bounds_hold_the_truth(curve):
         dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 100.0], 1e-4 * np.array([0.01, 100.0]) ** -2.5))
 
 
+def test_bounds_end_at_the_saturation(curve):
+    """All contributions are those of the walls that can collapse, those beyond the hazard curve too."""
+    hazard = dd.HazardCurve([0.3, 0.6], [4e-3, 1e-3])
+    with pytest.warns(dd.DondoloWarning, match="too short"):
+        some, every = (dd.mean_annual_frequency(replace(curve, saturation=share), hazard) for share in (0.7, 1.0))
+    for part in ("inside", "below", "above", "bounds"):
+        assert getattr(some, part) == pytest.approx(0.7 * np.array(getattr(every, part)), rel=1e-12), part
+    assert some.above[1] == pytest.approx(7e-4, rel=1e-12)
+
+
 def test_a_step_is_the_hazard_itself(hazard):
     """Everything collapses above 0.33 and nothing below: the frequency is that of 0.33."""
     risk = dd.mean_annual_frequency(lambda x: (x > 0.33).astype(float), hazard)
@@ -203,6 +210,7 @@ def test_a_step_is_the_hazard_itself(hazard):
     assert abs(risk.frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.frequency)
 
 
+@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
 def test_degenerate_curves(hazard):
     with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
         never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
@@ -242,6 +250,7 @@ def test_time(hazard, curve):
             risk.probability(wrong)
 
 
+@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
 def test_both_ends_are_told(curve):
     """A hazard curve that is too short: the lower end alone would look safer than it is."""
     with pytest.warns(dd.DondoloWarning, match="too short"):
@@ -261,7 +270,7 @@ def test_both_ends_are_told(curve):
     assert open_end.return_period_bounds == (0.0, pytest.approx(10.0))
     assert open_end.probability_bounds(1.0) == (pytest.approx(-np.expm1(-0.1)), 1.0)
     assert open_end.probability_bounds(0.0) == (0.0, 0.0)
-    assert "return period between 0 and 10 years" in repr(open_end)
+    assert "return period of one wall between 0 and 10 years" in repr(open_end)
 
 
 @pytest.fixture(scope="module")
@@ -344,8 +353,25 @@ def test_another_function_of_a_typology_is_taken_for_one_wall(people):
     direct = functools.partial(people.fractiles, q=0.84, group="high")
     risks = [dd.mean_annual_frequency(curve, hazard) for curve in (direct, fractile)]
     assert risks[0].bounds == risks[1].bounds
-    assert risks[0].probability(50.0) == risks[1].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
+    assert risks[0].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
+    with pytest.warns(dd.DondoloWarning, match="plain function"):
+        assert risks[1].probability(50.0) == risks[0].probability(50.0)
     assert "return period" in repr(risks[0])
+
+
+def test_a_function_around_a_mean_is_not_taken_in_silence(people):
+    """The mean itself knows its walls, a function around it does not."""
+    hazard = dd.HazardCurve.power_law(2e-3, 2.5)
+    mean, function = (dd.mean_annual_frequency(curve, hazard) for curve in (people.mean, lambda x: people.mean(x)))
+    assert mean.frequency == pytest.approx(function.frequency, rel=1e-9)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        share = mean.probability(475.0)
+        assert f"probability in 50 years {mean.probability(50.0):.4g}" in repr(mean)
+        assert "probability in 50 years of one wall" in repr(function)
+        assert function.probability(0.0) == 0.0
+    with pytest.warns(dd.DondoloWarning, match="plain function, taken for that of one wall"):
+        assert function.probability(475.0) > 1.05 * share
 
 
 def test_shares_may_add_up_to_more_than_one_by_rounding():
@@ -462,23 +488,101 @@ def test_files(hazard, tmp_path):
     own = dd.HazardCurve.from_csv(tmp_path / "own.csv")
     assert (own.im, own(0.3)) == ("sa(0.5)", pytest.approx(0.001))
     for text, sentence in (
-        ("", "the first line must be"),
-        ("0.1,0.01\n", "the first line must be"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: must be two numbers"),
-        ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: must be two numbers"),
-        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", "line 7: must be two numbers"),
+        ("", "the file is empty"),
+        ("0.1,0.01\n", "column '0.1': must be an intensity measure"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,x\n", "line 3: annual_frequency = 'x': must be a number"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2\n", "line 3: 1 cells: must be 2"),
+        ("pga,annual_frequency\n0.1,0.01,1\n0.2,1,1\n", "line 2: 3 cells: must be 2"),
+        ("pga,annual_frequency\n0,1,0,01\n", r"line 2: 4 cells: .*commas need decimal points"),
+        ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: annual_frequency = '1_0e-4': must be a number"),
+        ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", r"line 7: annual_frequency = '\?': must be"),
         ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
         (tmp_path / "own.csv").write_text(text)
         with pytest.raises(dd.InputError, match=sentence):
             dd.HazardCurve.from_csv(tmp_path / "own.csv")
-    with pytest.raises(dd.InputError, match="cannot be read"):
+    (tmp_path / "long.csv").write_text("pga,annual_frequency\n0.1," + "1" * 200000 + "\n")
+    with pytest.raises(dd.InputError, match=r"long\.csv: line 2: annual_frequency = "):
+        dd.HazardCurve.from_csv(tmp_path / "long.csv")
+    with pytest.raises(dd.MissingFileError, match="no such file"):
         dd.HazardCurve.from_csv(tmp_path / "none.csv")
     with pytest.raises(dd.InputError, match=r"path = 3\.5: must be the path of a file"):
         dd.HazardCurve.from_csv(3.5)
+
+
+NTC = "TR [anni];ag [g];F0 [-];TC* [s]\n30;0,05;2,4;0,28\n475;0,2;2,5;0,33\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "warned"),
+    [
+        ("pga,annual_frequency\n0.05,0.03333333333333333\n0.2,0.002105263157894737\n", ()),
+        ("return_period,pga\n30,0.05\n475,0.2\n", ()),
+        ("Return_Period (years),ag (g/10)\n30,0.5\n475,2\n", ()),
+        ("tr,ag (m/s²)\n30,0.4905\n475,1.962\n", ()),
+        ("PGA [cm/s^2],TR\n49.05,30\n196.2,475\n", ()),
+        (NTC, ("semicolons, decimal commas", "columns that are not used: F0 [-], TC* [s]")),
+        ("\ufeffFerrara, 2024;;;\n" + NTC + ";;;\n", ("line 1 is a title", "not used")),
+        # 1 - exp(-50/30), and of another time in each row
+        ("poe,investigation_time,pga\n0.8111243971624382,50,0.05\n0.1,50.04624493746748,0.2\n", ()),
+    ],
+)
+def test_published_hazard(content, warned, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text(content, encoding="utf-8")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        curve = dd.HazardCurve.from_csv(path)
+    assert curve.im == "pga"
+    np.testing.assert_allclose(curve.im_levels, [0.05, 0.2], rtol=1e-12)
+    np.testing.assert_allclose(curve.annual_frequency, [1 / 30, 1 / 475], rtol=1e-6)
+    assert len(caught) == len(warned)
+    for warning, words in zip(caught, warned, strict=True):
+        assert words in str(warning.message)
+        assert warning.filename == __file__
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        ("TR;ag\n30;0,05\n475;0,2\n", r"column 'ag': the unit must follow the name: 'ag \(g\)'"),
+        ("TR,ag (t)\n30,0.05\n475,0.2\n", r"column 'ag \(t\)': the unit must be one of 'g', 'g/10', 'm/s2'"),
+        ("TR (days),pga\n30,0.05\n", r"column 'TR \(days\)': return_period must be in years"),
+        ("TR,pga\n0,0.05\n475,0.2\n", "return_period = 0: must be positive, in years"),
+        ("poe,pga\n0.1,0.05\n", "poe and investigation_time .* belong together"),
+        ("TR,investigation_time,pga\n30,50,0.05\n", "poe and investigation_time .* belong together"),
+        ("poe,investigation_time,pga\n81,50,0.05\n10,50,0.2\n", "poe = 81: must lie between 0 and 1"),
+        ("poe (%),investigation_time,pga\n81,50,0.05\n", "poe must be a probability between 0 and 1"),
+        ("poe,investigation_time,pga\n0.8,0,0.05\n0.1,0,0.2\n", "investigation_time = 0: must be positive"),
+        ("poe,TR,pga\n0.1,475,0.05\n", "one column must be .* there is return_period, poe"),
+        ("TR,return_period,pga\n30,30,0.05\n", "return_period stands there twice"),
+        ("TR,pga,pgv\n30,0.05,0.05\n", "one column must be the levels of a measure, .* there is 'pga', 'pgv'"),
+        ("TR,F0\n30,2.4\n", "one column must be the levels of a measure, .* there is none"),
+        ("pga,remark\n0.1,2\n", "column 'remark': must be an intensity measure, ag, annual_frequency"),
+        ("pga;TR\n0.100;30\n1.200;475\n", None),
+        ("pga;TR\n1.100;30\n1.200;475\n", "line 2: pga = '1.100': may be thousands or decimals"),
+    ],
+)
+def test_published_hazard_that_is_wrong(content, sentence, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text(content)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        if sentence is None:
+            assert dd.HazardCurve.from_csv(path).im_levels[1] == 1.2
+        else:
+            with pytest.raises(dd.InputError, match=sentence) as caught:
+                dd.HazardCurve.from_csv(path)
+            assert str(caught.value).startswith(f"{path}: ")
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+def test_hazard_that_is_no_utf8(encoding, tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text("# città\npga,annual_frequency\n0.1,0.01\n0.2,0.001\n", encoding=encoding)
+    with pytest.raises(dd.InputError, match=r"line 1: is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"):
+        dd.HazardCurve.from_csv(path)
 
 
 def test_shown(hazard, curve):
@@ -487,8 +591,6 @@ def test_shown(hazard, curve):
     assert "return period" in repr(dd.mean_annual_frequency(curve, hazard))
     assert "<table>" in dd.mean_annual_frequency(curve, hazard)._repr_html_()
     assert list(hazard.to_frame()["pga"]) == LEVELS
-    for module in (hazard_module, risk_module):
-        assert doctest.testmod(module).failed == 0
 
 
 @pytest.mark.parametrize("endless", [False, True])

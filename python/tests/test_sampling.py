@@ -361,6 +361,14 @@ def test_samples_that_no_wall_can_have(own, sentence):
         sample(mechanisms={"two_block": own}, thickness=0.25)
 
 
+def test_a_bearing_follows_the_thickness():
+    own = {"overburden": 5000.0, "bearing": "inner", "bearing_distance": 0.06}
+    walls = sample(mechanisms={"two_block": own}, thickness=dd.Uniform(0.25, 0.5))
+    assert [wall.eccentricity for wall in walls] == pytest.approx([0.06 - 0.5 * wall.thickness for wall in walls])
+    with pytest.raises(dd.InputError, match="bearing: one_sided walls have none"):
+        sample(mechanisms=("one_sided", "two_block"), bearing="centre")
+
+
 def test_a_misspelt_property():
     with pytest.raises(dd.InputError, match="'thicknes': no such property of walls; there are height, thickness, "):
         sample(thicknes=0.3)

@@ -1,13 +1,16 @@
 """Guards of the speed that do not depend on the machine's mood: counts, and ratios of times taken side by side."""
 
+import contextlib
 import re
 import statistics
 import subprocess
 import time
 
 import numpy as np
+import pytest
 
 import dondolo as dd
+from dondolo import _core, _request
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 
@@ -45,3 +48,75 @@ def test_arithmetic(executable):
     printed = subprocess.run([executable, "--benchmark", "0.2", "--threads", "1"], capture_output=True, text=True)
     percent = float(re.search(r"operations a second, +(\S+) %", printed.stdout).group(1))
     assert percent > (25.0 if dd.build_variant().startswith("avx") else 8.0), printed.stdout
+
+
+def case(folder, levels="0.1", title="", job="", groups=""):
+    """A case of one wall."""
+    path = folder / "case.nml"
+    path.write_text(
+        f"&job title = '{title}' {job} /\n&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /\n"
+        f"&records catalogue = 'records.csv' /\n&stripes levels = {levels} /\n{groups}"
+    )
+    return path
+
+
+INPUTS = {
+    "levels": lambda folder, n: case(folder, levels=",\n".join(str(1 + i) for i in range(n))),
+    "groups": lambda folder, n: case(folder, groups="".join(f"&g{i} a = 1 /\n" for i in range(n))),
+    "variables": lambda folder, n: case(folder, job=" ".join(f"v{i} = 1" for i in range(n))),
+    "title": lambda folder, n: case(folder, title="x''" * 15 * n),
+}
+
+
+def seconds_of_cpu(work):
+    """The least of three."""
+    times = []
+    for _ in range(3):
+        start = time.process_time()
+        work()
+        times.append(time.process_time() - start)
+    return min(times)
+
+
+def read_anyway(path):
+    """Read a case that may be refused in the end."""
+    with contextlib.suppress(dd.InputError):
+        dd.read_case(path)
+
+
+@pytest.mark.parametrize("what", INPUTS)
+def test_large_cases_cost_what_they_are_long(what, tmp_path):
+    """Eight times the size costs about eight times as much, and not 64 times."""
+    (tmp_path / "records.csv").write_text("file,dt_s,units\nr.txt,0.01,m/s2\n")
+    (tmp_path / "r.txt").write_text("0.0\n1.0\n")
+    times = []
+    for n in (1500, 12000):
+        path = INPUTS[what](tmp_path, n)
+        times.append(seconds_of_cpu(lambda path=path: read_anyway(path)))
+    assert times[1] < 20.0 * times[0] + 0.01, times
+
+
+def test_large_catalogues_cost_what_they_are_long(tmp_path):
+    (tmp_path / "r.txt").write_text("0.0\n1.0\n")
+    times = []
+    for n in (1000, 8000):
+        rows = "".join(f"r.txt,0.01,m/s2,a record with a long name {i}\n" for i in range(n))
+        (tmp_path / "records.csv").write_text("file,dt_s,units,name\n" + rows)
+        times.append(seconds_of_cpu(lambda: dd.read_catalogue(tmp_path / "records.csv")))
+    assert times[1] < 20.0 * times[0], times
+
+
+def test_blocks_plan_the_levels_that_they_run(wall, sine, monkeypatch):
+    """Of one wall no level is planned again and again."""
+    planned, run_block = [], _core.run_block
+
+    def count(*arguments):
+        planned.append(len(arguments[9]))
+        return run_block(*arguments)
+
+    monkeypatch.setattr(_core, "run_block", count)
+    monkeypatch.setattr(_request, "_SECONDS", 1e-9)
+    stripes = dd.multiple_stripe(wall, [sine, sine], np.linspace(0.01, 1.0, 500), progress=False)
+    assert len(planned) > 100
+    assert sum(planned) <= 500 + len(planned)
+    assert stripes.edp.shape[-2:] in ((500, 2), (2, 500))

@@ -170,6 +170,25 @@ def test_a_record_without_motion_warns(wall, sine):
         assert stripes.fit().status == "no_collapse"
 
 
+def test_values_in_other_units_warn(sine):
+    """Each is named with its unit, in an analysis of stripes and in one motion."""
+    strong = dd.Record(1000.0 * sine.acceleration, sine.dt, "strong")
+    strip = dd.TwoBlockWall(3.0, 0.25, density=18.0, overburden=15.0, name="strip")
+    sentences = [
+        "wall 'strip': density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?",
+        "wall 'strip': overburden = 15 N/m is less than 200 N/m: is it in kN/m?",
+        f"record 'strong': a PGA of {strong.pga / 9.81:.4g} g, more than 3 g: wrong units?",
+    ]
+    with pytest.warns(dd.DondoloWarning) as caught:
+        dd.multiple_stripe(strip, strong, [0.1], progress=False)
+    assert [str(one.message) for one in caught] == sentences
+    for _ in range(2):
+        with pytest.warns(dd.DondoloWarning) as caught:
+            dd.simulate(strip, strong, 1e-3, history=False)
+        assert [str(one.message) for one in caught] == sentences
+        assert caught[0].filename == __file__
+
+
 def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
     monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1)
     monkeypatch.setattr(_request, "_SECONDS", 0.0)

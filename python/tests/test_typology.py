@@ -50,6 +50,16 @@ def test_every_wall_is_its_own_analysis(typology, population, few):
     assert typology.work.steps < total.steps
 
 
+def test_a_fit_that_does_not_converge_ends_no_population(records):
+    walls = [dd.OneSidedWall(3.0, 0.25, name="a"), dd.OneSidedWall(1.0, 0.5, name="b")]
+    people = dd.Population(walls, [1e-12, 1.0], ["rare", "frequent"])
+    with pytest.warns(dd.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
+        result = dd.typology(people, records, [0.2, 0.4, 0.8], progress=False)
+    assert result.group().fit.status == "not_converged"
+    assert np.isnan(result.group().fit.theta)
+    assert result.group(group="rare").fit.has_fit
+
+
 def test_means(typology, population):
     share = population.weights / population.weights.sum()
     assert typology.weight == population.weights.sum()
@@ -153,7 +163,16 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     partial = caught.value.partial
     assert len(partial.walls) == sum(done) // (len(few) * len(LEVELS))
     assert 0 < len(partial.walls) < len(population)
-    assert partial.fit().has_fit or partial.fit().status
+    # The partial result is the typology of these walls alone.
+    monkeypatch.undo()
+    alone = dd.typology(population[: len(partial.walls)], few, LEVELS, progress=False)
+    np.testing.assert_array_equal(partial.collapses, alone.collapses)
+    assert alone.fit().has_fit
+    assert (partial.weight, partial.fit().theta, partial.fit().beta) == (
+        alone.weight,
+        alone.fit().theta,
+        alone.fit().beta,
+    )
 
 
 def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):

@@ -7,6 +7,7 @@ import pytest
 import study
 from dondolo._flags import Flags
 from dondolo.typology_bootstrap import resample_population
+from scipy import stats
 
 import dondolo as dd
 
@@ -235,8 +236,28 @@ def test_records_of_one_event_are_drawn_together(mixed):
     apart = resample_population(population, doubled, LEVELS, 200, 3, "records")
     assert paired.mean_fraction == pytest.approx(once.mean_fraction, rel=1e-12)
     assert apart.mean_fraction.std(axis=0).max() < 0.85 * paired.mean_fraction.std(axis=0).max()
-    # Events of different size: each is drawn as often, and a sample counts for as many histories.
-    uneven = resample_population(population, flags, LEVELS, 200, 3, "records", events=[0] * 5 + [1, 2, 3, 4])
-    assert np.nanmax(uneven.mean_fraction) <= 1.0
     with pytest.raises(dd.InputError, match="events: 2 labels for 9 records: must be as many"):
         resample_population(population, flags, LEVELS, 5, events=["a", "b"])
+
+
+def test_events_of_unequal_size(few):
+    """Each sample has both of two events or one of them twice, so that it has one of three mean curves."""
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.TwoBlockWall(2.0, 0.12, name="b")]
+    whole, *parts = (
+        dd.typology(walls, records, LEVELS, polarity="both", progress=False) for records in (few, few[:6], few[6:])
+    )
+    expected = np.array([one.mean_fraction for one in (whole, *parts)])
+    samples = whole.bootstrap(400, 3, "records", events=["large"] * 6 + ["small"] * 2)
+    off = np.abs(samples.mean_fraction[:, None] - expected).max(axis=2)
+    assert off.min(axis=1).max() < 1e-12
+    often = np.bincount(off.argmin(axis=1), minlength=3)
+    assert stats.chisquare(often, [200, 100, 100]).pvalue > 0.01
+
+
+def test_the_interval_ends_at_the_saturation(few):
+    """At strong motions the interval is that of the saturation."""
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    typology = dd.typology(dd.Population(walls, p_occ=[0.5, 0.2]), few, LEVELS, progress=False)
+    assert typology.bootstrap(50, over="records").interval(1e3) == pytest.approx((0.35, 0.35), rel=1e-12)
+    # Some samples have the first wall twice, some the second.
+    assert typology.bootstrap(50, over="walls").interval(1e3) == pytest.approx((0.2, 0.5), rel=1e-12)

@@ -7,6 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
+from dondolo.drawing import shape
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -79,9 +80,21 @@ def test_html_is_escaped():
             "restitution_value: must be given with restitution = 'constant'",
         ),
         (lambda: dd.TwoBlockWall(3.0, 0.25, hinge=1.0), "hinge = 1: must lie between 0.01 and 0.99"),
+        (
+            lambda: dd.TwoBlockWall(3.0, 0.25, eccentricity=0.0, bearing="centre"),
+            "eccentricity = 0: give either eccentricity or bearing and bearing_distance",
+        ),
+        (
+            lambda: dd.TwoBlockWall(3.0, 0.25, bearing="in", bearing_distance=0.1),
+            "bearing = 'in': must be one of 'inner', 'outer', 'centre'",
+        ),
+        (
+            lambda: dd.TwoBlockWall(3.0, 0.25, bearing_distance=math.nan),
+            "bearing_distance = NaN: only with bearing = 'inner' or 'outer'",
+        ),
         (lambda: dd.OneSidedWall("3", 0.25), "height = '3': must be a number"),
         (lambda: dd.OneSidedWall(3.0, None), "thickness: must be given"),
-        (lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"), "name: must stand on one line"),
+        (lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"), "name: must stand on one line, without control characters"),
     ],
 )
 def test_errors(make, sentence):
@@ -127,6 +140,22 @@ def test_terms_and_potential_belong_together(wall):
     slope = (wall.potential(q + h) - wall.potential(q - h)) / (2.0 * h)
     assert at.restoring_moment - at.load_force == pytest.approx(slope, rel=1e-7, abs=1e-3)
     assert at.load_force.any() == (wall.mechanism == "two_block")
+
+
+@pytest.mark.parametrize(("bearing", "place"), [("inner", 0.06), ("outer", 0.19)])
+def test_a_bearing_is_on_its_face_of_a_wall_that_folds_outwards(bearing, place):
+    """Minus the load times the rise of the point where it bears, of the wall as it is drawn."""
+    wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=8000.0, bearing=bearing, bearing_distance=0.06)
+    assert wall == dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=8000.0, eccentricity=wall.eccentricity)
+    q, h = 0.03, 1e-5
+
+    def height(rotation):
+        # Outwards is to the right
+        _, _, outer, inner = shape(wall, rotation).blocks[1][:, 1]
+        return inner + place / 0.25 * (outer - inner)
+
+    rise = (height(q + h) - height(q - h)) / (2.0 * h)
+    assert wall.terms(q).load_force == pytest.approx(-8000.0 * rise, rel=1e-7)
 
 
 @pytest.mark.parametrize("wall", WALLS, ids=lambda wall: wall.mechanism)

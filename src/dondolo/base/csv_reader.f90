@@ -2,12 +2,17 @@
 !>
 !> The first row names the columns. Cells are separated by commas; a cell in double quotes may hold commas, line ends and,
 !> doubled, quotes. Blank lines and lines that begin with # are skipped; blanks around cells without quotes do not count.
+!>
+!> Tables of spreadsheets may differ from this: semicolons or tabs between the columns, then with decimal commas if the
+!> numbers show them (`find_decimal_mark`); a title above the names of the columns; rows and columns of empty cells at the
+!> end. `note` says how such a table was read. What is not UTF-8 is refused.
 module dondolo_csv_reader
+   use dondolo_decimal_mark, only : decimal_mark_type
+   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_line_reader, only : line_reader_type
+   use dondolo_line_reader, only : line_reader_type, longest_line
    use dondolo_name_index, only : name_index_type
-   use dondolo_numbers, only : parse_real
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : padding
    implicit none
@@ -16,7 +21,13 @@ module dondolo_csv_reader
    public :: csv_reader_type, cell_type
 
    !> Blanks around cells
-   character(len=*), parameter :: blanks = ' '//achar(9)
+   character(len=*), parameter :: tab = achar(9), blanks = ' '//tab
+
+   !> Separator of cells as long as the header was not read
+   character(len=1), parameter :: unknown = ' '
+
+   !> More cells in a row are surely no table
+   integer, parameter :: most_cells = 10000
 
    !> One cell
    type :: cell_type
@@ -34,9 +45,24 @@ module dondolo_csv_reader
       integer :: line = 0
       !> Lines of the file
       type(line_reader_type) :: lines
+      !> What separates the cells: a comma, a semicolon or a tab
+      character(len=1), private :: separator = ','
+      !> Decimal mark of its numbers: a point, unless they show another
+      type(decimal_mark_type), private :: mark
+      !> Cells of the header, with those at its end that name no column
+      integer, private :: width = 0
+      !> Line of the title, 0 if there is none
+      integer, private :: title_line = 0
+      !> Text and line of a row that was read to know the header, and is the next; not allocated: none
+      character(len=:), allocatable, private :: held
+      integer, private :: held_line = 0
    contains
       !> Open a table and read its header
       procedure :: open => open_table
+      !> Find out the decimal mark
+      procedure :: find_decimal_mark
+      !> How the table was read, for messages
+      procedure :: note
       !> Read the next row
       procedure :: next
       !> Number of a column from its name
@@ -63,9 +89,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (allocated(self%columns)) deallocate (self%columns)
+      if (allocated(self%held)) deallocate (self%held)
+      self%title_line = 0
+      self%mark = decimal_mark_type()
       call self%lines%open(file, error)
       if (allocated(error)) return
-      call read_cells(self, error)
+      call read_header(self, error)
       if (.not. allocated(error)) then
          if (self%line == 0) then
             call raise_input(error, file//': no header: the first line must name the columns')
@@ -76,6 +105,52 @@ contains
       if (allocated(error)) call self%close()
    end subroutine open_table
 
+   !> Find out the decimal mark of a table that was opened; it is open as before afterwards
+   !>
+   !> All rows are read once, unless the cells are separated by commas, where it is a point.
+   subroutine find_decimal_mark(self, columns, error)
+      !> The reader, no row read
+      class(csv_reader_type), intent(inout) :: self
+      !> Numbers of the columns that hold numbers; 0 for one that there is not
+      integer, intent(in) :: columns(:)
+      !> The file cannot be opened again
+      type(error_type), allocatable, intent(out) :: error
+
+      type(decimal_mark_type) :: mark
+      logical :: found
+      integer :: i
+
+      if (self%separator == ',') return
+      mark%has_point = .false.
+      do
+         call self%next(found, error)
+         if (.not. found) exit
+         ! What is wrong in a row is found once more where it is read
+         if (allocated(error)) cycle
+         do i = 1, size(columns)
+            if (columns(i) > 0) call mark%look(self%cells(columns(i))%text)
+         end do
+      end do
+      call self%close()
+      call self%open(self%lines%file, error)
+      self%mark = mark
+   end subroutine find_decimal_mark
+
+   !> How the table was read, where it is not as RFC 4180 has it
+   pure function note(self)
+      !> The reader
+      class(csv_reader_type), intent(in) :: self
+      !> 'file: ...', empty if there is nothing to say
+      character(len=:), allocatable :: note
+
+      note = ''
+      if (self%separator == ';') note = ', columns separated by semicolons'
+      if (self%separator == tab) note = ', columns separated by tabs'
+      if (self%mark%has_comma) note = note//', decimal commas'
+      if (self%title_line > 0) note = note//', line '//to_text(self%title_line)//' is a title'
+      if (len(note) > 0) note = self%lines%file//': read with'//note(2:)
+   end function note
+
    !> Read the next row; after an error the rows behind it can be read
    subroutine next(self, found, error)
       !> The reader: its cells are set
@@ -85,12 +160,115 @@ contains
       !> The row is wrong
       type(error_type), allocatable, intent(out) :: error
 
-      call read_cells(self, error)
+      character(len=:), allocatable :: row, hint
+      integer :: i
+
+      call read_row(self, row, error)
       found = self%line > 0
       if (allocated(error) .or. .not. found) return
-      if (size(self%cells) /= size(self%columns)) call raise_input(error, self%place()//': '// &
-         & to_text(size(self%cells))//' cells: must be '//to_text(size(self%columns))//' as in the header')
+      call split(self, row, error)
+      if (allocated(error)) return
+      if (size(self%cells) /= self%width) then
+         hint = ''
+         if (self%separator == ',' .and. size(self%cells) > self%width) &
+            & hint = ' (columns separated by commas need decimal points)'
+         call raise_input(error, self%place()//': '//to_text(size(self%cells))//' cells: must be '// &
+            & to_text(self%width)//' as in the header'//hint)
+         return
+      end if
+      do i = size(self%columns) + 1, self%width
+         if (len_trim(self%cells(i)%text) == 0) cycle
+         call raise_input(error, self%place()//': cell '//to_text(i)//' = '''//self%cells(i)%text// &
+            & ''': its column has no name')
+         return
+      end do
    end subroutine next
+
+   !> Read the names of the columns; a title above them is passed over
+   subroutine read_header(self, error)
+      !> The reader: its line is 0 if there are no rows, its separator is known
+      type(csv_reader_type), intent(inout) :: self
+      !> A row that is none
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: first, second
+      integer :: line
+
+      self%separator = unknown
+      call read_row(self, first, error)
+      if (allocated(error) .or. self%line == 0) return
+      line = self%line
+      call read_row(self, second, error)
+      if (allocated(error)) return
+      if (self%line > 0) then
+         if (is_title(first, second)) then
+            self%title_line = line
+            line = self%line
+            call move_alloc(second, first)
+         else
+            call move_alloc(second, self%held)
+            self%held_line = self%line
+         end if
+      end if
+      self%line = line
+      self%separator = separator_of(first)
+      call split(self, first, error)
+   end subroutine read_header
+
+   !> Is the first row a title above the names of the columns?
+   pure logical function is_title(first, second)
+      !> Texts of the first two rows
+      character(len=*), intent(in) :: first, second
+
+      is_title = .not. is_one_cell(second) .and. (is_one_cell(first) .or. &
+         & (separator_of(first) == ',' .and. separator_of(second) /= ','))
+   end function is_title
+
+   !> Is only one cell of a row not empty?
+   pure logical function is_one_cell(row)
+      !> Text of the row
+      character(len=*), intent(in) :: row
+
+      character(len=1) :: separator
+
+      separator = separator_of(row)
+      associate (first => verify(row, blanks//separator), last => verify(row, blanks//separator, back=.true.))
+         is_one_cell = .not. has_outside_quotes(row(first:last), separator)
+      end associate
+   end function is_one_cell
+
+   !> What separates the cells of a row
+   pure function separator_of(row) result(separator)
+      !> Text of the row
+      character(len=*), intent(in) :: row
+      !> A comma where there is one, unless empty cells at the end are separated by semicolons or tabs; else a semicolon
+      !> or a tab, if there is one
+      character(len=1) :: separator
+
+      separator = ','
+      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0) return
+      if (has_outside_quotes(row, tab)) separator = tab
+      if (has_outside_quotes(row, ';')) separator = ';'
+   end function separator_of
+
+   !> Is a character in a row, outside of double quotes?
+   pure logical function has_outside_quotes(row, character) result(has)
+      !> Text of the row
+      character(len=*), intent(in) :: row
+      !> Character
+      character(len=1), intent(in) :: character
+
+      integer :: i
+      logical :: is_quoted
+
+      has = .false.
+      is_quoted = .false.
+      do i = 1, len(row)
+         if (row(i:i) == '"') is_quoted = .not. is_quoted
+         has = row(i:i) == character .and. .not. is_quoted
+         if (has) return
+      end do
+   end function has_outside_quotes
 
    !> Take the row that was read as the names of the columns
    subroutine take_header(self, error)
@@ -100,15 +278,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(name_index_type) :: names
-      integer :: i, before
+      integer :: i, last, before
 
+      self%width = size(self%cells)
+      do last = self%width, 2, -1
+         if (len_trim(self%cells(last)%text) > 0) exit
+      end do
       associate (row => self%cells)
-         if (size(row) == 1 .and. index(row(1)%text, ';') > 0) then
-            call raise_input(error, self%place()//': header '''//row(1)%text// &
-               & ''': columns must be separated by commas')
-            return
-         end if
-         do i = 1, size(row)
+         do i = 1, last
             if (len_trim(row(i)%text) == 0) then
                call raise_input(error, self%place()//': column '//to_text(i)//' has no name')
                return
@@ -120,30 +297,49 @@ contains
             end if
          end do
       end associate
-      self%columns = self%cells
+      self%columns = self%cells(:last)
    end subroutine take_header
 
-   !> Read the cells of the next row
-   subroutine read_cells(self, error)
+   !> Read the text of the next row
+   subroutine read_row(self, row, error)
       !> The reader: its line is 0 if there are no more rows
       type(csv_reader_type), intent(inout) :: self
-      !> A quote that is not closed or stands where it may not
+      !> Its text, lines joined where a quoted cell holds line ends
+      character(len=:), allocatable, intent(out) :: row
+      !> A quote that is not closed, more bytes than a row of a table has, a text that is not UTF-8
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: line, more, problem
-      integer :: at, cells, length, quotes
+      character(len=:), allocatable :: more
+      integer :: length, quotes
       logical :: found
 
       self%line = 0
+      if (allocated(self%held)) then
+         call move_alloc(self%held, row)
+         self%line = self%held_line
+         return
+      end if
       do
-         call self%lines%next(line, found, error)
+         call self%lines%next(row, found, error)
          if (allocated(error) .or. .not. found) return
-         if (verify(line, padding) == 0) cycle
-         if (line(1:1) /= '#') exit
+         if (.not. is_utf8(row)) then
+            self%line = self%lines%number
+            call raise_input(error, self%place()//': '//encoding_problem(row))
+            ! One such line is as good as all
+            call self%close()
+            return
+         end if
+         ! Blank lines, and rows of empty cells
+         if (self%separator == unknown) then
+            if (verify(row, padding//',;') == 0) cycle
+         else if (verify(row, padding//self%separator) == 0) then
+            cycle
+         end if
+         if (index(adjustl(row), '#') /= 1) exit
       end do
       self%line = self%lines%number
-      quotes = occurrences(line, '"')
-      length = len(line)
+      quotes = occurrences(row, '"')
+      length = len(row)
       ! An odd number of quotes: the last one opens a cell that goes on in the next line
       do while (modulo(quotes, 2) == 1)
          call self%lines%next(more, found, error)
@@ -151,24 +347,51 @@ contains
          if (.not. found) then
             call raise_input(error, self%place()//': a double quote is not closed')
             return
+         else if (.not. is_utf8(more)) then
+            call raise_input(error, self%lines%file//': line '//to_text(self%lines%number)//': '//encoding_problem(more))
+            call self%close()
+            return
          end if
          quotes = quotes + occurrences(more, '"')
-         call append(line, length, new_line('a')//more)
+         if (length + len(more) >= longest_line) then
+            call raise_input(error, self%place()//': a double quote is not closed within '//to_text(longest_line)// &
+               & ' bytes')
+            return
+         end if
+         call append(row, length, new_line('a')//more)
       end do
-      line = line(:length)
+      row = row(:length)
+   end subroutine read_row
+
+   !> Split a row into its cells
+   subroutine split(self, row, error)
+      !> The reader: its cells are set
+      type(csv_reader_type), intent(inout) :: self
+      !> Text of the row
+      character(len=*), intent(in) :: row
+      !> A quote where it may not be, or more cells than a row of a table has
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: problem
+      integer :: at, cells
+
       if (allocated(self%cells)) deallocate (self%cells)
-      allocate (self%cells(occurrences(line, ',') + 1))
+      allocate (self%cells(min(occurrences(row, self%separator) + 1, most_cells)))
       at = 1
       cells = 0
-      do while (at <= len(line) + 1)
+      do while (at <= len(row) + 1)
+         if (cells == most_cells) then
+            call raise_input(error, self%place()//': more than '//to_text(most_cells)//' cells')
+            return
+         end if
          cells = cells + 1
-         call take_cell(line, at, self%cells(cells)%text, problem)
+         call take_cell(row, self%separator, at, self%cells(cells)%text, problem)
          if (len(problem) == 0) cycle
          call raise_input(error, self%place()//': cell '//to_text(cells)//': '//problem)
          return
       end do
       self%cells = self%cells(:cells)
-   end subroutine read_cells
+   end subroutine split
 
    !> Append a text; the room for it is doubled, so that not all is copied each time
    pure subroutine append(line, length, more)
@@ -185,31 +408,36 @@ contains
    end subroutine append
 
    !> Read one cell
-   pure subroutine take_cell(line, at, cell, problem)
+   pure subroutine take_cell(line, separator, at, cell, problem)
       !> Line, or several joined where a quoted cell holds line ends
       character(len=*), intent(in) :: line
-      !> Position: where the cell begins, then after the comma that ends it
+      !> What separates the cells
+      character(len=1), intent(in) :: separator
+      !> Position: where the cell begins, then after the separator that ends it
       integer, intent(inout) :: at
       !> Its text
       character(len=:), allocatable, intent(out) :: cell
       !> What is wrong, or empty
       character(len=:), allocatable, intent(out) :: problem
 
+      character(len=2) :: spaces
       integer :: first, mark, length
 
       problem = ''
       cell = ''
-      first = verify(line(at:), blanks) + at - 1
+      spaces = blanks
+      if (separator == tab) spaces = ' '
+      first = verify(line(at:), spaces) + at - 1
       if (first >= at) then
          if (line(first:first) == '"') then
             call take_quoted(line, first, mark, cell)
-            length = length_to_comma(line(mark:))
-            if (verify(line(mark:mark + length - 1), blanks) > 0) problem = 'text after the closing double quote'
+            length = length_to(separator, line(mark:))
+            if (verify(line(mark:mark + length - 1), spaces) > 0) problem = 'text after the closing double quote'
             at = mark + length + 1
             return
          end if
       end if
-      length = length_to_comma(line(at:))
+      length = length_to(separator, line(at:))
       if (index(line(at:at + length - 1), '"') > 0) then
          problem = 'a double quote inside: put the cell in double quotes and double the ones inside'
       end if
@@ -217,14 +445,16 @@ contains
       at = at + length + 1
    end subroutine take_cell
 
-   !> Length of a text up to its first comma, or its end
-   pure integer function length_to_comma(text) result(length)
+   !> Length of a text up to the first separator, or its end
+   pure integer function length_to(separator, text) result(length)
+      !> Separator
+      character(len=1), intent(in) :: separator
       !> Text
       character(len=*), intent(in) :: text
 
-      length = index(text, ',') - 1
+      length = index(text, separator) - 1
       if (length < 0) length = len(text)
-   end function length_to_comma
+   end function length_to
 
    !> Read a cell in double quotes
    pure subroutine take_quoted(line, first, mark, cell)
@@ -328,15 +558,14 @@ contains
       integer, intent(in) :: column
       !> Number in the cell
       real(wp), intent(out) :: value
-      !> The cell is not one finite decimal number; the place is left to be added
+      !> The cell is not one finite decimal number, or may be one of two; the place is left to be added
       type(error_type), allocatable, intent(out) :: error
 
       logical :: ok
 
       associate (cell => self%cells(column)%text)
-         call parse_real(cell, value, ok)
-         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell// &
-            & ''': must be a number, with a decimal point')
+         call self%mark%parse(cell, value, ok)
+         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//self%mark%problem(cell))
       end associate
    end subroutine get_real
 

@@ -5,11 +5,12 @@
 !> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the
 !> variables of a wall or the rows of a table, their sentences stand on lines of their own (problems_type).
 module dondolo_error
+   use dondolo_text, only : plain
    implicit none
    private
 
-   public :: error_type, problems_type, raise_input, raise_failure, add_place
-   public :: status_failure, status_input
+   public :: error_type, problems_type, raise_input, raise_missing, raise_failure, add_place
+   public :: status_failure, status_input, status_missing, status_memory
 
    !> The work failed while running (exit code of the executable)
    integer, parameter :: status_failure = 1
@@ -17,9 +18,15 @@ module dondolo_error
    !> What the user gave is wrong (exit code of the executable)
    integer, parameter :: status_input = 2
 
+   !> What the user gave is wrong: a file that does not exist (to the executable, wrong input)
+   integer, parameter :: status_missing = 3
+
+   !> The work failed for lack of memory (to the executable, a failure)
+   integer, parameter :: status_memory = 4
+
    !> An error: its kind and its sentence
    type :: error_type
-      !> `status_failure` or `status_input`
+      !> `status_failure`, `status_input`, `status_missing` or `status_memory`
       integer :: stat = status_failure
       !> One sentence: where, what, and what is allowed; or several, one a line
       character(len=:), allocatable :: message
@@ -51,8 +58,19 @@ contains
 
       allocate(error)
       error%stat = status_input
-      error%message = on_one_line(message)
+      error%message = plain(message)
    end subroutine raise_input
+
+   !> Report a file that does not exist
+   pure subroutine raise_missing(error, message)
+      !> Error to allocate
+      type(error_type), allocatable, intent(out) :: error
+      !> Sentence for the user
+      character(len=*), intent(in) :: message
+
+      call raise_input(error, message)
+      error%stat = status_missing
+   end subroutine raise_missing
 
    !> Report work that failed while running
    pure subroutine raise_failure(error, message)
@@ -63,7 +81,7 @@ contains
 
       allocate(error)
       error%stat = status_failure
-      error%message = on_one_line(message)
+      error%message = plain(message)
    end subroutine raise_failure
 
    !> Put the place (a file, a group) before every sentence of an error, if there is one
@@ -87,21 +105,6 @@ contains
       end do
       error%message = message//place//': '//error%message(first:)
    end subroutine add_place
-
-   !> A text without control characters, which can come out of a file that is read
-   pure function on_one_line(text) result(line)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> The same, with blanks for them
-      character(len=len(text)) :: line
-
-      integer :: i
-
-      line = text
-      do i = 1, len(text)
-         if (iachar(text(i:i)) < 32) line(i:i) = ' '
-      end do
-   end function on_one_line
 
    !> Note something that is wrong in what the user gave
    subroutine note(self, message)

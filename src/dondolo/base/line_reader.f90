@@ -2,14 +2,18 @@
 module dondolo_line_reader
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : error_type, raise_input
+   use dondolo_text, only : to_text
    use dondolo_text_file, only : byte_order_mark, open_text, padding
    implicit none
    private
 
-   public :: line_reader_type
+   public :: line_reader_type, longest_line
 
    !> Bytes that are read at once, unless a line is longer
    integer, parameter :: chunk = 65536
+
+   !> Most bytes of a line
+   integer, parameter :: longest_line = 2**20
 
    !> A file that is being read
    type :: line_reader_type
@@ -65,7 +69,7 @@ contains
       character(len=:), allocatable, intent(out) :: line
       !> Was there one?
       logical, intent(out) :: found
-      !> The file cannot be read
+      !> The file cannot be read, or the line is too long
       type(error_type), allocatable, intent(out) :: error
 
       character(len=*), parameter :: line_feed = achar(10), return = achar(13)
@@ -75,6 +79,12 @@ contains
       found = .false.
       do
          length = index(self%text(self%at:), line_feed) - 1
+         if (length < 0 .and. len(self%text) - self%at >= longest_line) then
+            call raise_input(error, self%file//': line '//to_text(self%number + 1)//': longer than '// &
+               & to_text(longest_line)//' bytes')
+            call self%close()
+            return
+         end if
          if (length >= 0 .or. self%left == 0) exit
          call refill(self, error)
          if (allocated(error)) return
@@ -119,7 +129,7 @@ contains
       self%at = 1
    end subroutine refill
 
-   !> Close the file; nothing happens if it is not open
+   !> Close the file: there are no more lines; nothing happens if it is not open
    subroutine close_reader(self)
       !> The reader
       class(line_reader_type), intent(inout) :: self
@@ -127,6 +137,8 @@ contains
       if (self%unit /= 0) close (self%unit)
       self%unit = 0
       self%left = 0
+      self%text = ''
+      self%at = 1
    end subroutine close_reader
 
 end module dondolo_line_reader

@@ -12,6 +12,8 @@ module dondolo_name_index
    !> Names and their lines
    type :: name_index_type
       private
+      !> Was there no memory for more names? What is new then is not noted
+      logical, public :: lacks_memory = .false.
       !> Number of names
       integer :: names = 0
       !> Fingerprint of the name in each place; 0: the place is free
@@ -39,12 +41,15 @@ contains
       integer(int64) :: key
       integer :: place
 
+      known = 0
       if (.not. allocated(self%key)) call make_room(self, 1024)
-      if (2*self%names >= size(self%key)) call make_room(self, 2*size(self%key))
+      if (.not. self%lacks_memory) then
+         if (2*self%names >= size(self%key)) call make_room(self, 2*size(self%key))
+      end if
+      if (self%lacks_memory) return
       ! Blanks at the end do not tell names apart
       key = key_of(trim(name))
       place = place_of(self, key)
-      known = 0
       if (self%key(place) == key) then
          known = self%line(place)
          return
@@ -87,12 +92,15 @@ contains
 
       integer(int64), allocatable :: key(:)
       integer, allocatable :: line(:)
-      integer :: i, place
+      integer :: i, place, stat
 
       call move_alloc(self%key, key)
       call move_alloc(self%line, line)
-      allocate (self%key(places), source=0_int64)
-      allocate (self%line(places), source=0)
+      allocate (self%key(places), self%line(places), stat=stat)
+      self%lacks_memory = stat /= 0
+      if (self%lacks_memory) return
+      self%key = 0
+      self%line = 0
       if (.not. allocated(key)) return
       do i = 1, size(key)
          if (key(i) == 0) cycle

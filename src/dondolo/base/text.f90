@@ -1,14 +1,17 @@
 !> Numbers and words as text: what messages, readers and tables share.
 !>
-!> gfortran 12 keeps the length of a result of deferred length in one place for each place where the function is called,
-!> for all threads. None is called in here; what threads run calls none either, or one thread at a time.
+!> What threads may call returns a text whose length is a specification expression: that of a result of deferred length
+!> gfortran 12 keeps in one place for each call in the source, for all threads.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    implicit none
    private
 
-   public :: to_text, to_table, lower, join, first_word
+   public :: to_text, to_table, rounded, lower, join, first_word, plain, must_be_plain
+
+   !> What is said of a name that is not plain
+   character(len=*), parameter :: must_be_plain = 'must stand on one line, without control characters'
 
    !> Shortest readable text of a number, for messages
    interface to_text
@@ -24,7 +27,52 @@ contains
       !> Number
       real(wp), intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=real_length(value)) :: text
+
+      character(len=:), allocatable :: shortest
+
+      call make_real(value, shortest)
+      text = shortest
+   end function real_to_text
+
+   !> A number with four significant digits, for people
+   pure function rounded(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=real_length(four_digits(value))) :: text
+
+      text = real_to_text(four_digits(value))
+   end function rounded
+
+   !> The nearest number of four significant digits
+   pure real(wp) function four_digits(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=24) :: buffer
+
+      write (buffer, '(es24.3e4)') value
+      read (buffer, *) four_digits
+   end function four_digits
+
+   !> Length of the text of a number
+   pure integer function real_length(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=:), allocatable :: shortest
+
+      call make_real(value, shortest)
+      real_length = len(shortest)
+   end function real_length
+
+   !> Write the shortest decimal that reads back as the same number
+   pure subroutine make_real(value, text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=48) :: buffer
       character(len=16) :: format
@@ -44,7 +92,7 @@ contains
          if (stat == 0 .and. again == value) exit
       end do
       call make_plain(trim(adjustl(buffer)), text)
-   end function real_to_text
+   end subroutine make_real
 
    !> Rewrite d.dddE+0xx as a plain decimal where that is short
    pure subroutine make_plain(scientific, text)
@@ -81,12 +129,9 @@ contains
       !> Number
       integer, intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=count_length(int(value, int64))) :: text
 
-      character(len=16) :: buffer
-
-      write (buffer, '(i0)') value
-      text = trim(buffer)
+      write (text, '(i0)') value
    end function integer_to_text
 
    !> A large count without blanks
@@ -94,13 +139,21 @@ contains
       !> Count
       integer(int64), intent(in) :: value
       !> Its text
-      character(len=:), allocatable :: text
+      character(len=count_length(value)) :: text
+
+      write (text, '(i0)') value
+   end function count_to_text
+
+   !> Length of the text of a count
+   pure integer function count_length(value)
+      !> Count
+      integer(int64), intent(in) :: value
 
       character(len=24) :: buffer
 
       write (buffer, '(i0)') value
-      text = trim(buffer)
-   end function count_to_text
+      count_length = len_trim(buffer)
+   end function count_length
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
@@ -136,19 +189,55 @@ contains
       end do
    end function lower
 
+   !> A text with blanks for control characters and for what ends a line in Unicode (U+0080 to U+009F, U+2028, U+2029, in
+   !> UTF-8); a name that is not plain could forge lines of a result file
+   pure function plain(text)
+      !> Any text
+      character(len=*), intent(in) :: text
+      !> The same, as long
+      character(len=len(text)) :: plain
+
+      integer :: i
+
+      plain = text
+      do i = 1, len(text)
+         select case (ichar(text(i:i)))
+         case (:31, 127)
+            plain(i:i) = ' '
+         case (194)
+            if (code(i + 1) >= 128 .and. code(i + 1) < 160) plain(i:i + 1) = ' '
+         case (226)
+            if (code(i + 1) == 128 .and. (code(i + 2) == 168 .or. code(i + 2) == 169)) plain(i:i + 2) = ' '
+         end select
+      end do
+
+   contains
+
+      !> Code of a character, 0 beyond the end
+      pure integer function code(k)
+         !> Its position
+         integer, intent(in) :: k
+
+         code = 0
+         if (k <= len(text)) code = ichar(text(k:k))
+      end function code
+
+   end function plain
+
    !> Words in quotes, separated by commas: 'a', 'b', 'c'
    pure function join(words) result(text)
       !> Words
       character(len=*), intent(in) :: words(:)
       !> The list, for messages that say what is allowed
-      character(len=:), allocatable :: text
+      character(len=max(0, sum(len_trim(words)) + 4*size(words) - 2)) :: text
 
-      integer :: i
+      integer :: i, length
 
-      text = ''
+      length = 0
       do i = 1, size(words)
-         if (i > 1) text = text//', '
-         text = text//''''//trim(words(i))//''''
+         if (i > 1) text(length - 1:length) = ', '
+         text(length + 1:) = ''''//trim(words(i))//''''
+         length = length + len_trim(words(i)) + 4
       end do
    end function join
 

@@ -1,7 +1,9 @@
 !> A text file as a whole: read at once, with an index of its lines.
 module dondolo_text_file
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : add_place, error_type, raise_input, raise_missing
+   use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_text, only : to_text
    implicit none
    private
@@ -11,6 +13,9 @@ module dondolo_text_file
 
    !> Byte order mark that some programs put before UTF-8 text
    character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+
+   !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
+   real(wp), parameter :: bytes_of_byte = 16.0_wp
 
    !> What may follow the last line: NUL, tab, line feed, carriage return, Ctrl-Z (end of file under DOS), blank
    character(len=*), parameter :: padding = achar(0)//achar(9)//achar(10)//achar(13)//achar(26)//' '
@@ -39,13 +44,15 @@ module dondolo_text_file
 contains
 
    !> Read a text file: lines end in LF or CRLF; a byte order mark and Ctrl-Z at the end are dropped
-   subroutine read_text_file(file, text, error)
+   subroutine read_text_file(file, text, error, longest)
       !> Path of the file
       character(len=*), intent(in) :: file
       !> Its text
       type(text_file_type), intent(out) :: text
-      !> The file is missing, unreadable, empty or too large
+      !> The file is missing, unreadable, empty or too large, for the memory too
       type(error_type), allocatable, intent(out) :: error
+      !> Most bytes that it may have; 2 GiB if absent
+      integer(int64), intent(in), optional :: longest
 
       integer(int64) :: bytes
       integer :: unit, stat
@@ -56,6 +63,19 @@ contains
       if (bytes >= int(huge(stat), int64)) then
          close (unit)
          call raise_input(error, file//': larger than 2 GiB or no file')
+         return
+      end if
+      if (present(longest)) then
+         if (bytes > longest) then
+            close (unit)
+            call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
+            return
+         end if
+      end if
+      call check_room(bytes_of_byte*real(bytes, wp), error)
+      if (allocated(error)) then
+         close (unit)
+         call add_place(error, file)
          return
       end if
       allocate (character(len=max(bytes, 0_int64)) :: text%text)
@@ -87,7 +107,7 @@ contains
       unit = 0
       inquire (file=file, exist=exists, size=bytes)
       if (.not. exists) then
-         call raise_input(error, file//': no such file')
+         call raise_missing(error, file//': no such file')
          return
       end if
       ! Seen before it is opened: a pipe has no size either, and would be waited for.

@@ -27,14 +27,15 @@ contains
       !> name = 'value', quotes inside doubled
       character(len=:), allocatable :: text
 
-      integer :: i
+      integer :: i, at
 
-      text = name//' = '''
+      text = name//' = '''//repeat('''', count([(value(i:i) == '''', i=1, len(value))]) + len(value) + 1)
+      at = len(name) + 4
       do i = 1, len(value)
-         text = text//value(i:i)
-         if (value(i:i) == '''') text = text//''''
+         at = at + 1
+         text(at:at) = value(i:i)
+         if (value(i:i) == '''') at = at + 1
       end do
-      text = text//''''
    end function text_assignment
 
    !> A real number

@@ -1,11 +1,13 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : echo_history, find_record, history_input_type, read_history_group
    use dondolo_job_group, only : echo_job, job_type, read_job
    use dondolo_kinds, only : wp
+   use dondolo_lane_variants, only : check_variant
    use dondolo_lines, only : lines_type
+   use dondolo_memory, only : check_room
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
@@ -28,6 +30,9 @@ module dondolo_case
 
    public :: case_type, read_case
    public :: group_names
+
+   !> Memory that a sample of a record takes while the records are measured and joined [bytes]
+   real(wp), parameter :: bytes_of_sample = 64.0_wp
 
    !> Groups of a case
    character(len=10), parameter :: group_names(7) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
@@ -61,6 +66,8 @@ module dondolo_case
       type(solver_input_type) :: solver
       !> Which time history
       type(history_input_type) :: history
+      !> How its tables were read, where there is something to say of it
+      type(lines_type) :: notes
    contains
       !> Factor that scales a record to a level
       procedure :: scale_to
@@ -91,6 +98,8 @@ contains
       type(wall_input_type) :: wall
 
       case%file = file
+      call check_variant(error)
+      if (allocated(error)) return
       if (is_folder(file)) then
          call raise_input(error, file//': is a folder, must be a namelist file')
          return
@@ -135,6 +144,7 @@ contains
       call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
          & case%peaks, case%stripes, case%solver, range, error)
       if (allocated(error)) return
+      if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       case%survey%is_part = present(rows)
       if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
          & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
@@ -160,7 +170,9 @@ contains
       end if
       group = namelist%group(trim(needed))
       if (group%line == 0) then
-         call raise_input(error, group%place()//': must be given for task = '''//task//'''')
+         group = namelist%group('job')
+         call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &
+            & group%in_line('task'))
          return
       end if
       group = namelist%group(trim(other))
@@ -189,13 +201,13 @@ contains
       end if
       group = namelist%group('wall')
       call new_wall(case%wall, input, error, case%solver%gravity)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) return
       group = namelist%group('solver')
       call check_limit(case%solver%solver, case%wall%mechanism, error)
       if (.not. allocated(error)) &
          & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
    end subroutine make_wall
 
@@ -217,7 +229,7 @@ contains
       end if
       group = namelist%group('stripes')
       call check_states(case%stripes, case%solver%solver%edp_limit, error)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) return
       if (case%job%histories .and. case%job%task /= 'typology') then
          group = namelist%group('job')
@@ -226,7 +238,7 @@ contains
       end if
       if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
       call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
-         & 'first, last and count')
+         & 'first, last and count'//group%in_line(''))
    end subroutine check_combinations
 
    !> Read the accelerograms
@@ -238,13 +250,17 @@ contains
       !> What is wrong with them
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: note
+
       call check_file(group, 'catalogue', case%records_input%catalogue, error)
       if (allocated(error)) return
       if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error)
+      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error, note)
+      if (allocated(error)) return
+      if (len(note) > 0) call case%notes%add(note)
    end subroutine read_records
 
    !> Check that a variable names a file that exists
@@ -258,7 +274,7 @@ contains
       !> There is no such file
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: file
+      character(len=:), allocatable :: file, hint
       logical :: exists
 
       file = beside(path, group%file)
@@ -266,7 +282,10 @@ contains
       if (is_folder(file)) then
          call group%refuse(name, file//' is a folder, must be a file', error)
       else if (.not. exists) then
-         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)', error)
+         hint = ''
+         if (index(path, '\') > 0) hint = '; folders must be separated by /, not \'
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, error)
+         error%stat = status_missing
       end if
    end subroutine check_file
 
@@ -276,13 +295,16 @@ contains
       type(namelist_type), intent(in) :: namelist
       !> The case
       type(case_type), intent(inout) :: case
-      !> No such record
+      !> No such record, or too little memory
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
+      integer :: i
 
       group = namelist%group('history')
       if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
+      if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(case%records(i)%acceleration), wp), &
+         & i=1, size(case%records))]), error)
       if (allocated(error)) return
       if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
          & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
@@ -314,7 +336,8 @@ contains
                   & ' of 0 and cannot be scaled to a level', error)
             else
                call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
-                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
+                  & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
             end if
          end associate
          return
@@ -324,7 +347,8 @@ contains
          do i = 1, size(case%records)
             if (case%scale_to(i, highest)*case%peaks(i) <= largest_acceleration) cycle
             call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
-               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2'// &
+               & group%in_line(trim(merge('levels', 'last  ', group%has('levels')))))
             return
          end do
       end associate

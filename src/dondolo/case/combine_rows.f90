@@ -44,8 +44,8 @@ contains
          if (k == 1) allocate (results%typologies(size(combination%typologies), thresholds))
          results%typologies(:, k) = combination%typologies
       end do
-      call warn_of_records(case%records, results%warnings)
-      call case%survey%sizes%warn(results%warnings)
+      call case%survey%oddities%warn(results%warnings)
+      call warn_of_records(case%records, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, thresholds), results%warnings)
    end subroutine combine_rows

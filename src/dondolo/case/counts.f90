@@ -124,8 +124,8 @@ contains
       bytes(byte + 1:) = transfer(reals, bytes(byte + 1:))
    end function pack_counts
 
-   !> Rows out of bytes
-   subroutine unpack_counts(bytes, count, shape, rows, work)
+   !> Rows out of bytes; sizes are checked before anything is read
+   subroutine unpack_counts(bytes, count, shape, rows, work, ok)
       !> Bytes
       character(len=*), intent(in) :: bytes
       !> Number of rows
@@ -136,13 +136,17 @@ contains
       type(counts_type), allocatable, intent(out) :: rows(:)
       !> What was computed for them
       type(work_type), intent(out) :: work
+      !> There are as many numbers as rows of this shape have
+      logical, intent(out) :: ok
 
       integer(int32), allocatable :: integers(:)
       real(wp), allocatable :: reals(:)
       integer(int64) :: counted(work_counts)
-      integer(int64) :: at, place
+      integer(int64) :: at, place, of_row
       integer :: i, j, k, number
 
+      ok = len(bytes, int64) >= 8*work_counts + 4
+      if (.not. ok) return
       counted = transfer(bytes(:8*work_counts), counted)
       work = work_type(histories=counted(1), still=counted(2), in_lanes=counted(3), intervals=counted(4), &
          & rocked=counted(5), steps=counted(6), evaluations=counted(7), impacts=counted(8))
@@ -150,7 +154,13 @@ contains
       number = transfer(bytes(at + 1:at + 4), number)
       at = at + 4
       place = at + 4*int(number, int64)
+      ! Counts alone: with histories, each row says how many it has.
+      of_row = own_integers + shape%thresholds*(1 + int(shape%levels, int64))
+      ok = number >= count*of_row .and. place <= len(bytes, int64)
+      if (.not. ok) return
       integers = transfer(bytes(at + 1:place), [0_int32])
+      ok = all_there()
+      if (.not. ok) return
       reals = transfer(bytes(place + 1:), [0.0_wp])
       allocate (rows(count))
       at = 0
@@ -188,6 +198,28 @@ contains
             end do
          end associate
       end do
+
+   contains
+
+      !> Are there exactly the numbers of all rows?
+      pure logical function all_there()
+
+         integer(int64) :: at, histories
+         integer :: i
+
+         at = 0
+         histories = 0
+         do i = 1, count
+            all_there = at + of_row <= size(integers, kind=int64)
+            if (all_there) all_there = integers(at + own_integers) >= 0
+            if (.not. all_there) return
+            if (shape%keeps_histories) histories = histories + int(integers(at + own_integers), int64)*shape%levels
+            at = i*of_row + 2*histories
+         end do
+         all_there = at == size(integers, kind=int64) .and. len(bytes, int64) == place + bytes_of_real* &
+            & (count*int(own_reals + curve_reals*shape%thresholds, int64) + 2*histories)
+      end function all_there
+
    end subroutine unpack_counts
 
    !> Numbers of a curve

@@ -286,9 +286,8 @@ contains
       read (file%unit, iostat=stat) contents
       if (stat /= 0) return
       if (fingerprint_of(head//contents) /= fingerprint) return
-      call unpack_counts(contents, int(numbers(1)), file%key%shape, rows, work)
-      bytes = length + block_head_bytes
-      found = .true.
+      call unpack_counts(contents, int(numbers(1)), file%key%shape, rows, work, found)
+      if (found) bytes = length + block_head_bytes
    end subroutine read_block
 
    !> The head of a file

@@ -48,7 +48,8 @@ contains
       end if
       if (allocated(error)) return
       if (group%has('scale') .and. group%has('im_level')) then
-         call raise_input(error, group%place()//': im_level: give either scale or im_level')
+         call raise_input(error, group%place()//': im_level: give either scale or im_level'// &
+            & group%in_line('im_level'))
       else if (group%has('im_level')) then
          call get_positive(group, 'im_level', history%im_level, error)
       else if (group%has('scale')) then

@@ -4,7 +4,7 @@ module dondolo_job_group
    use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, lower, to_text
    use dondolo_ensemble, only : largest_threads
    implicit none
    private
@@ -31,6 +31,8 @@ module dondolo_job_group
       integer :: threads = 0
       !> Task 'typology': write the table of all histories too?
       logical :: histories = .false.
+      !> In which line the output was given, for messages
+      character(len=:), allocatable :: output_line
    end type job_type
 
 contains
@@ -54,17 +56,20 @@ contains
       if (.not. allocated(error)) call group%get_integer('threads', job%threads, error)
       if (.not. allocated(error)) call group%get_logical('histories', job%histories, error)
       if (allocated(error)) return
+      job%task = lower(trim(job%task))
       if (.not. any(job%task == task_names)) then
          call group%refuse('task', 'must be one of '//join(task_names), error)
       else if (len_trim(job%output) == 0) then
          call group%refuse('output', 'must not be empty: the names of all result files begin with it', error)
-      else if (scan(job%output(len(job%output):), '/\') > 0) then
+      else if (job%output(len(job%output):) == '/') then
          call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'wall''', &
             & error)
+      else if (index(job%output, '\') > 0) then
+         call group%refuse('output', 'must have / between folders, not \', error)
       else if (job%threads < 0 .or. job%threads > largest_threads) then
          call group%refuse('threads', 'must lie between 0 (all) and '//to_text(largest_threads), error)
       end if
-      job%task = trim(job%task)
+      job%output_line = group%in_line('output')
    end subroutine read_job
 
    !> Write the group as namelist text with every value in force

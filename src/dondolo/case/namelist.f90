@@ -7,7 +7,10 @@
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
 module dondolo_namelist
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
+   use dondolo_name_index, only : name_index_type
    use dondolo_namelist_group, only : group_type, value_type, variable_type
    use dondolo_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
    use dondolo_text, only : lower, to_text
@@ -16,6 +19,9 @@ module dondolo_namelist
    private
 
    public :: namelist_type, read_namelist
+
+   !> A longer file is surely no case [bytes]
+   integer(int64), parameter :: longest_file = 2_int64**20
 
    !> A namelist file
    type :: namelist_type
@@ -38,14 +44,20 @@ contains
       character(len=*), intent(in) :: file
       !> What stands in it
       type(namelist_type), intent(out) :: namelist
-      !> The file cannot be read, or is no namelist file
+      !> The file cannot be read, is longer than 1 MiB, or is no namelist file
       type(error_type), allocatable, intent(out) :: error
 
       type(text_file_type) :: text
       type(token_type), allocatable :: tokens(:)
+      integer :: i
 
-      call read_text_file(file, text, error)
+      call read_text_file(file, text, error, longest_file)
       if (allocated(error)) return
+      do i = 1, text%lines()
+         if (is_utf8(text%line(i))) cycle
+         call raise_input(error, text%place(i)//': '//encoding_problem(text%line(i)))
+         return
+      end do
       call cut(text, tokens, error)
       if (allocated(error)) return
       namelist%file = file
@@ -109,9 +121,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: next
-      integer :: at, count, i
+      type(name_index_type) :: names
+      integer :: at, count, before
 
-      allocate (namelist%groups(0))
+      allocate (namelist%groups(8))
       count = 0
       at = 1
       do while (tokens(at)%kind /= end_of_file)
@@ -123,18 +136,20 @@ contains
          next%file = text%file
          next%name = tokens(at)%text
          next%line = tokens(at)%line
-         do i = 1, count
-            if (namelist%groups(i)%name /= next%name) cycle
-            call raise_input(error, next%place()//': given twice, in lines '//to_text(namelist%groups(i)%line)// &
-               & ' and '//to_text(next%line))
+         call names%note(next%name, next%line, before)
+         if (before > 0) then
+            call raise_input(error, next%place()//': given twice, in lines '//to_text(before)//' and '// &
+               & to_text(next%line))
             return
-         end do
+         end if
          at = at + 1
          call take_variables(tokens, at, next, error)
          if (allocated(error)) return
-         call append_group(namelist%groups, next)
+         if (count == size(namelist%groups)) call widen_groups(namelist%groups)
          count = count + 1
+         call move_group(next, namelist%groups(count))
       end do
+      namelist%groups = namelist%groups(:count)
       if (count == 0) call raise_input(error, text%file//': no group: a case is made of groups, &name ... /')
    end subroutine take_groups
 
@@ -150,21 +165,24 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(variable_type) :: variable
-      integer :: i
+      type(name_index_type) :: names
+      integer :: count, before
 
       if (allocated(group%variables)) deallocate (group%variables)
-      allocate (group%variables(0))
+      allocate (group%variables(8))
+      count = 0
       do
          select case (tokens(at)%kind)
          case (group_end)
             at = at + 1
+            group%variables = group%variables(:count)
             return
          case (group_begin)
             call raise_input(error, group%place()//': not closed: a / must stand before '//tokens(at)%typed// &
                & ' in line '//to_text(tokens(at)%line))
             return
          case (end_of_file)
-            call raise_input(error, group%place()//': not closed: a / must stand at its end')
+            call raise_input(error, group%place()//': not closed: a / must stand at its end'//group%in_line(''))
             return
          case (word)
             call take_variable(tokens, at, group, variable, error)
@@ -174,13 +192,15 @@ contains
                & '): must be the name of a variable and =')
             return
          end select
-         do i = 1, size(group%variables)
-            if (group%variables(i)%name /= variable%name) cycle
+         call names%note(variable%name, variable%line, before)
+         if (before > 0) then
             call raise_input(error, group%place()//': '//variable%name//': given twice, in lines '// &
-               & to_text(group%variables(i)%line)//' and '//to_text(variable%line))
+               & to_text(before)//' and '//to_text(variable%line))
             return
-         end do
-         call append_variable(group%variables, variable)
+         end if
+         if (count == size(group%variables)) call widen_variables(group%variables)
+         count = count + 1
+         call move_variable(variable, group%variables(count))
       end do
    end subroutine take_variables
 
@@ -198,12 +218,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: place
+      integer :: count
       logical :: after_comma
 
       variable%name = lower(tokens(at)%text)
       variable%line = tokens(at)%line
       place = group%place()//': '//variable%name//' (line '//to_text(variable%line)//'): '
-      allocate (variable%values(0))
+      allocate (variable%values(8))
+      count = 0
       if (index(variable%name, '(') > 0) then
          call raise_input(error, place//'subscripts are not allowed: give the whole list, name = value, value, ...')
          return
@@ -225,7 +247,14 @@ contains
                   return
                end if
             end if
-            call append_value(variable%values, tokens(at))
+            if (count == size(variable%values)) call widen_values(variable%values)
+            count = count + 1
+            associate (value => variable%values(count), token => tokens(at))
+               value%typed = token%typed
+               value%text = token%text
+               value%quoted = token%kind == quoted
+               value%line = token%line
+            end associate
             after_comma = .false.
          case (comma)
             if (after_comma) then
@@ -241,7 +270,8 @@ contains
          end select
          at = at + 1
       end do
-      if (size(variable%values) == 0) call raise_input(error, place//'no value follows its =')
+      variable%values = variable%values(:count)
+      if (count == 0) call raise_input(error, place//'no value follows its =')
    end subroutine take_variable
 
    !> Can a word be the name of a variable?
@@ -252,52 +282,77 @@ contains
       is_name = lower(text(1:1)) >= 'a' .and. lower(text(1:1)) <= 'z'
    end function is_name
 
-   !> Add a value to a list
-   subroutine append_value(values, token)
-      !> List
+   !> Double the room for values
+   subroutine widen_values(values)
+      !> Values
       type(value_type), allocatable, intent(inout) :: values(:)
-      !> Token of the value
-      type(token_type), intent(in) :: token
 
       type(value_type), allocatable :: more(:)
+      integer :: i
 
-      allocate (more(size(values) + 1))
-      more(:size(values)) = values
-      more(size(more))%typed = token%typed
-      more(size(more))%text = token%text
-      more(size(more))%quoted = token%kind == quoted
-      more(size(more))%line = token%line
+      allocate (more(2*size(values)))
+      do i = 1, size(values)
+         call move_alloc(values(i)%typed, more(i)%typed)
+         call move_alloc(values(i)%text, more(i)%text)
+         more(i)%quoted = values(i)%quoted
+         more(i)%line = values(i)%line
+      end do
       call move_alloc(more, values)
-   end subroutine append_value
+   end subroutine widen_values
 
-   !> Add a variable to a list
-   subroutine append_variable(variables, variable)
-      !> List
+   !> Double the room for variables
+   subroutine widen_variables(variables)
+      !> Variables
       type(variable_type), allocatable, intent(inout) :: variables(:)
-      !> Variable
-      type(variable_type), intent(in) :: variable
 
       type(variable_type), allocatable :: more(:)
+      integer :: i
 
-      allocate (more(size(variables) + 1))
-      more(:size(variables)) = variables
-      more(size(more)) = variable
+      allocate (more(2*size(variables)))
+      do i = 1, size(variables)
+         call move_variable(variables(i), more(i))
+      end do
       call move_alloc(more, variables)
-   end subroutine append_variable
+   end subroutine widen_variables
 
-   !> Add a group to a list
-   subroutine append_group(groups, group)
-      !> List
+   !> Double the room for groups
+   subroutine widen_groups(groups)
+      !> Groups
       type(group_type), allocatable, intent(inout) :: groups(:)
-      !> Group
-      type(group_type), intent(in) :: group
 
       type(group_type), allocatable :: more(:)
+      integer :: i
 
-      allocate (more(size(groups) + 1))
-      more(:size(groups)) = groups
-      more(size(more)) = group
+      allocate (more(2*size(groups)))
+      do i = 1, size(groups)
+         call move_group(groups(i), more(i))
+      end do
       call move_alloc(more, groups)
-   end subroutine append_group
+   end subroutine widen_groups
+
+   !> Move a variable, since a copy would copy all its values
+   subroutine move_variable(from, to)
+      !> The variable; empty afterwards
+      type(variable_type), intent(inout) :: from
+      !> Its new place
+      type(variable_type), intent(inout) :: to
+
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%values, to%values)
+      to%line = from%line
+   end subroutine move_variable
+
+   !> Move a group, since a copy would copy all its variables
+   subroutine move_group(from, to)
+      !> The group; empty afterwards
+      type(group_type), intent(inout) :: from
+      !> Its new place
+      type(group_type), intent(inout) :: to
+
+      call move_alloc(from%file, to%file)
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%variables, to%variables)
+      to%line = from%line
+   end subroutine move_group
 
 end module dondolo_namelist

@@ -1,12 +1,12 @@
 !> One group of a namelist file, and how its values are taken: as text, as a number, as a list of numbers.
 !>
 !> What is refused is refused with its place and its value as it was typed:
-!> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25`.
+!> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25 (line 12)`.
 module dondolo_namelist_group
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_text, only : first_word, join, lower, must_be_plain, plain, to_text
    implicit none
    private
 
@@ -50,6 +50,10 @@ module dondolo_namelist_group
    contains
       !> Where the group is, for messages
       procedure :: place
+      !> In which line a variable is, for messages
+      procedure :: in_line
+      !> Put the place of what is wrong around the sentences of an error
+      procedure :: locate
       !> Refuse variables that the group does not have
       procedure :: check_names
       !> Was a variable given?
@@ -81,6 +85,48 @@ contains
 
       place = self%file//': &'//self%name
    end function place
+
+   !> In which line a variable is, for the end of a message; the line of the group where the variable was not given
+   pure function in_line(self, name) result(text)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case; empty for the group
+      character(len=*), intent(in) :: name
+      !> ' (line 7)'; empty where the file does not have the group
+      character(len=:), allocatable :: text
+
+      integer :: line, i
+
+      line = self%line
+      i = position(self, name)
+      if (i > 0) line = self%variables(i)%line
+      text = ''
+      if (line > 0) text = ' (line '//to_text(line)//')'
+   end function in_line
+
+   !> Put the place of what is wrong around the sentences of an error, each of which begins with the name of a variable
+   pure subroutine locate(self, error)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Error to extend; left alone when not allocated
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: message, sentence
+      integer :: first, length
+
+      if (.not. allocated(error)) return
+      message = ''
+      first = 1
+      do while (first <= len(error%message))
+         length = index(error%message(first:)//new_line('a'), new_line('a')) - 1
+         sentence = error%message(first:first + length - 1)
+         if (first > 1) message = message//new_line('a')
+         message = message//sentence//self%in_line(first_word(sentence, ' :'))
+         first = first + length + 1
+      end do
+      error%message = message
+      call add_place(error, self%place())
+   end subroutine locate
 
    !> Number of a variable in the group
    pure function position(self, name)
@@ -146,7 +192,7 @@ contains
       end do
    end subroutine check_names
 
-   !> Refuse the value of a variable: 'file: &group: name = value: what is allowed'
+   !> Refuse the value of a variable: 'file: &group: name = value: what is allowed (line 7)'
    subroutine refuse(self, name, allowed, error)
       !> Group
       class(group_type), intent(in) :: self
@@ -166,7 +212,7 @@ contains
          typed = typed//', '//self%variables(i)%values(j)%typed
       end do
       if (size(self%variables(i)%values) > 6) typed = typed//', ...'
-      call raise_input(error, self%place()//': '//name//' = '//typed//': '//allowed)
+      call raise_input(error, self%place()//': '//name//' = '//typed//': '//allowed//self%in_line(name))
    end subroutine refuse
 
    !> Find the one value of a variable that takes one
@@ -231,8 +277,10 @@ contains
 
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
-      if (found%quoted) then
+      if (found%quoted .and. plain(found%text) == found%text) then
          value = found%text
+      else if (found%quoted) then
+         call self%refuse(name, must_be_plain, error)
       else
          call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
       end if
@@ -315,7 +363,7 @@ contains
             call to_real(given(j), numbers(j), ok)
             if (.not. ok) then
                call raise_input(error, self%place()//': '//name//': value '//to_text(j)//' = '//given(j)%typed// &
-                  & ': '//not_a_number(given(j)))
+                  & ': '//not_a_number(given(j))//' (line '//to_text(given(j)%line)//')')
                return
             end if
             if (j == 1) cycle

@@ -18,6 +18,12 @@ module dondolo_namelist_tokens
    !> What ends a word
    character(len=*), parameter :: word_ends = blanks//',=!/&''"'
 
+   !> Quotes that word processors put for straight ones, in UTF-8: single and double ones up, down, and in angles
+   character(len=*), parameter :: print_quotes(8) = [character(len=3) :: &
+      & achar(226)//achar(128)//achar(152), achar(226)//achar(128)//achar(153), achar(226)//achar(128)//achar(154), &
+      & achar(226)//achar(128)//achar(156), achar(226)//achar(128)//achar(157), achar(226)//achar(128)//achar(158), &
+      & achar(194)//achar(171), achar(194)//achar(187)]
+
    !> One token
    type :: token_type
       !> Its kind
@@ -93,8 +99,13 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: first
+      integer :: first, i
 
+      do i = 1, size(print_quotes)
+         if (line(at:min(at + len_trim(print_quotes(i)) - 1, len(line))) /= print_quotes(i)) cycle
+         call raise_input(error, 'the quote '//trim(print_quotes(i))//' of a word processor: must be a straight one, ''')
+         return
+      end do
       first = at
       select case (line(at:at))
       case ('''', '"')
@@ -139,7 +150,9 @@ contains
       !> Position of the first character of the word
       integer, intent(in) :: first
 
-      word_end = first + scan(line(first:)//' ', word_ends) - 1
+      word_end = scan(line(first:), word_ends)
+      if (word_end == 0) word_end = len(line) - first + 2
+      word_end = first + word_end - 1
    end function word_end
 
    !> Take a text in quotes; a quote inside is doubled
@@ -154,25 +167,29 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=1) :: quote
-      integer :: length, first
+      integer :: length, first, doubled, from, i
 
       first = at
       quote = line(at:at)
       token%kind = quoted
-      token%text = ''
-      at = at + 1
+      doubled = 0
       do
-         length = index(line(at:), quote) - 1
-         if (length < 0) then
+         length = index(line(at + 1:), quote)
+         if (length == 0) then
             call raise_input(error, 'the quote before '''//trim(line(first + 1:))//''' is not closed on its line')
             return
          end if
-         token%text = token%text//line(at:at + length - 1)
          at = at + length + 1
-         if (at > len(line)) return
-         if (line(at:at) /= quote) return
-         token%text = token%text//quote
-         at = at + 1
+         if (at > len(line)) exit
+         if (line(at:at) /= quote) exit
+         doubled = doubled + 1
+      end do
+      token%text = repeat(' ', at - first - 2 - doubled)
+      from = first
+      do i = 1, len(token%text)
+         from = from + 1
+         token%text(i:i) = line(from:from)
+         if (line(from:from) == quote) from = from + 1
       end do
    end subroutine take_quoted
 

@@ -8,8 +8,9 @@ module dondolo_population
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_text, only : join, lower, must_be_plain, plain, to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
    implicit none
@@ -19,6 +20,9 @@ module dondolo_population
 
    !> Columns besides the variables of a wall
    character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
+
+   !> Memory that a row takes where all are kept, and what the index of names takes for it while it grows [bytes]
+   real(wp), parameter :: bytes_of_row = 4000.0_wp, bytes_of_name = 72.0_wp
 
    !> A row: one mechanism of a wall
    type :: member_type
@@ -69,15 +73,17 @@ module dondolo_population
 contains
 
    !> Read all of a population
-   subroutine read_population(file, members, error, gravity)
+   subroutine read_population(file, members, error, gravity, note)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
       type(member_type), allocatable, intent(out) :: members(:)
-      !> Everything that is wrong
+      !> Everything that is wrong, or lack of memory
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
+      !> How the table was read, where there is something to say of it, else empty
+      character(len=:), allocatable, intent(out), optional :: note
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
@@ -91,6 +97,11 @@ contains
       rows = 0
       do
          if (rows == size(members)) then
+            call check_room(2.0_wp*bytes_of_row*real(rows, wp), error)
+            if (allocated(error)) then
+               call reader%close()
+               return
+            end if
             allocate (more(2*rows))
             more(:rows) = members
             call move_alloc(more, members)
@@ -101,6 +112,7 @@ contains
          if (.not. found) exit
       end do
       members = members(:rows)
+      if (present(note)) note = reader%table%note()
       call problems%raise(error)
    end subroutine read_population
 
@@ -134,6 +146,8 @@ contains
          call self%close()
          return
       end do
+      call self%table%find_decimal_mark([(self%table%column(trim(wall_numbers(i))), i=1, size(wall_numbers)), &
+         & self%table%column('weight'), self%table%column('p_occ')], error)
    end subroutine open_population
 
    !> Read the next row; after an error the rows behind it can be read
@@ -240,8 +254,8 @@ contains
       member%group = self%table%get_text(given('group'))
       call read_share('weight', member%weight, largest_weight)
       call read_share('p_occ', member%p_occ, 1.0_wp)
-      call check_line('name', input%name)
-      call check_line('group', member%group)
+      if (plain(member%group) /= member%group) &
+         & call problems%note('group = '''//member%group//''': '//must_be_plain)
       call problems%raise(error)
 
    contains
@@ -277,22 +291,6 @@ contains
          share = abs(share)
       end subroutine read_share
 
-      !> Check that a text stands on one line and can be printed
-      subroutine check_line(name, text)
-         !> Name of its column
-         character(len=*), intent(in) :: name
-         !> The text
-         character(len=*), intent(in) :: text
-
-         integer :: i
-
-         do i = 1, len(text)
-            if (iachar(text(i:i)) >= 32 .and. iachar(text(i:i)) /= 127) cycle
-            call problems%note(name//' = '''//text//''': must stand on one line, without control characters')
-            return
-         end do
-      end subroutine check_line
-
    end subroutine read_row
 
    !> Place a row among those before it: a further mechanism of the wall before, or a new wall
@@ -311,6 +309,10 @@ contains
          if (.not. member%continues) then
             line = 0
             if (self%is_checked) call self%names%note(name, self%table%line, line)
+            if (self%names%lacks_memory) then
+               call raise_shortage(bytes_of_name*real(self%row, wp), error)
+               return
+            end if
             if (line > 0) then
                call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
                   & '); mechanisms of one wall must stand one after the other')

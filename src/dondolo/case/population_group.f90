@@ -29,7 +29,8 @@ contains
       if (.not. allocated(error)) call group%get_text('file', file, error)
       if (allocated(error)) return
       if (.not. group%has('file')) then
-         call raise_input(error, group%place()//': file: must be given, a CSV table with one row a wall')
+         call raise_input(error, group%place()//': file: must be given, a CSV table with one row a wall'// &
+            & group%in_line(''))
       else if (len_trim(file) == 0) then
          call group%refuse('file', 'must name a CSV table with one row a wall', error)
       end if

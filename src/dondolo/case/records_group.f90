@@ -5,7 +5,7 @@ module dondolo_records_group
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_stripes, only : polarity_names
-   use dondolo_text, only : join
+   use dondolo_text, only : join, lower
    implicit none
    private
 
@@ -40,9 +40,10 @@ contains
       if (.not. allocated(error)) call group%get_text('catalogue', records%catalogue, error)
       if (.not. allocated(error)) call group%get_text('polarity', records%polarity, error)
       if (allocated(error)) return
-      records%polarity = trim(records%polarity)
+      records%polarity = lower(trim(records%polarity))
       if (.not. group%has('catalogue')) then
-         call raise_input(error, group%place()//': catalogue: must be given, a CSV table with one row a record')
+         call raise_input(error, group%place()//': catalogue: must be given, a CSV table with one row a record'// &
+            & group%in_line(''))
       else if (len_trim(records%catalogue) == 0) then
          call group%refuse('catalogue', 'must name a CSV table with one row a record', error)
       else if (.not. any(records%polarity == polarity_names)) then

@@ -18,6 +18,13 @@ module dondolo_reports
 
    public :: check_reports, write_reports
 
+   !> What the names of result files can end with, of any task
+   character(len=15), parameter :: all_suffixes(6) = [character(len=15) :: '_walls.csv', '_histories.csv', &
+      & '_stripes.csv', '_fragility.csv', '_typology.csv', '_history.csv']
+
+   !> What every result file begins with
+   character(len=*), parameter :: mark = '# dondolo '
+
 contains
 
    !> Try, before anything is computed, whether the reports of a case can be written
@@ -31,6 +38,7 @@ contains
 
       call case%inputs(inputs)
       call check_output(case%job%output, suffixes(case%job), inputs, error)
+      if (allocated(error)) error%message = error%message//case%job%output_line
       call add_place(error, case%file//': &job: output = '''//case%job%output//'''')
    end subroutine check_reports
 
@@ -52,7 +60,7 @@ contains
       end select
    end function suffixes
 
-   !> Write the reports of a case
+   !> Write the reports of a case; those of an earlier run that they do not replace are removed
    subroutine write_reports(case, results, paths, error)
       !> The case
       type(case_type), intent(in) :: case
@@ -64,6 +72,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(result_files_type) :: files
+      type(lines_type) :: inputs
       character(len=15), allocatable :: names(:)
       integer :: i
 
@@ -82,6 +91,11 @@ contains
          if (allocated(error)) return
       end do
       call files%commit(error)
+      if (allocated(error)) return
+      call case%inputs(inputs)
+      do i = 1, size(all_suffixes)
+         if (all(names /= all_suffixes(i))) call files%remove_old(trim(all_suffixes(i)), mark, inputs)
+      end do
       paths = files%paths
    end subroutine write_reports
 
@@ -121,7 +135,7 @@ contains
       type(lines_type) :: echo
       integer :: i
 
-      call files%line('# dondolo '//dondolo_version_text)
+      call files%line(mark//dondolo_version_text)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
       call files%line('# engine and build variant: '//results%engine())
       call case%echo(echo)
@@ -132,6 +146,9 @@ contains
          call files%line('# unit of im_level and theta: '//unit_of_levels(case))
          call files%line('# work: '//counts_of(results%work))
       end if
+      do i = 1, case%notes%count
+         call files%line('# note: '//case%notes%line(i)%text)
+      end do
       do i = 1, results%warnings%count
          call files%line('# warning: '//results%warnings%line(i)%text)
       end do
@@ -207,12 +224,13 @@ contains
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
-         call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp')
+         call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact')
          capacity = case%wall%mechanism%capacity
          do i = 1, trace%rows
             call files%line(to_table(trace%time(i))//','//to_table(trace%acceleration(i))//','// &
                & to_table(trace%rotation(i))//','//to_table(trace%velocity(i))//','// &
-               & to_table(abs(trace%rotation(i))/capacity))
+               & to_table(abs(trace%rotation(i))/capacity)//','//to_text(nint(trace%side(i)))//','// &
+               & to_text(merge(1, 0, trace%after_impact(i))))
          end do
       end associate
    end subroutine write_history

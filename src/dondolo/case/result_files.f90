@@ -3,6 +3,7 @@
 !> Every file is first written as `<file>.part`; when all are written they get their names. That the place can be
 !> written to is tried before the computation begins, and leaves nothing behind.
 module dondolo_result_files
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_lines, only : lines_type
    use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, writer_type
@@ -32,6 +33,8 @@ module dondolo_result_files
       procedure :: finish
       !> Give all files their names
       procedure :: commit
+      !> Remove a file of an earlier run
+      procedure :: remove_old
       !> Leave nothing of the run
       procedure :: abandon
    end type result_files_type
@@ -202,6 +205,36 @@ contains
          return
       end do
    end subroutine commit
+
+   !> Remove a file that an earlier run has left; only what begins as a result file does, and is no input, is removed
+   subroutine remove_old(self, suffix, mark, inputs)
+      !> The files of the run
+      class(result_files_type), intent(in) :: self
+      !> What its name ends with
+      character(len=*), intent(in) :: suffix
+      !> What result files begin with
+      character(len=*), intent(in) :: mark
+      !> Paths of the files of the case
+      type(lines_type), intent(in) :: inputs
+
+      character(len=:), allocatable :: path
+      character(len=len(mark)) :: begin
+      integer(int64) :: bytes
+      integer :: unit, stat, i
+
+      path = self%prefix//suffix
+      ! A pipe has no size, and would be waited for.
+      inquire (file=path, size=bytes)
+      if (bytes < len(mark)) return
+      do i = 1, inputs%count
+         if (same_file(path, inputs%line(i)%text)) return
+      end do
+      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
+      if (stat /= 0) return
+      read (unit, iostat=stat) begin
+      close (unit)
+      if (stat == 0 .and. begin == mark) call remove_file(path)
+   end subroutine remove_old
 
    !> Remove what has been written; folders that are not empty stay
    subroutine abandon(self)

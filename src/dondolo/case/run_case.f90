@@ -2,9 +2,11 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_fragility, only : fit_fragility
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : raise_shortage
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_results, only : results_type
@@ -13,13 +15,15 @@ module dondolo_run_case
    use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
    use dondolo_survey, only : check_size
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, size_warning_type, warn_of_error, warn_of_errors, warn_of_fit, &
-      & warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
 
    public :: run_case, plan_case
+
+   !> Memory that a row of a time history takes while it grows [bytes]
+   real(wp), parameter :: bytes_of_row = 140.0_wp
 
 contains
 
@@ -36,20 +40,23 @@ contains
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
 
-      type(size_warning_type) :: sizes
+      type(wall_warning_type) :: oddities
       integer :: team
 
       team = case%job%threads
       if (present(threads)) team = threads
       if (case%job%task /= 'typology') then
-         call sizes%look(case%wall)
-         call sizes%warn(results%warnings)
+         call oddities%look(case%wall)
+         call oddities%warn(results%warnings)
       end if
       select case (case%job%task)
       case ('history')
-         call warn_of_records(case%records(case%history%record:case%history%record), results%warnings)
+         call warn_of_records(case%records(case%history%record:case%history%record), case%solver%gravity, &
+            & results%warnings)
          call simulate(case%wall%mechanism, case%records(case%history%record), case%history_scale(), &
             & case%solver%solver, results%response, results%trace)
+         if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
+         if (allocated(error)) return
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
       case ('stripes')
          call run_stripes(case, results, error, team, progress)
@@ -83,7 +90,9 @@ contains
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
          call reader%next(member, found, error)
-         if (found .and. .not. allocated(error)) call plan_wall(member%wall)
+         if (.not. found .and. .not. allocated(error)) &
+            & call raise_failure(error, case%population_path()//': has changed while it was read')
+         if (.not. allocated(error)) call plan_wall(member%wall)
       end do
       call reader%close()
 
@@ -136,7 +145,7 @@ contains
             if (allocated(error)) return
          end do
          results%work = stripes%work
-         call warn_of_records(case%records, results%warnings)
+         call warn_of_records(case%records, case%solver%gravity, results%warnings)
          call scales%look(stripes, case%records)
          call scales%warn(results%warnings)
          call warn_of_fit(case%wall, stripes, row%curve(size(thresholds)), results%warnings)

@@ -11,6 +11,7 @@ module dondolo_run_population
    use dondolo_ensemble, only : team_of
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant
    use dondolo_lines, only : lines_type
    use dondolo_population, only : member_type, population_reader_type
@@ -153,15 +154,44 @@ contains
          call records%add_reals(case%records(i)%acceleration)
       end do
       key%records = records%text()
-      call settings%add_text(dondolo_version_text)
-      call settings%add_text(case%stripes%scaling%name)
-      call settings%add_text(case%records_input%polarity)
-      call settings%add_text(trim(case%solver%solver%engine))
-      call settings%add_reals([case%stripes%levels, case%stripes%thresholds, case%solver%gravity, &
-         & case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit])
+      call add_word('version', dondolo_version_text)
+      call add_word('im', case%stripes%scaling%name)
+      call add_word('polarity', case%records_input%polarity)
+      call add_word('engine', trim(case%solver%solver%engine))
+      call add_numbers('levels', case%stripes%levels)
+      call add_numbers('edp_thresholds', case%stripes%thresholds)
+      call add_numbers('gravity', [case%solver%gravity])
+      call add_numbers('rtol', [case%solver%solver%rtol])
+      call add_numbers('atol', [case%solver%solver%atol])
+      call add_numbers('edp_limit', [case%solver%solver%edp_limit])
       key%settings = settings%text()
       key%variant = build_variant()
       key%shape = shape_type(size(case%stripes%levels), size(case%stripes%thresholds), case%job%histories)
+
+   contains
+
+      !> Add a setting that is a word
+      subroutine add_word(name, word)
+         !> Name of the setting
+         character(len=*), intent(in) :: name
+         !> Its value
+         character(len=*), intent(in) :: word
+
+         call settings%add_text(name)
+         call settings%add_text(word)
+      end subroutine add_word
+
+      !> Add a setting that is one number or several; how many is part of the fingerprint
+      subroutine add_numbers(name, numbers)
+         !> Name of the setting
+         character(len=*), intent(in) :: name
+         !> Its values
+         real(wp), intent(in) :: numbers(:)
+
+         call settings%add_text(name)
+         call settings%add_reals(numbers)
+      end subroutine add_numbers
+
    end function key_of
 
    !> Check that a file belongs to a case
@@ -177,7 +207,8 @@ contains
          call raise_input(error, file%path//': is of another table of walls')
       else if (file%key%records /= key%records) then
          call raise_input(error, file%path//': is of other accelerograms')
-      else if (file%key%settings /= key%settings) then
+      else if (file%key%settings /= key%settings .or. file%key%shape%levels /= key%shape%levels .or. &
+         & file%key%shape%thresholds /= key%shape%thresholds) then
          call raise_input(error, file%path//': is of other levels, thresholds, polarity or solver, or of another version')
       else if (file%key%shape%keeps_histories .neqv. key%shape%keeps_histories) then
          call raise_input(error, file%path//': was made with another value of &job: histories')

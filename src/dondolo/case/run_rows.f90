@@ -123,12 +123,8 @@ contains
       associate (thresholds => case%stripes%thresholds)
          solver = case%solver%solver
          solver%collapses_only = size(thresholds) == 1 .and. .not. case%job%histories
-         ! One thread at a time: gfortran 12 keeps the length of a text that a function returns in one place for all
-         ! threads, and the sentence of an error is made of such texts.
-         !$omp critical (plan_row)
          call plan_stripes(stripes, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
             & case%peaks, case%records_input%polarity, solver, error)
-         !$omp end critical (plan_row)
          if (.not. allocated(error)) then
             call run_histories(stripes, member%wall, case%records, case%record_set, solver, 1, size(stripes%response), &
                & team)

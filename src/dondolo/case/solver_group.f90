@@ -1,12 +1,12 @@
 !> The group &solver: how the motions are computed.
 module dondolo_solver_group
    use dondolo_assignment, only : assignment_text
-   use dondolo_error, only : add_place, error_type
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_solver, only : check_solver, engine_names, solver_type
-   use dondolo_text, only : join
+   use dondolo_text, only : join, lower
    use dondolo_wall, only : standard_gravity
    implicit none
    private
@@ -51,6 +51,7 @@ contains
       if (.not. allocated(error)) call group%get_logical('estimate_error', input%solver%estimate_error, error)
       if (.not. allocated(error)) call group%get_real('gravity', input%gravity, error)
       if (allocated(error)) return
+      engine = lower(trim(engine))
       if (.not. any(engine == engine_names)) then
          call group%refuse('engine', 'must be one of '//join(engine_names), error)
       else if (.not. (input%gravity > 0.0_wp .and. input%gravity <= largest_gravity)) then
@@ -58,7 +59,7 @@ contains
       else
          input%solver%engine = engine
          call check_solver(input%solver, error)
-         call add_place(error, group%place())
+         call group%locate(error)
       end if
    end subroutine read_solver_group
 

@@ -1,7 +1,7 @@
 !> The group &stripes: the intensity measure and its levels.
 module dondolo_stripes_group
    use dondolo_assignment, only : assignment_text
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
@@ -52,13 +52,14 @@ contains
       if (.not. allocated(error)) call group%get_text('im', im, error)
       if (allocated(error)) return
       call new_scaling(stripes%scaling, trim(im), error)
-      call add_place(error, group%place())
+      call group%locate(error)
       if (allocated(error)) return
       call read_grid(group, stripes, error)
       if (allocated(error)) return
       if (group%has('levels')) then
          if (allocated(stripes%levels)) then
-            call raise_input(error, group%place()//': levels: give either levels or first, last and count')
+            call raise_input(error, group%place()//': levels: give either levels or first, last and count'// &
+               & group%in_line('levels'))
             return
          end if
          call group%get_reals('levels', stripes%levels, error)
@@ -77,7 +78,7 @@ contains
       end if
       if (.not. allocated(stripes%levels)) return
       call check_levels(stripes%levels, error)
-      call add_place(error, group%place())
+      call group%locate(error)
    end subroutine read_stripes_group
 
    !> Check the EDP thresholds, and make collapse the last of them
@@ -110,7 +111,7 @@ contains
       do i = 1, size(grid_variables)
          if (group%has(trim(grid_variables(i)))) cycle
          call raise_input(error, group%place()//': '//trim(grid_variables(i))// &
-            & ': must be given: first, last and count belong together')
+            & ': must be given: first, last and count belong together'//group%in_line(''))
          return
       end do
       first = 0.0_wp

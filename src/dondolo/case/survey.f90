@@ -7,6 +7,7 @@ module dondolo_survey
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_record, only : record_type
    use dondolo_records_group, only : records_input_type
@@ -17,7 +18,7 @@ module dondolo_survey
    use dondolo_stripes_group, only : stripes_input_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : most_groups
-   use dondolo_warnings, only : scale_warning_type, size_warning_type
+   use dondolo_warnings, only : scale_warning_type
    implicit none
    private
 
@@ -39,10 +40,12 @@ module dondolo_survey
       type(lines_type) :: groups
       !> What there is to say of scale factors
       type(scale_warning_type) :: scales
-      !> What there is to say of the sizes of walls
-      type(size_warning_type) :: sizes
+      !> What there is to say of values that no masonry has
+      type(wall_warning_type) :: oddities
       !> Fingerprint of the table
       type(fingerprint_type) :: fingerprint
+      !> How the table was read, where there is something to say of it, else empty
+      character(len=:), allocatable :: note
    end type survey_type
 
 contains
@@ -80,6 +83,7 @@ contains
       call reader%open(file, error, solver_input%gravity)
       if (allocated(error)) return
       survey%first = rows(1)
+      survey%note = reader%table%note()
       do
          call reader%next(member, found, error)
          if (.not. found) exit
@@ -100,7 +104,7 @@ contains
                return
             end if
             call survey%scales%look(plan, records)
-            call survey%sizes%look(member%wall)
+            call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
                & survey%histories = survey%histories + size(plan%scale)
          end if

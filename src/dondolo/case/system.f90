@@ -3,12 +3,12 @@
 module dondolo_system
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_intptr_t, c_null_char, c_long, &
       & c_null_ptr, c_ptr, c_size_t
-   use, intrinsic :: iso_fortran_env, only : int64
+   use, intrinsic :: iso_fortran_env, only : int64, output_unit
    implicit none
    private
 
    public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file
-   public :: writer_type, stderr_is_terminal, outlive_file_limit
+   public :: writer_type, stderr_is_terminal, output_arrives, outlive_file_limit
 
    !> A file being written
    type :: writer_type
@@ -81,6 +81,11 @@ module dondolo_system
          !> File descriptor
          integer(c_int), value :: descriptor
       end function c_isatty
+
+      !> Number of the last error of the system: IERRNO of GNU Fortran
+      integer(c_int) function gnu_errno() bind(c, name='_gfortran_ierrno_i4')
+         import :: c_int
+      end function gnu_errno
 
       !> Say what a signal is to do
       type(c_ptr) function c_signal(number, handler) bind(c, name='signal')
@@ -220,6 +225,20 @@ contains
 
       stderr_is_terminal = c_isatty(standard_error) == 1
    end function stderr_is_terminal
+
+   !> Does all that was printed reach standard output? FLUSH of gfortran reports no error, but leaves its number
+   function output_arrives()
+      !> It does
+      logical :: output_arrives
+
+      integer(c_int) :: number
+
+      ! Nothing sets the number to 0, but a call that fails sets it: to remove a folder without a name.
+      call remove_folder('')
+      number = gnu_errno()
+      flush (output_unit)
+      output_arrives = gnu_errno() == number
+   end function output_arrives
 
    !> Go on where a file would grow beyond the limit of the process (ulimit -f): writing then fails as on a full disk
    subroutine outlive_file_limit()

@@ -7,6 +7,7 @@ module dondolo_wall_group
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_text, only : lower
    use dondolo_wall, only : wall_input_type
    implicit none
    private
@@ -15,16 +16,16 @@ module dondolo_wall_group
    public :: wall_texts, wall_numbers, wall_variables
 
    !> Variables that are texts
-   character(len=18), parameter :: wall_texts(3) = [character(len=18) :: 'name', 'mechanism', 'restitution']
+   character(len=18), parameter :: wall_texts(4) = [character(len=18) :: 'name', 'mechanism', 'restitution', 'bearing']
 
    !> Variables that are numbers
-   character(len=18), parameter :: wall_numbers(8) = [character(len=18) :: 'height', 'thickness', 'density', &
-      & 'hinge', 'restitution_value', 'restitution_factor', 'overburden', 'eccentricity']
+   character(len=18), parameter :: wall_numbers(9) = [character(len=18) :: 'height', 'thickness', 'density', &
+      & 'hinge', 'restitution_value', 'restitution_factor', 'overburden', 'eccentricity', 'bearing_distance']
 
    !> All variables, in the order in which a user thinks of them
-   character(len=18), parameter :: wall_variables(11) = [character(len=18) :: 'name', 'mechanism', 'height', &
+   character(len=18), parameter :: wall_variables(13) = [character(len=18) :: 'name', 'mechanism', 'height', &
       & 'thickness', 'density', 'hinge', 'restitution', 'restitution_value', 'restitution_factor', 'overburden', &
-      & 'eccentricity']
+      & 'eccentricity', 'bearing', 'bearing_distance']
 
 contains
 
@@ -71,9 +72,11 @@ contains
       case ('name')
          input%name = trim(value)
       case ('mechanism')
-         input%mechanism = trim(value)
+         input%mechanism = lower(trim(value))
       case ('restitution')
-         input%restitution = trim(value)
+         input%restitution = lower(trim(value))
+      case ('bearing')
+         input%bearing = lower(trim(value))
       end select
    end subroutine set_wall_text
 
@@ -103,6 +106,8 @@ contains
          input%overburden = value
       case ('eccentricity')
          input%eccentricity = value
+      case ('bearing_distance')
+         input%bearing_distance = value
       end select
    end subroutine set_wall_number
 

@@ -1,41 +1,23 @@
 !> What a user should know of results that are correct but may mislead.
 module dondolo_warnings
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fragility_type, status_names
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type, lines_type
    use dondolo_record, only : record_type
+   use dondolo_record_table, only : pga_problem
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : rounded, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: size_warning_type, scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error
-   public :: warn_of_errors, rounded
-
-   !> Masonry hardly is thicker or higher [m]: the numbers may be centimetres
-   real(wp), parameter :: thick = 3.0_wp, high = 60.0_wp
+   public :: scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
-
-   !> What there is to say of the sizes of walls
-   type :: size_warning_type
-      !> Walls looked at
-      integer :: walls = 0
-      !> Walls that are too thick or too high
-      integer :: large = 0
-      !> Name of the first of them
-      character(len=:), allocatable :: first
-   contains
-      !> Look at a wall
-      procedure :: look => look_at_size
-      !> Warn, if there is reason to
-      procedure :: warn => warn_of_sizes
-   end type size_warning_type
 
    !> What there is to say of scale factors
    type :: scale_warning_type
@@ -57,8 +39,8 @@ module dondolo_warnings
    end type scale_warning_type
 
    !> Statuses of a fit that there is something to say of
-   character(len=12), parameter :: telling(6) = [character(len=12) :: 'no_collapse', 'all_collapse', 'separated', &
-      & 'single_level', 'decreasing', 'extrapolated']
+   character(len=len(status_names)), parameter :: telling(7) = [character(len=len(status_names)) :: 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged', 'extrapolated']
 
    !> What there is to say of the curves of a population
    type :: fit_warning_type
@@ -80,35 +62,6 @@ module dondolo_warnings
    end type fit_warning_type
 
 contains
-
-   !> Look at the size of a wall, or of one of its mechanisms
-   subroutine look_at_size(self, wall)
-      !> What there is to say
-      class(size_warning_type), intent(inout) :: self
-      !> The wall
-      type(wall_type), intent(in) :: wall
-
-      self%walls = self%walls + 1
-      if (wall%input%thickness <= thick .and. wall%input%height <= high) return
-      self%large = self%large + 1
-      if (self%large == 1) self%first = wall%input%name
-   end subroutine look_at_size
-
-   !> Warn, if there is reason to
-   subroutine warn_of_sizes(self, warnings)
-      !> What there is to say
-      class(size_warning_type), intent(in) :: self
-      !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
-
-      character(len=:), allocatable :: which
-
-      if (self%large == 0) return
-      which = ''
-      if (self%walls > 1) which = ' ('//to_text(self%large)//' of '//to_text(self%walls)//' in all)'
-      call warnings%add('wall '''//self%first//''' is thicker than '//to_text(thick)//' m or higher than '// &
-         & to_text(high)//' m: is it in metres?'//which)
-   end subroutine warn_of_sizes
 
    !> Look at the factors of a wall
    subroutine look(self, stripes, records)
@@ -142,19 +95,33 @@ contains
          & ' (record '''//self%record//''' at level '//rounded(self%level)//')')
    end subroutine warn
 
-   !> Warn of records without motion
-   subroutine warn_of_records(records, warnings)
+   !> Warn of records without motion, and of those whose PGA no accelerograph has measured
+   subroutine warn_of_records(records, gravity, warnings)
       !> Records
       type(record_type), intent(in) :: records(:)
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
       !> Warnings to add to
       type(lines_type), intent(inout) :: warnings
 
-      integer :: i
+      character(len=:), allocatable :: problem, first, which
+      integer :: i, number
 
+      number = 0
       do i = 1, size(records)
-         if (.not. records(i)%pga() > 0.0_wp) call warnings%add('record '''//records(i)%name// &
-            & ''' has a PGA of 0: it cannot be scaled and moves no wall')
+         if (.not. records(i)%pga() > 0.0_wp) then
+            call warnings%add('record '''//records(i)%name//''' has a PGA of 0: it cannot be scaled and moves no wall')
+            cycle
+         end if
+         problem = pga_problem(records(i), gravity)
+         if (len(problem) == 0) cycle
+         number = number + 1
+         if (number == 1) first = 'record '''//records(i)%name//''': '//problem
       end do
+      if (number == 0) return
+      which = ''
+      if (size(records) > 1) which = ' ('//to_text(number)//' of '//to_text(size(records))//' records)'
+      call warnings%add(first//which)
    end subroutine warn_of_records
 
    !> Warn of the curve of one wall
@@ -191,6 +158,8 @@ contains
       case ('decreasing')
          call warnings%add('collapses do not become more frequent with the level'//none// &
             & 'their trend is flat or falling')
+      case ('not_converged')
+         call warnings%add('the fit does not converge at levels '//levels//', no curve is fitted')
       case ('separated')
          call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
             & 'the median lies '//between(fragility%bracket)// &
@@ -319,20 +288,5 @@ contains
          text = 'between '//to_text(bracket(1))//' and '//to_text(bracket(2))
       end if
    end function between
-
-   !> A number with four significant digits, for people
-   pure function rounded(value) result(text)
-      !> Number
-      real(wp), intent(in) :: value
-      !> Its text
-      character(len=:), allocatable :: text
-
-      character(len=24) :: buffer
-      real(wp) :: short
-
-      write (buffer, '(es24.3e4)') value
-      read (buffer, *) short
-      text = to_text(short)
-   end function rounded
 
 end module dondolo_warnings

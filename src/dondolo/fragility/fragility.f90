@@ -6,7 +6,7 @@
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
 !> (docs/theory.md, section 6).
 module dondolo_fragility
-   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_text, only : to_text
@@ -17,13 +17,13 @@ module dondolo_fragility
    public :: normal_cdf
 
    !> What can come of a fit; the first two have a curve
-   character(len=12), parameter :: status_names(7) = [character(len=12) :: 'ok', 'extrapolated', 'no_collapse', &
-      & 'all_collapse', 'separated', 'single_level', 'decreasing']
+   character(len=13), parameter :: status_names(8) = [character(len=13) :: 'ok', 'extrapolated', 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
       !> One of status_names; 'extrapolated' is a theta outside the levels
-      character(len=12) :: status = 'no_collapse'
+      character(len=len(status_names)) :: status = 'no_collapse'
       !> Median, in the unit of the levels
       real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
@@ -43,6 +43,8 @@ module dondolo_fragility
       procedure :: se_beta
       !> Probability of collapse at a level
       procedure :: probability
+      !> Level at which collapse has a probability
+      procedure :: level
    end type fragility_type
 
    real(wp), parameter :: root_half = sqrt(0.5_wp), ln_2 = log(2.0_wp)
@@ -81,7 +83,7 @@ contains
       call maximise(x, collapses, histories, b, information, ok)
       if (ok) call invert_symmetric(information, covariance, ok)
       if (.not. ok) then
-         call raise_failure(error, 'the fit of the fragility curve did not converge')
+         fragility%status = 'not_converged'
          return
       end if
 
@@ -234,7 +236,7 @@ contains
       !> Histories
       real(wp), intent(in) :: n(:)
       !> The status
-      character(len=12) :: status
+      character(len=len(status_names)) :: status
 
       real(wp) :: score, x(size(levels))
       logical :: counted(size(levels))
@@ -345,6 +347,32 @@ contains
 
       se = sqrt(self%covariance(2, 2))
    end function se_beta
+
+   !> Level at which collapse has a given probability, exact to rounding
+   pure function level(self, probability)
+      !> The curve; there must be a fit
+      class(fragility_type), intent(in) :: self
+      !> Probability between 0 and 1
+      real(wp), intent(in) :: probability
+      !> Level of intensity
+      real(wp) :: level
+
+      ! Phi is 0 and 1 to rounding at these
+      real(wp) :: below, above, middle
+
+      below = -40.0_wp
+      above = 40.0_wp
+      do
+         middle = 0.5_wp*(below + above)
+         if (middle <= below .or. middle >= above) exit
+         if (normal_cdf(middle) < probability) then
+            below = middle
+         else
+            above = middle
+         end if
+      end do
+      level = self%theta*exp(self%beta*middle)
+   end function level
 
    !> Probability of collapse at a level, equation (5) of Nale et al.
    elemental function probability(self, level) result(p)

@@ -6,7 +6,7 @@ module dondolo_scaling
    use dondolo_error, only : error_type, raise_input
    use dondolo_intensity, only : im_help, measure_type, new_measure
    use dondolo_kinds, only : wp
-   use dondolo_text, only : join
+   use dondolo_text, only : join, lower
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -43,25 +43,27 @@ module dondolo_scaling
 contains
 
    !> Make a scaling of its name
-   subroutine new_scaling(scaling, name, error)
+   subroutine new_scaling(scaling, typed, error)
       !> The scaling
       type(scaling_type), intent(out) :: scaling
-      !> One of scaling_names, with numbers for the periods
-      character(len=*), intent(in) :: name
+      !> One of scaling_names, with numbers for the periods; upper and lower case are the same
+      character(len=*), intent(in) :: typed
       !> There is no such measure, or it does not grow with the record
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=len(typed)) :: name
       character(len=:), allocatable :: measure
 
+      name = lower(typed)
       measure = name
       if (any(wall_names == name)) measure = name(index(name, 'pg'):index(name, '/') - 1)
       ! Fortran would take trailing blanks for nothing
       if (len_trim(name) < len(name)) measure = ''
       call new_measure(scaling%measure, measure, error)
       if (allocated(error)) then
-         error%message = 'im = '''//name//''': must be one of '//join(scaling_names)//im_help
+         error%message = 'im = '''//typed//''': must be one of '//join(scaling_names)//im_help
       else if (scaling%measure%power() == 0) then
-         call raise_input(error, 'im = '''//name//''': a duration stays as it is when a record is scaled; '// &
+         call raise_input(error, 'im = '''//typed//''': a duration stays as it is when a record is scaled; '// &
             & 'must be one of '//join(scaling_names)//im_help)
       else
          scaling%name = scaling%measure%name

@@ -6,6 +6,7 @@ module dondolo_stripes
    use dondolo_error, only : error_type, raise_input
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_set, only : new_record_set, record_set_type
@@ -24,6 +25,9 @@ module dondolo_stripes
 
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
+
+   !> Memory that a history of the plan takes while it is run [bytes]
+   real(wp), parameter :: bytes_of_history = 200.0_wp
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -127,7 +131,7 @@ contains
       character(len=*), intent(in) :: polarity
       !> Engine, tolerances and limit
       type(solver_type), intent(in) :: solver
-      !> What cannot be run: `variable = value: what is allowed`
+      !> What cannot be run: `variable = value: what is allowed`; or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
       call check_levels(levels, error)
@@ -135,6 +139,8 @@ contains
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(solver, wall%mechanism, error)
+      if (.not. allocated(error)) call check_room(2.0_wp*bytes_of_history*real(size(records), wp) &
+         & *real(size(levels), wp), error)
       if (allocated(error)) return
       stripes%im = scaling%name
       stripes%levels = levels

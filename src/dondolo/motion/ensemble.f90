@@ -7,7 +7,7 @@ module dondolo_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
-   use dondolo_lane_variants, only : build_variant, first_variant, simulate_variant
+   use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
    use dondolo_record, only : record_type
@@ -142,11 +142,13 @@ contains
       type(solver_type), intent(in) :: solver
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> The engine lanes was asked for, and cannot
+      !> The engine lanes was asked for, and cannot; or a build variant that there is not
       type(error_type), allocatable, intent(out) :: error
 
       type(lane_constants_type) :: constants
 
+      call check_variant(error)
+      if (allocated(error)) return
       if (solver%engine /= 'lanes') return
       constants = new_lane_constants(mechanism, solver)
       if (constants%form%exists) return

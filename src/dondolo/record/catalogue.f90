@@ -8,23 +8,31 @@ module dondolo_catalogue
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_memory, only : check_room
+   use dondolo_name_index, only : name_index_type
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
+   use dondolo_text, only : must_be_plain, plain
    implicit none
    private
 
    public :: read_catalogue
 
+   !> Memory that a row takes, its samples and metadata left aside [bytes]
+   real(wp), parameter :: bytes_of_row = 1000.0_wp
+
 contains
 
    !> Read all records of a catalogue
-   subroutine read_catalogue(file, records, error)
+   subroutine read_catalogue(file, records, error, note)
       !> Path of the catalogue; files in it are relative to its folder
       character(len=*), intent(in) :: file
       !> The records
       type(record_type), allocatable, intent(out) :: records(:)
       !> The catalogue or one of its records is wrong
       type(error_type), allocatable, intent(out) :: error
+      !> How the catalogue was read, where there is something to say of it, else empty
+      character(len=:), allocatable, intent(out), optional :: note
 
       type(csv_reader_type) :: table
       type(lines_type) :: paths, places, names
@@ -32,8 +40,11 @@ contains
       logical :: found
 
       call count_rows(file, rows, error)
+      if (.not. allocated(error)) call check_room(bytes_of_row*real(rows, wp), error)
       if (.not. allocated(error)) call table%open(file, error)
+      if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s')], error)
       if (allocated(error)) return
+      if (present(note)) note = table%note()
       allocate (records(rows))
       do row = 1, rows
          call table%next(found, error)
@@ -88,57 +99,63 @@ contains
       type(lines_type), intent(in) :: names
       !> The records, named by the stems of their files
       type(record_type), intent(inout) :: records(:)
-      !> Two records are the same, or have the same name given
+      !> Two records are the same, or have the same name given, or a name is not plain
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: path, file
       logical :: is_given(size(records)), again(size(records))
-      integer :: length(size(records)), row, k, level
+      integer :: length(size(records)), first(size(records)), row, level
 
       do row = 1, size(records)
          is_given(row) = len(names%line(row)%text) > 0
          if (is_given(row)) records(row)%name = names%line(row)%text
+         if (plain(records(row)%name) /= records(row)%name) then
+            call raise_input(error, places%line(row)%text//': name = '''//records(row)%name//''': '//must_be_plain)
+            return
+         end if
          ! What follows is the channel
          length(row) = len(stem(paths%line(row)%text))
       end do
       do level = 1, 2
-         again = [(stands_twice(row), row=1, size(records))]
+         call find_first(records, first)
+         again = .false.
+         do row = 1, size(records)
+            if (first(row) == row) cycle
+            again(row) = .true.
+            again(first(row)) = .true.
+         end do
          do row = 1, size(records)
             if (is_given(row) .or. .not. again(row)) cycle
             path = trim(paths%line(row)%text)
             file = path(scan(path, '/\', back=.true.) + 1:)
             if (level == 2) file = path
-            records(row)%name = file//records(row)%name(length(row) + 1:)
+            records(row)%name = plain(file)//records(row)%name(length(row) + 1:)
             length(row) = len(file)
          end do
       end do
+      call find_first(records, first)
       do row = 1, size(records)
-         do k = 1, row - 1
-            if (records(k)%name /= records(row)%name) cycle
-            call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
-            return
-         end do
+         if (first(row) == row) cycle
+         call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
+         return
       end do
-
-   contains
-
-      !> Has another record the name of this one?
-      pure function stands_twice(i)
-         !> Number of the record
-         integer, intent(in) :: i
-         !> Another has its name
-         logical :: stands_twice
-
-         integer :: j
-
-         stands_twice = .true.
-         do j = 1, size(records)
-            if (j /= i .and. records(j)%name == records(i)%name) return
-         end do
-         stands_twice = .false.
-      end function stands_twice
-
    end subroutine name_records
+
+   !> The first record that has the name of each
+   subroutine find_first(records, first)
+      !> The records
+      type(record_type), intent(in) :: records(:)
+      !> Number of the first record of the same name
+      integer, intent(out) :: first(:)
+
+      type(name_index_type) :: names
+      integer :: row
+
+      do row = 1, size(records)
+         call names%note(records(row)%name, row, first(row))
+         if (first(row) == 0) first(row) = row
+      end do
+   end subroutine find_first
 
    !> Read the record of a row
    subroutine read_row(table, record, error)
@@ -151,6 +168,7 @@ contains
 
       character(len=:), allocatable :: path, units
       real(wp), allocatable :: dt
+      logical :: exists
 
       path = table%get_text(table%column('file'))
       if (len_trim(path) == 0) then
@@ -160,6 +178,11 @@ contains
       associate (file => table%lines%file)
          if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
       end associate
+      inquire (file=path, exist=exists)
+      if (index(path, '\') > 0 .and. .not. exists) then
+         call raise_input(error, table%place()//': '//path//': no such file: folders must be separated by /, not \')
+         return
+      end if
       units = table%get_text(table%column('units'))
       if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
          allocate (dt)

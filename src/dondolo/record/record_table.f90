@@ -4,11 +4,11 @@ module dondolo_record_table
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : plain, rounded, to_text
    implicit none
    private
 
-   public :: record_table, record_problems
+   public :: record_table, record_problems, pga_problem
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -18,6 +18,9 @@ module dondolo_record_table
 
    !> Samples in a row at the peak that are odd: the recorder reached its limit
    integer, parameter :: clipped = 4
+
+   !> PGA that hardly any accelerograph has measured, or that nobody would use [g]: the units may be wrong
+   real(wp), parameter :: strongest = 3.0_wp, weakest = 0.005_wp
 
 contains
 
@@ -60,16 +63,18 @@ contains
             write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
             if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
-            call table%add(trimmed(numbered(i)//left(record%name, width)//trim(numbers)//column// &
-               & titled(origin(record), origins)//'  '//record_problems(record)))
+            call table%add(trim(plain(numbered(i)//left(record%name, width)//trim(numbers)//column// &
+               & titled(origin(record), origins)//'  '//record_problems(record, gravity))))
          end associate
       end do
    end function record_table
 
    !> What looks odd about a record
-   function record_problems(record) result(problems)
+   function record_problems(record, gravity) result(problems)
       !> The record
       type(record_type), intent(in) :: record
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
       !> Sentences separated by semicolons, empty if nothing does
       character(len=:), allocatable :: problems
 
@@ -82,6 +87,7 @@ contains
          problems = 'no motion'
          return
       end if
+      problems = pga_problem(record, gravity)
       if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
          & percent(abs(record%acceleration(1))/record%pga())//' of its PGA')
       velocity = ground_velocity(record)
@@ -108,6 +114,24 @@ contains
       end subroutine append
 
    end function record_problems
+
+   !> What looks odd about the PGA of a record that moves
+   function pga_problem(record, gravity) result(problem)
+      !> The record
+      type(record_type), intent(in) :: record
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
+      !> A sentence, empty if nothing does
+      character(len=:), allocatable :: problem
+
+      real(wp) :: pga
+
+      problem = ''
+      pga = record%pga()/gravity
+      if (pga > strongest) problem = 'more than '//to_text(strongest)
+      if (pga < weakest) problem = 'less than '//to_text(weakest)
+      if (len(problem) > 0) problem = 'a PGA of '//rounded(pga)//' g, '//problem//' g: wrong units?'
+   end function pga_problem
 
    !> Event and station of a record, as far as its file names them
    pure function origin(record)
@@ -169,20 +193,5 @@ contains
 
       left = text
    end function left
-
-   !> A line without blanks at its end, and without control characters that a file may have brought
-   pure function trimmed(line)
-      !> Line
-      character(len=*), intent(in) :: line
-      !> The same, safe to print
-      character(len=:), allocatable :: trimmed
-
-      integer :: i
-
-      trimmed = trim(line)
-      do i = 1, len(trimmed)
-         if (iachar(trimmed(i:i)) < 32) trimmed(i:i) = ' '
-      end do
-   end function trimmed
 
 end module dondolo_record_table

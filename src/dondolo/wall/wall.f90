@@ -7,7 +7,7 @@ module dondolo_wall
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : one_sided_type, new_one_sided
    use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, must_be_plain, plain, to_text
    use dondolo_two_block, only : two_block_type, new_two_block
    implicit none
    private
@@ -18,6 +18,9 @@ module dondolo_wall
    !> Names of the mechanisms
    character(len=13), parameter :: mechanism_names(3) = &
       & [character(len=13) :: 'one_sided', 'free_standing', 'two_block']
+
+   !> Where an overburden can bear on the top of a wall
+   character(len=6), parameter :: bearing_names(3) = [character(len=6) :: 'inner', 'outer', 'centre']
 
    !> Gravity unless the user sets it [m/s2]
    real(wp), parameter :: standard_gravity = 9.81_wp
@@ -44,13 +47,18 @@ module dondolo_wall
       real(wp), allocatable :: restitution_factor
       !> two_block: vertical load on the top [N/m], 0 if not given
       real(wp), allocatable :: overburden
-      !> two_block: its distance from the centreline towards the active top hinge [m], 0 if not given
+      !> two_block: its distance from the centreline towards the active top hinge [m], 0 if not given; the hinge of a
+      !> wall that folds outwards is at the outer face
       real(wp), allocatable :: eccentricity
+      !> two_block, instead of the eccentricity: where the load bears, one of bearing_names
+      character(len=:), allocatable :: bearing
+      !> two_block: distance of the load's resultant from the inner or the outer face [m]
+      real(wp), allocatable :: bearing_distance
    end type wall_input_type
 
    !> A wall: what was said of it with every default filled in, and its mechanism
    type :: wall_type
-      !> Every component that applies to the mechanism is allocated
+      !> Every component that applies to the mechanism is allocated; a bearing has become an eccentricity
       type(wall_input_type) :: input
       !> Gravity [m/s2]
       real(wp) :: gravity = standard_gravity
@@ -79,7 +87,9 @@ contains
       wall%input = input
       call fill_defaults(wall%input)
       call check_input(wall%input, wall%gravity, error)
-      if (.not. allocated(error)) call build_mechanism(wall, error)
+      if (allocated(error)) return
+      if (allocated(wall%input%bearing)) call replace_bearing(wall%input)
+      call build_mechanism(wall, error)
    end subroutine new_wall
 
    !> Names become types: the one place that knows all mechanisms
@@ -134,7 +144,8 @@ contains
       if (input%mechanism == 'two_block') then
          call set_default(input%hinge, 0.5_wp)
          call set_default(input%overburden, 0.0_wp)
-         call set_default(input%eccentricity, 0.0_wp)
+         if (.not. (allocated(input%bearing) .or. allocated(input%bearing_distance))) &
+            & call set_default(input%eccentricity, 0.0_wp)
       end if
    end subroutine fill_defaults
 
@@ -148,6 +159,26 @@ contains
       if (.not. allocated(variable)) variable = default
    end subroutine set_default
 
+   !> Turn the bearing into the eccentricity of a wall that folds outwards: its top rotates about the outer face
+   subroutine replace_bearing(input)
+      !> What is said of the wall, checked
+      type(wall_input_type), intent(inout) :: input
+
+      real(wp) :: half
+
+      half = 0.5_wp*input%thickness
+      select case (input%bearing)
+      case ('inner')
+         input%eccentricity = input%bearing_distance - half
+      case ('outer')
+         input%eccentricity = half - input%bearing_distance
+      case ('centre')
+         input%eccentricity = 0.0_wp
+      end select
+      deallocate (input%bearing)
+      if (allocated(input%bearing_distance)) deallocate (input%bearing_distance)
+   end subroutine replace_bearing
+
    !> Check names and ranges
    subroutine check_input(input, gravity, error)
       !> What is said of the wall, defaults filled in
@@ -159,6 +190,7 @@ contains
 
       type(problems_type) :: problems
 
+      if (plain(input%name) /= input%name) call problems%note('name = '''//input%name//''': '//must_be_plain)
       call check_positive(problems, 'height', input%height, 1.0e3_wp)
       call check_positive(problems, 'thickness', input%thickness, 1.0e3_wp)
       call check_positive(problems, 'density', input%density, 1.0e5_wp)
@@ -173,6 +205,9 @@ contains
          call check_absent(problems, 'hinge', input%hinge)
          call check_absent(problems, 'overburden', input%overburden)
          call check_absent(problems, 'eccentricity', input%eccentricity)
+         if (allocated(input%bearing)) &
+            & call problems%note('bearing = '''//input%bearing//''': only for mechanism = ''two_block''')
+         call check_absent(problems, 'bearing_distance', input%bearing_distance)
       end if
       call problems%raise(error)
    end subroutine check_input
@@ -191,12 +226,44 @@ contains
       if (.not. (input%overburden >= 0.0_wp .and. input%overburden <= 1.0e9_wp)) &
          & call problems%note('overburden = '//to_text(input%overburden)// &
          & ': must lie between 0 and 1e9 N per metre of wall')
+      if (allocated(input%bearing) .or. allocated(input%bearing_distance)) then
+         call check_bearing(problems, input)
+         return
+      end if
       if (.not. allocated(input%thickness)) return
       half = 0.5_wp*input%thickness
       if (half > 0.0_wp .and. .not. abs(input%eccentricity) <= half) &
          & call problems%note('eccentricity = '//to_text(input%eccentricity)//': must lie between -'// &
          & to_text(half)//' and '//to_text(half)//' (half the thickness)')
    end subroutine check_two_block
+
+   !> Check where a load bears
+   subroutine check_bearing(problems, input)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> What is said of the wall: its bearing, or a distance without one
+      type(wall_input_type), intent(in) :: input
+
+      if (allocated(input%eccentricity)) then
+         call problems%note('eccentricity = '//to_text(input%eccentricity)// &
+            & ': give either eccentricity or bearing and bearing_distance')
+      else if (.not. allocated(input%bearing)) then
+         call problems%note('bearing_distance = '//to_text(input%bearing_distance)// &
+            & ': only with bearing = ''inner'' or ''outer''')
+      else if (.not. any(input%bearing == bearing_names)) then
+         call problems%note('bearing = '''//input%bearing//''': must be one of '//join(bearing_names))
+      else if (input%bearing == 'centre') then
+         if (allocated(input%bearing_distance)) call problems%note('bearing_distance = '// &
+            & to_text(input%bearing_distance)//': not with bearing = ''centre'', measure it from a face')
+      else if (.not. allocated(input%bearing_distance)) then
+         call problems%note('bearing_distance: must be given with bearing = '''//input%bearing//'''')
+      else if (allocated(input%thickness)) then
+         if (input%thickness > 0.0_wp .and. .not. &
+            & (input%bearing_distance >= 0.0_wp .and. input%bearing_distance <= input%thickness)) &
+            & call problems%note('bearing_distance = '//to_text(input%bearing_distance)//': must lie between 0 and '// &
+            & to_text(input%thickness)//' (the thickness)')
+      end if
+   end subroutine check_bearing
 
    !> A number that belongs to two-block walls only
    subroutine check_absent(problems, name, value)

@@ -1,6 +1,8 @@
 !> A queue of histories of one wall that several threads take from.
 module dondolo_queue
+   use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: omp_lib, only : omp_get_thread_num
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type
    implicit none
@@ -76,16 +78,19 @@ contains
       self%number = size(record)
    end subroutine fill
 
-   !> Take the number of a history; 0 if none is left
+   !> Take the number of a history; 0 if none is left, or after Ctrl-C
    integer function next(self)
       !> The queue
       class(queue_type), intent(inout) :: self
+
+      integer(c_int) :: interrupted
 
       !$omp atomic capture
       next = self%number
       self%number = self%number - 1
       !$omp end atomic
-      if (next < 1) next = 0
+      call look_for_interrupt(interrupted)
+      if (next < 1 .or. interrupted == 1) next = 0
    end function next
 
    !> One more is done

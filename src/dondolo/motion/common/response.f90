@@ -38,6 +38,8 @@ module dondolo_response
    type :: trace_type
       !> Number of rows
       integer :: rows = 0
+      !> Is there no memory for more rows? The last one is missing then
+      logical :: lacks_memory = .false.
       !> Time [s]
       real(wp), allocatable :: time(:)
       !> Scaled ground acceleration [m/s2]
@@ -46,6 +48,10 @@ module dondolo_response
       real(wp), allocatable :: rotation(:)
       !> Angular velocity, side * q' [rad/s]
       real(wp), allocatable :: velocity(:)
+      !> Side, +1 or -1; at rest that of the last motion
+      real(wp), allocatable :: side(:)
+      !> Whether the row is the one just after an impact; the row before it, of the same time, is just before it
+      logical, allocatable :: after_impact(:)
    contains
       !> Add a row
       procedure :: add
@@ -74,8 +80,8 @@ contains
          & (self%edp + safety*self%edp_error >= edp_limit .or. self%edp_error > saturated*edp_limit)
    end function is_unsure
 
-   !> Add a row
-   pure subroutine add(self, time, acceleration, rotation, velocity)
+   !> Add a row; that after an impact is marked by its caller
+   pure subroutine add(self, time, acceleration, rotation, velocity, side)
       !> The history
       class(trace_type), intent(inout) :: self
       !> Time [s]
@@ -86,14 +92,22 @@ contains
       real(wp), intent(in) :: rotation
       !> Signed angular velocity [rad/s]
       real(wp), intent(in) :: velocity
+      !> Side, +1 or -1
+      real(wp), intent(in) :: side
 
-      if (.not. allocated(self%time)) call resize(self, 1024)
-      if (self%rows == size(self%time)) call resize(self, 2*self%rows)
+      if (.not. allocated(self%time)) then
+         call resize(self, 1024)
+      else if (self%rows == size(self%time)) then
+         call resize(self, 2*min(self%rows, huge(self%rows)/2 - 1))
+      end if
+      if (self%lacks_memory) return
       self%rows = self%rows + 1
       self%time(self%rows) = time
       self%acceleration(self%rows) = acceleration
       self%rotation(self%rows) = rotation
       self%velocity(self%rows) = velocity
+      self%side(self%rows) = side
+      self%after_impact(self%rows) = .false.
    end subroutine add
 
    !> Give back the room that was not used
@@ -101,7 +115,7 @@ contains
       !> The history
       class(trace_type), intent(inout) :: self
 
-      call resize(self, self%rows)
+      if (.not. self%lacks_memory) call resize(self, self%rows)
    end subroutine trim_rows
 
    !> Room for a number of rows; the present rows are kept as far as they fit
@@ -111,24 +125,41 @@ contains
       !> Rows there shall be room for
       integer, intent(in) :: room
 
-      call resize_column(self%time, self%rows, room)
-      call resize_column(self%acceleration, self%rows, room)
-      call resize_column(self%rotation, self%rows, room)
-      call resize_column(self%velocity, self%rows, room)
+      logical, allocatable :: wider(:)
+      logical :: ok(6)
+      integer :: stat
+
+      call resize_column(self%time, self%rows, room, ok(1))
+      call resize_column(self%acceleration, self%rows, room, ok(2))
+      call resize_column(self%rotation, self%rows, room, ok(3))
+      call resize_column(self%velocity, self%rows, room, ok(4))
+      call resize_column(self%side, self%rows, room, ok(5))
+      allocate (wider(room), source=.false., stat=stat)
+      ok(6) = stat == 0 .and. room >= self%rows
+      if (ok(6)) then
+         if (allocated(self%after_impact)) wider(:min(self%rows, room)) = self%after_impact(:min(self%rows, room))
+         call move_alloc(wider, self%after_impact)
+      end if
+      self%lacks_memory = self%lacks_memory .or. .not. all(ok)
    end subroutine resize
 
    !> Room in one column
-   pure subroutine resize_column(column, rows, room)
+   pure subroutine resize_column(column, rows, room, ok)
       !> The column
       real(wp), allocatable, intent(inout) :: column(:)
       !> Rows in use
       integer, intent(in) :: rows
       !> Rows there shall be room for
       integer, intent(in) :: room
+      !> Is there memory for it? If not, the column stays as it is
+      logical, intent(out) :: ok
 
       real(wp), allocatable :: wider(:)
+      integer :: stat
 
-      allocate(wider(room))
+      allocate(wider(room), stat=stat)
+      ok = stat == 0 .and. room >= rows
+      if (.not. ok) return
       if (allocated(column)) wider(:min(rows, room)) = column(:min(rows, room))
       call move_alloc(wider, column)
    end subroutine resize_column

@@ -3,8 +3,10 @@
 !> The loop over lanes flags a lane where something may happen; what does happen is decided here, lane by lane, by the
 !> rules that all engines share (dondolo_history, dondolo_rest, dondolo_events; docs/theory.md, section 4).
 module dondolo_lane_history
+   use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_events, only : impact, limit_reached, no_event, turning
    use dondolo_history, only : history_type, starting_acceleration
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
@@ -200,10 +202,14 @@ contains
       !> The lane
       integer, intent(in) :: i
 
+      integer(c_int) :: interrupted
       logical :: at_rest
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
          & record => batch%records(batch%history(i)%record))
+         call look_for_interrupt(interrupted)
+         history%over = interrupted == 1
+         if (history%over) return
          history%interval = interval_of(batch, i)
          history%time = lanes%time(i)
          lanes%y(i) = 0.0_wp

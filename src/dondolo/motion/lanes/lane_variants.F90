@@ -2,9 +2,10 @@
 !>
 !> Variants differ by rounding only. A build by meson has 'baseline', which runs anywhere, and on x86-64 'avx2' and
 !> 'avx512' (DONDOLO_VARIANTS); a build for one processor has 'native' alone (DONDOLO_NATIVE); other builds 'baseline'.
-!> The best that the processor can run is taken, or what the environment variable DONDOLO_VARIANT names, if it can.
+!> The best that the processor can run is taken, or what the environment variable DONDOLO_VARIANT names.
 module dondolo_lane_variants
    use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_error, only : error_type, raise_input
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lanes, only : simulate_first => simulate_lanes
 #ifdef DONDOLO_VARIANTS
@@ -15,11 +16,12 @@ module dondolo_lane_variants
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
+   use dondolo_text, only : join
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: build_variant, first_variant, simulate_variant
+   public :: build_variant, check_variant, first_variant, simulate_variant
 
    !> Variant that everything but the engine lanes is compiled for
 #ifdef DONDOLO_NATIVE
@@ -41,6 +43,21 @@ module dondolo_lane_variants
    end interface
 
 contains
+
+   !> Check what the environment variable DONDOLO_VARIANT names
+   subroutine check_variant(error)
+      !> No variant that this build and this processor have
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=32) :: wish
+      integer :: best, status
+
+      call get_environment_variable('DONDOLO_VARIANT', wish, status=status)
+      if (len_trim(wish) == 0) return
+      best = processor_level()
+      if (status /= 0 .or. all(wish /= variant_names(:best))) call raise_input(error, 'DONDOLO_VARIANT = '''// &
+         & trim(wish)//''': this build and this processor have '//join(variant_names(:best)))
+   end subroutine check_variant
 
    !> Name of the variant that the engine lanes runs
    function build_variant() result(name)

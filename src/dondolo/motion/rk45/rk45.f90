@@ -3,10 +3,12 @@
 !> At rest, rocking, collapsed (docs/theory.md, section 4). No step crosses a sample, where the piecewise linear
 !> accelerogram has its corners.
 module dondolo_rk45
+   use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_events, only : impact, limit_reached
    use dondolo_history, only : starting_acceleration
+   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
@@ -20,8 +22,8 @@ module dondolo_rk45
 
    public :: simulate_rk45
 
-   !> How rocking ends
-   integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3
+   !> How rocking ends; `broken_off` leaves no result
+   integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3, broken_off = 4
 
    !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
    real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
@@ -103,6 +105,7 @@ contains
       !> Time history
       type(trace_type), intent(inout), optional :: trace
 
+      real(wp) :: side
       integer :: from, i
       logical :: found
 
@@ -111,12 +114,13 @@ contains
       ending = at_rest
       if (motion%interval > last) return
       from = motion%interval
+      side = motion%side
       call constants%rest%next_start(record, motion%scale, motion%interval, motion%time, motion%side, found)
       if (found) ending = 0
       if (.not. present(trace)) return
       i = merge(motion%interval, last + 1, found)
       do from = from + 1, i
-         call trace%add(real(from - 1, wp)*record%dt, motion%scale*record%acceleration(from), 0.0_wp, 0.0_wp)
+         call trace%add(real(from - 1, wp)*record%dt, motion%scale*record%acceleration(from), 0.0_wp, 0.0_wp, side)
       end do
    end subroutine wait
 
@@ -139,12 +143,19 @@ contains
 
       logical :: sample_reached
       integer :: event
+      integer(c_int) :: interrupted
 
       call enter_interval(constants%solver, record, motion)
       motion%f = starting_acceleration(motion%q, motion%v, &
          & angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v))
       ending = 0
       do while (motion%interval <= last)
+         call look_for_interrupt(interrupted)
+         if (present(trace)) interrupted = merge(1_c_int, interrupted, trace%lacks_memory)
+         if (interrupted == 1) then
+            ending = broken_off
+            return
+         end if
          call advance(mechanism, constants, record%dt, motion, event, sample_reached)
          select case (event)
          case (impact)
@@ -253,7 +264,10 @@ contains
       motion%v = v
       ending = merge(at_rest, 0, rests)
       call aim(record, motion)
-      if (present(trace)) call add_row(motion, record, trace)
+      if (present(trace)) then
+         call add_row(motion, record, trace)
+         if (.not. trace%lacks_memory) trace%after_impact(trace%rows) = .true.
+      end if
       motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine bounce
 
@@ -285,7 +299,8 @@ contains
          if (i < size(a)) acceleration = scale*(a(i) + x*(a(i + 1) - a(i)))
          if (i == size(a) .and. x == 0.0_wp) acceleration = scale*a(i)
          ! Adding zero makes no row show a negative zero.
-         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q + 0.0_wp, s*motion%v + 0.0_wp)
+         call trace%add(real(i - 1, wp)*record%dt + motion%time, acceleration, s*motion%q + 0.0_wp, &
+            & s*motion%v + 0.0_wp, s)
       end associate
    end subroutine add_row
 

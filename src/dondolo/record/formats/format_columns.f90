@@ -4,11 +4,15 @@
 !> commas, or blanks and tabs. Comments `# key: value` are metadata; `# units: cm/s2` and `# dt: 0.02` are what the file
 !> states. A title may hold units in brackets. Of three columns or more, each but the first is a channel with its title
 !> for a name, else `column 2` and so on.
+!>
+!> Decimal commas are read where they cannot be anything else: columns are separated by semicolons or blanks, and no value
+!> has a point. Rows of empty cells at the end are dropped.
 module dondolo_format_columns
    use dondolo_column_titles, only : is_other_quantity, is_seconds, units_in
    use dondolo_equal_steps, only : check_equal_steps
-   use dondolo_error, only : error_type
+   use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_numbers, only : parse_real
    use dondolo_record_format, only : format_type, raise_at, samples_type, shown
    use dondolo_text, only : lower, to_text
@@ -55,6 +59,20 @@ contains
       !> The first line of values holds as many as the second or the third does, and one of them is a number
       logical :: recognised
 
+      type(text_file_type) :: plain
+      logical :: has_commas
+
+      call make_plain(text, plain, has_commas)
+      recognised = recognises_plain(plain)
+   end function recognises
+
+   !> Is a text in this format, without decimal commas?
+   function recognises_plain(text) result(recognised)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> As of `recognises`
+      logical :: recognised
+
       integer :: begin, line, first(most_cells), last(most_cells), cells, others
       real(wp) :: value
       logical :: a_number, alike
@@ -72,10 +90,67 @@ contains
          if (.not. a_number) call parse_real(text%text(first(1):last(1)), value, a_number)
       end do
       recognised = alike .and. a_number
-   end function recognises
+   end function recognises_plain
 
    !> Read plain columns
    subroutine read_columns(text, samples, error)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(text_file_type) :: plain
+      character(len=:), allocatable :: processing
+      logical :: has_commas
+
+      call make_plain(text, plain, has_commas)
+      call read_plain(plain, samples, error)
+      if (.not. has_commas .or. allocated(error)) return
+      processing = samples%metadata%get('processing')
+      if (len(processing) > 0) processing = processing//'; '
+      call samples%metadata%set('processing', processing//'decimal commas read')
+   end subroutine read_columns
+
+   !> Replace decimal commas by points, and drop rows of empty cells at the end
+   subroutine make_plain(text, plain, has_commas)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> The same with decimal points
+      type(text_file_type), intent(out) :: plain
+      !> Did it have decimal commas?
+      logical, intent(out) :: has_commas
+
+      character(len=:), allocatable :: line
+      integer :: begin, lines, i
+
+      plain%file = text%file
+      plain%text = text%text
+      do lines = text%lines(), 1, -1
+         if (verify(text%text(text%first(lines):text%last(lines)), blanks//';,') > 0) exit
+      end do
+      plain%first = text%first(:lines)
+      plain%last = text%last(:lines)
+      begin = first_value_line(plain)
+      has_commas = .false.
+      if (begin > lines) return
+      line = unquoted(plain%line(begin))
+      associate (values => plain%text(plain%first(begin):plain%last(lines)))
+         has_commas = index(values, ',') > 0 .and. index(values, '.') == 0
+         ! A comma beside a blank separates
+         if (has_commas .and. index(line, ';') == 0) has_commas = scan(line, blanks) > 0 .and. &
+            & index(values, ', ') == 0 .and. index(values, ' ,') == 0 .and. &
+            & index(values, ','//achar(9)) == 0 .and. index(values, achar(9)//',') == 0
+      end associate
+      if (.not. has_commas) return
+      do i = plain%first(begin), plain%last(lines)
+         if (plain%text(i:i) == ',') plain%text(i:i) = '.'
+      end do
+   end subroutine make_plain
+
+   !> Read plain columns without decimal commas
+   subroutine read_plain(text, samples, error)
       !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
@@ -101,6 +176,9 @@ contains
          call raise_at(error, text, begin, 'more than '//to_text(most_cells - 1)//' columns')
          return
       end if
+      call check_room(32.0_wp*real(cells, wp)*real(text%lines(), wp), error)
+      call add_place(error, text%file)
+      if (allocated(error)) return
       allocate (values(cells, text%lines() - begin + 1))
       allocate (time_first(size(values, 2)), time_last(size(values, 2)))
       do line = begin, text%lines()
@@ -120,7 +198,11 @@ contains
       end do
       dt = 0.0_wp
       if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
-      if (allocated(error)) return
+      if (allocated(error)) then
+         if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) &
+            & error%message = error%message//' (columns separated by commas need decimal points)'
+         return
+      end if
       allocate (samples%channels(max(cells - 1, 1)))
       do i = 1, size(samples%channels)
          cell = min(i + 1, cells)
@@ -129,7 +211,7 @@ contains
          if (cells > 2) samples%channels(i)%name = 'column '//to_text(cell)
       end do
       call read_top(text, begin, cells, samples, error)
-   end subroutine read_columns
+   end subroutine read_plain
 
    !> Say what is wrong in a line
    subroutine raise_bad_line(text, line, begin, cells, error)

@@ -11,7 +11,7 @@ module dondolo_intensity
    use dondolo_numbers, only : parse_real
    use dondolo_record, only : record_type
    use dondolo_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, lower, to_text
    implicit none
    private
 
@@ -60,17 +60,19 @@ module dondolo_intensity
 contains
 
    !> Make a measure of its name
-   subroutine new_measure(measure, name, error)
+   subroutine new_measure(measure, typed, error)
       !> The measure
       type(measure_type), intent(out) :: measure
-      !> One of im_names, with numbers for the periods
-      character(len=*), intent(in) :: name
+      !> One of im_names, with numbers for the periods; upper and lower case are the same
+      character(len=*), intent(in) :: typed
       !> There is no such measure
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=len(typed)) :: name
       integer :: open, i
       logical :: ok
 
+      name = lower(typed)
       open = index(name, '(')
       ! Fortran would take trailing blanks for nothing
       ok = any(im_names == name) .and. len_trim(name) == len(name)
@@ -82,8 +84,6 @@ contains
          return
       end if
       ok = .false.
-      ! One thread at a time: of the texts that functions return, see dondolo_text.
-      !$omp critical (name_measure)
       if (open > 1 .and. index(name, ')') == len(name)) then
          associate (inside => name(open + 1:len(name) - 1))
             select case (name(:open - 1))
@@ -104,11 +104,10 @@ contains
             end select
          end associate
       end if
-      !$omp end critical (name_measure)
       if (ok) then
          measure%kind = name(:open - 1)
       else
-         call raise_input(error, 'im = '''//name//''': must be one of '//join(im_names)//im_help)
+         call raise_input(error, 'im = '''//typed//''': must be one of '//join(im_names)//im_help)
       end if
    end subroutine new_measure
 

@@ -1,0 +1,82 @@
+"""Several threads at once, and processes made by a fork."""
+
+import itertools
+import multiprocessing
+import subprocess
+import sys
+import threading
+
+import dondolo as dd
+
+FORK = """
+import multiprocessing, sys
+import numpy as np
+import dondolo as dd
+
+wall = dd.OneSidedWall(3.0, 0.25)
+records = [dd.Record(3.0 * np.sin(0.05 * i * np.arange(400)), 0.01, f"r{i}") for i in (1, 2, 3)]
+
+def run(threads):
+    stripes = dd.multiple_stripe(wall, records, [0.2, 0.4, 0.6], im="sa(0.5)", threads=threads, progress=False)
+    return stripes.edp.tobytes(), dd.fit_fragility([1.0, 2.0, 3.0], [1, 2, 3], [4, 4, 4]).theta
+
+here = run(2)
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    assert set(pool.map_async(run, [0, 1, 2, 4]).get(60)) == {here}
+"""
+
+
+def failures(wall, record, k):
+    """What says what is wrong with several things, each with a number of its own."""
+    small, large = 10.0**-k, 10.0**k
+    return [
+        lambda: dd.Record([0.0, 1.0], -small),
+        lambda: dd.Record([0.0, 1e5 * large], 0.01),
+        lambda: wall.terms(1000.0 + small),
+        lambda: dd.simulate(wall, record, rtol=large),
+        lambda: dd.simulate(wall, record, engine="x" * k),
+        lambda: dd.multiple_stripe(wall, [record], [large], im="pgd" + k * "x"),
+        lambda: dd.fit_fragility([1.0, 2.0], [large, 1], [2, 2]),
+    ]
+
+
+def sentence(call):
+    try:
+        call()
+    except dd.InputError as error:
+        return str(error)
+    return "no error"
+
+
+def test_sentences_of_threads_are_whole(wall, sine):
+    """Threads that fail at the same time each get the sentence that one alone gets."""
+    calls = [call for k in range(1, 10) for call in failures(wall, sine, k)]
+    right = [sentence(call) for call in calls]
+    assert "no error" not in right
+    wrong = []
+
+    def fail_often(start):
+        for i in itertools.islice(itertools.cycle(range(len(calls))), start, start + 20 * len(calls)):
+            text = sentence(calls[i])
+            if text != right[i]:
+                wrong.append(text)
+
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-5)
+    try:
+        threads = [threading.Thread(target=fail_often, args=(7 * k,)) for k in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+    finally:
+        sys.setswitchinterval(interval)
+    assert not wrong, wrong[:3]
+
+
+def test_a_fork_after_a_run_does_not_hang():
+    """OpenMP's threads do not survive a fork: the children work alone, and give the same bits."""
+    if "fork" not in multiprocessing.get_all_start_methods():
+        return
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORK], capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,50 @@
+!> Room for what grows with the input, tried before the work begins.
+!>
+!> Fortran ends the program where a temporary array, an assignment or a text finds no memory. So a work first asks
+!> whether it can have as much as all of these will take, and gives it back at once.
+module dondolo_memory
+   use, intrinsic :: iso_fortran_env, only : int8, int64
+   use, intrinsic :: omp_lib, only : omp_get_max_threads
+   use dondolo_error, only : error_type, raise_failure, status_memory
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: check_room, raise_shortage
+
+   !> What all else may take: small things, and the stack of each thread [bytes]
+   integer(int64), parameter :: small_things = 2_int64**26, stack = 2_int64**24
+
+contains
+
+   !> Check that there is room for some work
+   subroutine check_room(bytes, error)
+      !> What its arrays and texts take at once, all temporary ones included [bytes]
+      real(wp), intent(in) :: bytes
+      !> There is less
+      type(error_type), allocatable, intent(out) :: error
+
+      ! A volatile array is not optimised away, though nothing is ever put in it.
+      integer(int8), allocatable, volatile :: room(:)
+      real(wp) :: needed
+      integer :: stat
+
+      needed = bytes + real(small_things + omp_get_max_threads()*stack, wp)
+      stat = 1
+      if (needed < real(huge(1_int64)/2, wp)) allocate (room(int(needed, int64)), stat=stat)
+      if (stat /= 0) call raise_shortage(needed, error)
+   end subroutine check_room
+
+   !> Report lack of memory
+   pure subroutine raise_shortage(bytes, error)
+      !> What is needed [bytes]
+      real(wp), intent(in) :: bytes
+      !> Error to allocate
+      type(error_type), allocatable, intent(out) :: error
+
+      call raise_failure(error, 'not enough memory: needs '//to_text(anint(bytes/1.0e6_wp))//' MB')
+      error%stat = status_memory
+   end subroutine raise_shortage
+
+end module dondolo_memory

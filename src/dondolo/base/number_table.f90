@@ -1,0 +1,58 @@
+!> Tables of numbers alone, such as hazard curves.
+module dondolo_number_table
+   use dondolo_csv_reader, only : cell_type, csv_reader_type
+   use dondolo_error, only : add_place, error_type
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: read_number_table
+
+contains
+
+   !> Read a table of numbers
+   subroutine read_number_table(file, columns, values, note, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Names of the columns
+      type(cell_type), allocatable, intent(out) :: columns(:)
+      !> Its numbers (columns, rows)
+      real(wp), allocatable, intent(out) :: values(:, :)
+      !> How it was read, where there is something to say of it, else empty
+      character(len=:), allocatable, intent(out) :: note
+      !> No table, or a cell that is no number
+      type(error_type), allocatable, intent(out) :: error
+
+      type(csv_reader_type) :: table
+      real(wp), allocatable :: more(:, :)
+      integer :: i, rows
+      logical :: found
+
+      call table%open(file, error)
+      if (.not. allocated(error)) call table%find_decimal_mark([(i, i=1, size(table%columns))], error)
+      if (allocated(error)) return
+      note = table%note()
+      columns = table%columns
+      allocate (values(size(columns), 64))
+      rows = 0
+      do
+         call table%next(found, error)
+         if (allocated(error) .or. .not. found) exit
+         if (rows == size(values, 2)) then
+            allocate (more(size(columns), 2*rows))
+            more(:, :rows) = values
+            call move_alloc(more, values)
+         end if
+         rows = rows + 1
+         do i = 1, size(columns)
+            call table%get_real(i, values(i, rows), error)
+            call add_place(error, table%place())
+            if (allocated(error)) exit
+         end do
+         if (allocated(error)) exit
+      end do
+      call table%close()
+      values = values(:, :rows)
+   end subroutine read_number_table
+
+end module dondolo_number_table

@@ -1,0 +1,344 @@
+"""Mutation checks of the statistics: python test/mutations.py [WORD]...
+
+Each edit makes one formula of the Python package wrong, in a copy of the installed package, and the test named with it
+must then fail. Given words, check only the edits that contain all of them.
+
+Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once in the package, or if
+a test fails without any edit.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import NamedTuple
+
+TESTS = Path(__file__).resolve().parents[1] / "python" / "tests"
+
+# Time limit of one test run [s]; ample for a busy machine
+LONGEST = 1800
+
+
+class Edit(NamedTuple):
+    """A wrong formula: what is wrong with it, the text it replaces, and the test that must fail."""
+
+    error: str
+    old: str
+    new: str
+    test: str
+
+
+EDITS = [
+    # Fragility curves
+    Edit(
+        "the delta-method band has the covariance of ln theta and beta with the wrong sign",
+        "np.stack([np.full_like(at, -1.0 / self.beta), -probit / self.beta])",
+        "np.stack([np.full_like(at, -1.0 / self.beta), probit / self.beta])",
+        "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
+    ),
+    Edit(
+        "the delta-method interval of beta takes the standard error of beta for that of ln beta",
+        "_spread(self.beta, quantile * self.se_beta / self.beta)",
+        "_spread(self.beta, quantile * self.se_beta)",
+        "test_fitting.py::test_delta_intervals",
+    ),
+    Edit(
+        "the profile likelihood drops by the whole quantile of chi-squared, not by half of it",
+        "self._likelihood().probit_interval(at, half, 0.5 * quantile**2)",
+        "self._likelihood().probit_interval(at, half, quantile**2)",
+        "test_fitting.py::test_profile_interval_of_the_probability",
+    ),
+    Edit(
+        "confidence intervals are one-sided",
+        "return 0.5 - 0.5 * level, 0.5 + 0.5 * level",
+        "return 1.0 - level, level",
+        "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
+    ),
+    Edit(
+        "fragility curves tend to 1 where not all walls can collapse",
+        "self.saturation * _binding.probability(self.theta, self.beta, values.ravel())",
+        "_binding.probability(self.theta, self.beta, values.ravel())",
+        "test_combination.py::test_saturation",
+    ),
+    # Bootstrap over records
+    Edit(
+        "bootstrap weights are not normalised for events of unequal size",
+        "return drawn * (number / drawn.sum(axis=1, keepdims=True))",
+        "return drawn * 1.0",
+        "test_typology_bootstrap.py::test_events_of_unequal_size",
+    ),
+    Edit(
+        "events are drawn in proportion to their number of records",
+        "np.full(len(places), 1.0 / len(places))",
+        "np.bincount(place) / len(place)",
+        "test_typology_bootstrap.py::test_events_of_unequal_size",
+    ),
+    Edit(
+        "bootstrap curves of a population tend to 1 where not all walls can collapse",
+        "curves *= self._ends()[~np.isnan(self.theta), None]",
+        "curves *= 1.0",
+        "test_typology_bootstrap.py::test_the_interval_ends_at_the_saturation",
+    ),
+    Edit(
+        "the two polarities of a record are not drawn together",
+        "of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)",
+        "of_record = reached.reshape(walls, levels, flags.records, -1).sum(axis=3, dtype=np.float64)",
+        "test_typology_bootstrap.py::test_brute_force",
+    ),
+    Edit(
+        "the bootstrap ignores probabilities of occurrence in the saturation",
+        "occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))",
+        "occurring += own.sum(axis=1)",
+        "test_typology_bootstrap.py::test_brute_force",
+    ),
+    # Comparison of curves
+    Edit(
+        "the p-value of the bootstrap is one-sided",
+        "p_value = float(min(1.0, 2.0 * min(below, above)))",
+        "p_value = float(min(1.0, min(below, above)))",
+        "test_fitting.py::test_p_value_of_the_bootstrap",
+    ),
+    Edit(
+        "the p-value of the bootstrap can be zero",
+        "below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)",
+        "below = np.sum(difference <= 0.0) / len(difference)",
+        "test_fitting.py::test_p_value_of_the_bootstrap",
+    ),
+    Edit(
+        "the p-value of the likelihood ratio has four degrees of freedom",
+        "float(np.exp(-0.5 * statistic)),",
+        "float(np.exp(-0.5 * statistic) * (1.0 + 0.5 * statistic)),",
+        "test_fitting.py::test_comparison",
+    ),
+    Edit(
+        "the ratio of two medians has the sum of their standard errors",
+        "np.hypot(first.se_ln_theta, second.se_ln_theta)",
+        "(first.se_ln_theta + second.se_ln_theta)",
+        "test_fitting.py::test_interval_of_the_ratio_of_two_medians",
+    ),
+    Edit(
+        "records that two curves share are drawn separately for each",
+        "others = times\n",
+        "others = draw_records(count, n, random, events)\n",
+        "test_fitting.py::test_p_value_of_the_bootstrap",
+    ),
+    # Efficiency of intensity measures
+    Edit(
+        "compare_intensities ignores events",
+        "times = draw_records(len(several), samples, seed, events)",
+        "times = draw_records(len(several), samples, seed, None)",
+        "test_intensity.py::test_comparison_draws_events_together",
+    ),
+    Edit(
+        "resampled dispersions of an energy are not halved",
+        "resample_stripes(stripes, times).beta for stripes in analyses]) / power[:, None]",
+        "resample_stripes(stripes, times).beta for stripes in analyses])",
+        "test_intensity.py::test_comparison",
+    ),
+    # Regressions
+    Edit(
+        "the residual variance of the line is divided by n, not by n - 2",
+        "sigma = float(np.sqrt(left @ left / (n - 2)))",
+        "sigma = float(np.sqrt(left @ left / n))",
+        "test_cloud.py::test_fits_against_statsmodels",
+    ),
+    Edit(
+        "the intercept of the logistic curve is that of the centred variable",
+        "float(found.x[0] - b1 * shift)",
+        "float(found.x[0])",
+        "test_cloud.py::test_fits_against_statsmodels",
+    ),
+    Edit(
+        "total probability adds collapse and rocking as if they were exclusive",
+        "collapse + (1.0 - collapse) * self.rocking.at(x, gap) * exceeds",
+        "collapse + self.rocking.at(x, gap) * exceeds",
+        "test_cloud.py::test_known_parameters",
+    ),
+    # Hazard and risk
+    Edit(
+        "hazard curves are interpolated on linear axes",
+        "h = frequency * np.exp(-k * (u - start))",
+        "h = np.interp(flat, self.im_levels, self.annual_frequency)",
+        "test_risk.py::test_curve_is_straight_on_logarithmic_axes",
+    ),
+    Edit(
+        "the closed form of the risk integral has the slope of the hazard with the wrong sign",
+        "return z, z + k * beta, np.log(frequency)",
+        "return z, z - k * beta, np.log(frequency)",
+        "test_risk.py::test_closed_form",
+    ),
+    Edit(
+        "the upper bound above the hazard curve ignores the saturation",
+        "(above, most * float(hazard.annual_frequency[-1]))",
+        "(above, float(hazard.annual_frequency[-1]))",
+        "test_risk.py::test_bounds_end_at_the_saturation",
+    ),
+    Edit(
+        "the probability of collapse in time tends to 1 where not all walls can collapse",
+        "WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))",
+        "WallFrequencies(np.ones(1), *(np.array([end]) for end in self.bounds))",
+        "test_risk.py::test_time_ends_at_the_saturation",
+    ),
+    Edit(
+        "combinations without a mechanism have the share of those with it",
+        "share = share * (p_occ if there else 1.0 - p_occ)",
+        "share = share * (p_occ if there else p_occ)",
+        "test_risk.py::test_time_of_a_population",
+    ),
+    # Populations
+    Edit(
+        "probabilities of mechanisms in series are added",
+        "whole[walls] += (1.0 - whole[walls]) * rows[row]",
+        "whole[walls] += rows[row]",
+        "test_combination.py::test_mean_of_all_mechanisms",
+    ),
+    Edit(
+        "the mean over walls ignores weights",
+        "[weights @ part / weights.sum() for part, weights in parts]",
+        "[part.mean(axis=0) for part, weights in parts]",
+        "test_combination.py::test_mean_of_all_mechanisms",
+    ),
+    Edit(
+        "the mean of one mechanism ignores its probabilities of occurrence",
+        "weights = people.weights[rows] * people.p_occ[rows]",
+        "weights = people.weights[rows]",
+        "test_combination.py::test_mean_of_one_mechanism",
+    ),
+    Edit(
+        "fractiles over walls ignore weights",
+        "reached = np.cumsum(weights[order], axis=0)",
+        "reached = np.cumsum(np.full(order.shape, weights.mean()), axis=0)",
+        "test_combination.py::test_fractiles_by_sorting",
+    ),
+    # Incremental dynamic analysis
+    Edit(
+        "fractiles of histories are interpolated",
+        'np.quantile(values, SHARES, axis=-1, method="inverted_cdf")',
+        "np.quantile(values, SHARES, axis=-1)",
+        "test_incremental.py::test_fractiles_are_exact",
+    ),
+    # Sampling
+    Edit(
+        "correlations of the samples by chance remain",
+        "factor @ linalg.solve_triangular(np.linalg.cholesky(own), scores.T, lower=True)",
+        "factor @ scores.T",
+        "test_sampling.py::test_pairs_that_are_not_named_have_no_correlation",
+    ),
+    # Processing of records
+    Edit(
+        "the taper has half its length",
+        "signal.windows.tukey(len(values), 2.0 * part)",
+        "signal.windows.tukey(len(values), part)",
+        "test_processing.py::test_taper_is_half_a_cosine",
+    ),
+    Edit(
+        "the filter passes forwards only",
+        "filtered = signal.sosfiltfilt(sections, padded, padtype=None)",
+        "filtered = signal.sosfilt(sections, padded)",
+        "test_processing.py::test_gain_of_the_filter",
+    ),
+    Edit(
+        "rotation turns in the wrong sense",
+        "return cosine * first + sine * second",
+        "return cosine * first - sine * second",
+        "test_processing.py::test_directions_of_a_line_and_a_circle",
+    ),
+    Edit(
+        "the derivative of the velocity baseline lacks the factors of its powers",
+        "drift = (x ** (powers - 1)) @ (powers * factors) / record.duration",
+        "drift = (x ** (powers - 1)) @ factors / record.duration",
+        "test_processing.py::test_baseline_of_the_velocity",
+    ),
+    # Figures
+    Edit(
+        "bars of the fractions ignore the saturation",
+        "(fragility.saturation * part for part in (fraction, low, high))",
+        "(part for part in (fraction, low, high))",
+        "test_plots.py::test_bars_end_at_the_saturation",
+    ),
+    Edit(
+        "upper ends of the bars are those of one collapse fewer",
+        "beta_distribution.ppf(1.0 - tail, z + 1.0, n - z)",
+        "beta_distribution.ppf(1.0 - tail, z, n - z + 1.0)",
+        "test_plots.py::test_bars_end_at_the_saturation",
+    ),
+]
+
+
+def places(edit: Edit, package: Path) -> list[str]:
+    """Files of the package in which the old text of an edit occurs, once for each occurrence."""
+    sources = {path: path.read_text(encoding="utf-8") for path in sorted(package.rglob("*.py"))}
+    return [str(path.relative_to(package)) for path, text in sources.items() for _ in range(text.count(edit.old))]
+
+
+def stale(package: Path) -> list[str]:
+    """Errors of the list: texts that do not occur exactly once, tests that do not exist."""
+    found = []
+    for edit in EDITS:
+        where = places(edit, package)
+        if len(where) != 1:
+            found.append(f"must occur once in the package, occurs in {', '.join(where) or 'no file'}: {edit.old!r}")
+        file, name = edit.test.split("::")
+        if not (TESTS / file).is_file() or f"\ndef {name}(" not in (TESTS / file).read_text(encoding="utf-8"):
+            found.append(f"no such test: {edit.test}")
+    return found
+
+
+def copy_of(package: Path, folder: Path) -> Path:
+    """Copy the package into a folder."""
+    return Path(shutil.copytree(package, folder / package.name))
+
+
+def run_tests(tests: list[str], folder: Path) -> int | None:
+    """Exit status of tests run with the copy of the package in a folder; None beyond the time limit."""
+    command = [sys.executable, "-m", "pytest", "--exitfirst", "--tb=no", "-p", "no:cacheprovider", *tests]
+    environment = {**os.environ, "PYTHONPATH": str(folder), "MPLBACKEND": "agg"}
+    try:
+        done = subprocess.run(
+            command, cwd=TESTS, env=environment, stdout=subprocess.DEVNULL, timeout=LONGEST, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return None
+    return done.returncode
+
+
+def check(edit: Edit, package: Path) -> str:
+    """Apply an edit to a copy and run its test: 'caught', 'survived', 'endless', or 'broken' if pytest cannot run."""
+    with tempfile.TemporaryDirectory() as name:
+        place = copy_of(package, Path(name)) / places(edit, package)[0]
+        place.write_text(place.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")
+        status = run_tests([edit.test], Path(name))
+    return {0: "survived", 1: "caught", None: "endless"}.get(status, "broken")
+
+
+def main() -> int:
+    """Check the list, the tests without an edit, and then every edit."""
+    package = Path(importlib.util.find_spec("dondolo").origin).parent
+    wrong = stale(package)
+    if wrong:
+        print(*wrong, sep="\n")
+        return 1
+    chosen = [edit for edit in EDITS if all(word in " ".join(edit) for word in sys.argv[1:])]
+    if not chosen:
+        print(f"no edit contains {' and '.join(map(repr, sys.argv[1:]))}")
+        return 1
+    with tempfile.TemporaryDirectory() as name:
+        copy_of(package, Path(name))
+        if run_tests(sorted({edit.test for edit in chosen}), Path(name)) != 0:
+            print("the tests fail without any edit")
+            return 1
+    caught = 0
+    with ThreadPoolExecutor(os.cpu_count()) as workers:
+        for edit, outcome in zip(chosen, workers.map(lambda edit: check(edit, package), chosen), strict=True):
+            caught += outcome == "caught"
+            print(f"{outcome:<9} {places(edit, package)[0]}: {edit.error} ({edit.test})", flush=True)
+    print(f"{len(chosen)} edits, {caught} caught")
+    return 0 if caught == len(chosen) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
