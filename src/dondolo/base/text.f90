@@ -22,28 +22,7 @@ module dondolo_text
 
 contains
 
-   !> Shortest decimal that reads back as the same number
-   pure function real_to_text(value) result(text)
-      !> Number
-      real(wp), intent(in) :: value
-      !> Its text
-      character(len=real_length(value)) :: text
-
-      character(len=:), allocatable :: shortest
-
-      call make_real(value, shortest)
-      text = shortest
-   end function real_to_text
-
-   !> A number with four significant digits, for people
-   pure function rounded(value) result(text)
-      !> Number
-      real(wp), intent(in) :: value
-      !> Its text
-      character(len=real_length(four_digits(value))) :: text
-
-      text = real_to_text(four_digits(value))
-   end function rounded
+   ! The lengths precede the functions whose results they size; otherwise gfortran 12 reports an implicit interface.
 
    !> The nearest number of four significant digits
    pure real(wp) function four_digits(value)
@@ -66,6 +45,40 @@ contains
       call make_real(value, shortest)
       real_length = len(shortest)
    end function real_length
+
+   !> Length of the text of a count
+   pure integer function count_length(value)
+      !> Count
+      integer(int64), intent(in) :: value
+
+      character(len=24) :: buffer
+
+      write (buffer, '(i0)') value
+      count_length = len_trim(buffer)
+   end function count_length
+
+   !> Shortest decimal that reads back as the same number
+   pure function real_to_text(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=real_length(value)) :: text
+
+      character(len=:), allocatable :: shortest
+
+      call make_real(value, shortest)
+      text = shortest
+   end function real_to_text
+
+   !> A number with four significant digits, for people
+   pure function rounded(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=real_length(four_digits(value))) :: text
+
+      text = real_to_text(four_digits(value))
+   end function rounded
 
    !> Write the shortest decimal that reads back as the same number
    pure subroutine make_real(value, text)
@@ -143,17 +156,6 @@ contains
 
       write (text, '(i0)') value
    end function count_to_text
-
-   !> Length of the text of a count
-   pure integer function count_length(value)
-      !> Count
-      integer(int64), intent(in) :: value
-
-      character(len=24) :: buffer
-
-      write (buffer, '(i0)') value
-      count_length = len_trim(buffer)
-   end function count_length
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
