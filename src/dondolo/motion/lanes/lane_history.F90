@@ -53,9 +53,8 @@ contains
 
    !> Begin a history: at rest until its record first moves it, if it does
    pure subroutine begin(batch, i, number)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
       !> Number of the history
       integer, intent(in) :: number
@@ -76,9 +75,8 @@ contains
 
    !> Take the step of a flagged lane, up to the first event in it
    pure subroutine resolve(batch, i)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       real(wp) :: y, v, d(0:9), h
@@ -132,9 +130,8 @@ contains
 
    !> The lane reaches its next sample
    pure subroutine next_sample(lanes, i, samples)
-      !> Lanes
+      !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
-      !> The lane
       integer, intent(in) :: i
       !> Samples of all records [m/s2]
       real(wp), intent(in) :: samples(:)
@@ -149,9 +146,8 @@ contains
 
    !> The lane stops between two samples
    pure subroutine stop_between(lanes, i, samples, h)
-      !> Lanes
+      !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
-      !> The lane
       integer, intent(in) :: i
       !> Samples of all records [m/s2]
       real(wp), intent(in) :: samples(:)
@@ -166,9 +162,8 @@ contains
 
    !> Limit the steps from an event to the next sample
    pure subroutine limit_span(lanes, i, steps_per_sample)
-      !> Lanes
+      !> The lanes, and the one just after an event
       type(lanes_type), intent(inout) :: lanes
-      !> The lane: just after the event
       integer, intent(in) :: i
       !> Least number of steps
       integer, intent(in) :: steps_per_sample
@@ -178,9 +173,8 @@ contains
 
    !> The ground seen from the side of the wall, at the lane's time
    pure subroutine aim(lanes, i, samples, factor)
-      !> Lanes
+      !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
-      !> The lane
       integer, intent(in) :: i
       !> Samples of all records [m/s2]
       real(wp), intent(in) :: samples(:)
@@ -197,9 +191,8 @@ contains
 
    !> An impact: the wall turns back, or rocks on to the other side, or comes to rest
    pure subroutine bounce(batch, i)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       integer(c_int) :: interrupted
@@ -227,9 +220,8 @@ contains
 
    !> At rest: go to the instant at which rocking begins
    pure subroutine wait(batch, i)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       integer :: sample
@@ -265,9 +257,8 @@ contains
 
    !> Sample interval of a lane
    pure integer function interval_of(batch, i) result(interval)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(in) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       interval = int(batch%lanes%next(i)) - 1 - batch%set%offset(batch%history(i)%record)
@@ -275,9 +266,8 @@ contains
 
    !> The coordinate is a new peak
    pure subroutine set_peak(batch, i)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       associate (lanes => batch%lanes, history => batch%history(i))
@@ -289,9 +279,8 @@ contains
 
    !> The history is over: its result
    pure subroutine finish(batch, i)
-      !> The lanes
+      !> The lanes, and the one
       type(lane_batch_type), intent(inout) :: batch
-      !> The lane
       integer, intent(in) :: i
 
       real(wp) :: q, v, j, c, g, l, load
