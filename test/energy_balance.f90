@@ -1,7 +1,7 @@
 !> The energy of a time history: E = 1/2 J q'^2 + V changes only by the work of the ground, dE/dt = -s L u_g'' q',
 !> and at impacts, where the speed is multiplied by e. Coming to rest may lose some, nothing may create any.
 module energy_balance
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, excitation_type
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, excitation_type, state_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
@@ -78,24 +78,24 @@ contains
       type(trace_type), intent(in) :: trace
       integer, intent(in) :: i
       type(excitation_type) :: ground
-      real(wp) :: h, q(2), v(2), f(2), b(0:5), power(5), work, doubt, change, allowed, speed, scale, unit
+      real(wp) :: h, q(2), v(2), f(2), b(0:5), power(5), work, doubt, change, allowed, speed, scale, unit, side
 
       ! The side is that of the rotation, or of the velocity where the motion leaves or reaches q = 0.
-      ground%side = sign(1.0_wp, trace%velocity(i))
-      if (abs(trace%rotation(i + 1)) > 0.0_wp) ground%side = sign(1.0_wp, trace%rotation(i + 1))
-      if (abs(trace%rotation(i)) > 0.0_wp) ground%side = sign(1.0_wp, trace%rotation(i))
-      q = ground%side*trace%rotation(i:i + 1)
-      v = ground%side*trace%velocity(i:i + 1)
+      side = sign(1.0_wp, trace%velocity(i))
+      if (abs(trace%rotation(i + 1)) > 0.0_wp) side = sign(1.0_wp, trace%rotation(i + 1))
+      if (abs(trace%rotation(i)) > 0.0_wp) side = sign(1.0_wp, trace%rotation(i))
+      q = side*trace%rotation(i:i + 1)
+      v = side*trace%velocity(i:i + 1)
       ! A wall that came to rest and started again in between
       if (any(q < 0.0_wp)) return
       h = trace%time(i + 1) - trace%time(i)
       if (trace%time(i) < record%duration()) then
-         ground%start = trace%acceleration(i)
-         ground%slope = (trace%acceleration(i + 1) - trace%acceleration(i))/h
+         ground%start = side*trace%acceleration(i)
+         ground%slope = side*(trace%acceleration(i + 1) - trace%acceleration(i))/h
       end if
       f(1) = angular_acceleration(mechanism, ground, 0.0_wp, q(1), v(1))
       f(2) = angular_acceleration(mechanism, ground, h, q(2), v(2))
-      b = dense_rotation(h, q(1), v(1), f(1), q(2), v(2), f(2))
+      b = dense_rotation(h, state_type(q(1), v(1), f(1)), state_type(q(2), v(2), f(2)))
       power = power_along(mechanism, ground, h, b)
       work = sum(weights*power)
       ! The cubic without the accelerations tells how well the rows describe the motion.
@@ -126,7 +126,7 @@ contains
       kinetic = 0.5_wp*j*v**2
    end function kinetic
 
-   !> Power of the ground, -s L u_g'' q', times the interval, at Gauss's nodes of a motion in Bernstein form
+   !> Power of the ground, -L u q', times the interval, at Gauss's nodes of a motion in Bernstein form
    function power_along(mechanism, ground, h, b) result(power)
       class(mechanism_type), intent(in) :: mechanism
       type(excitation_type), intent(in) :: ground
@@ -144,7 +144,7 @@ contains
             c(:m - 1) = (1.0_wp - x)*c(:m - 1) + x*c(1:m)
          end do
          call mechanism%terms(c(0), j, cc, g, l, load)
-         power(k) = -ground%side*l*(ground%start + ground%slope*x*h)*slope
+         power(k) = -l*(ground%start + ground%slope*x*h)*slope
       end do
    end function power_along
 

@@ -2,8 +2,8 @@
 !> that are integrated one by one.
 program test_chains
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type, scene_type
-   use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_adaptive_step, only : advance, motion_type
+   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_events, only : impact
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -14,6 +14,7 @@ program test_chains
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
+   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
    use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none
@@ -44,29 +45,31 @@ contains
       real(wp), intent(out) :: duration, highest
       logical, intent(out) :: ended
       real(wp), parameter :: all_but_gone = 1.0e-10_wp
-      type(scene_type) :: scene
+      type(wall_constants_type) :: constants
       type(motion_type) :: motion
       logical :: sample_reached
       integer :: event, i
 
-      scene = scene_type(new_rest(mechanism), 1.0_wp, tight(1.0_wp), mechanism%capacity, mechanism%capacity, &
-         & mechanism%frequency_parameter()*mechanism%capacity)
+      constants = new_wall_constants(mechanism, tight(1.0_wp))
       ended = .false.
       motion%v = speed
       motion%step = record%dt
       intervals: do i = 1, size(record%acceleration) - 1
          motion%interval = i
          motion%time = 0.0_wp
-         motion%excitation%start = record%acceleration(i)
-         motion%excitation%slope = (record%acceleration(i + 1) - record%acceleration(i))/record%dt
+         motion%excitation%start = motion%side*record%acceleration(i)
+         motion%excitation%slope = motion%side*(record%acceleration(i + 1) - record%acceleration(i))/record%dt
          motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, motion%q, motion%v)
          sample_reached = .false.
          do while (.not. sample_reached)
-            call advance(mechanism, scene, record%dt, motion, event, sample_reached)
+            call advance(mechanism, constants, record%dt, motion, event, sample_reached)
             motion%peak = max(motion%peak, motion%q)
             if (event /= impact) cycle
             motion%v = -mechanism%restitution*motion%v
-            if (mechanism%two_sided) motion%excitation%side = -motion%excitation%side
+            if (mechanism%two_sided) then
+               motion%side = -motion%side
+               motion%excitation = excitation_type(-motion%excitation%start, -motion%excitation%slope)
+            end if
             motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
             ended = motion%v < all_but_gone*speed
             if (ended) exit intervals

@@ -4,7 +4,8 @@
 !> from halved steps, where the error is far above rounding.
 program test_convergence
    use checks, only : check, finish, suite
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+      & state_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
@@ -18,11 +19,6 @@ program test_convergence
 
    !> How far an observed order may be from the theory
    real(wp), parameter :: tolerance = 0.2_wp
-
-   !> Rotation [rad], velocity [rad/s] and acceleration [rad/s2]
-   type :: state_type
-      real(wp) :: q, v, f
-   end type state_type
 
    call test_fixed_steps()
    call test_single_step()
@@ -68,8 +64,7 @@ contains
       state%v = 0.8_wp*p*mechanism%capacity
       state%f = angular_acceleration(mechanism, excitation, 0.0_wp, state%q, state%v)
       do i = 1, steps
-         call dormand_prince_step(mechanism, excitation, h*(i - 1), h, state%q, state%v, state%f, &
-            & next%q, next%v, next%f, ignored(1), ignored(2))
+         call dormand_prince_step(mechanism, excitation, h*(i - 1), h, state, next, ignored(1), ignored(2))
          state = next
       end do
    end function after_steps
@@ -123,8 +118,7 @@ contains
          excitation = push(wall%mechanism)
          do i = 1, size(q_error)
             h = 2.0_wp**(-2 - i)/wall%mechanism%frequency_parameter()
-            call dormand_prince_step(wall%mechanism, excitation, 0.0_wp, h, start%q, start%v, start%f, &
-               & state%q, state%v, state%f, q_error(i), v_error(i))
+            call dormand_prince_step(wall%mechanism, excitation, 0.0_wp, h, start, state, q_error(i), v_error(i))
             reference = after_steps(wall%mechanism, h*wall%mechanism%frequency_parameter(), 500)
             q_true(i) = state%q - reference%q
             v_true(i) = state%v - reference%v
@@ -150,7 +144,7 @@ contains
          do i = 1, size(errors)
             h = 2.0_wp**(-3 - i)/wall%mechanism%frequency_parameter()
             state = after_steps(wall%mechanism, h*wall%mechanism%frequency_parameter(), 1)
-            b = dense_rotation(h, start%q, start%v, start%f, state%q, state%v, state%f)
+            b = dense_rotation(h, start, state)
             errors(i) = 0.0_wp
             do k = 1, 15
                x = k/16.0_wp

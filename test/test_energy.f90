@@ -2,7 +2,7 @@
 !> its kinetic part multiplied by e^2 at an impact, changed by the work of the ground and by nothing else.
 program test_energy
    use checks, only : check, check_close, finish, suite
-   use dondolo_dormand_prince, only : angular_acceleration, dormand_prince_step, excitation_type
+   use dondolo_dormand_prince, only : angular_acceleration, dormand_prince_step, excitation_type, state_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_response, only : response_type, trace_type
@@ -160,23 +160,23 @@ contains
       real(wp), parameter :: nodes(3) = 0.5_wp + [-root, 0.0_wp, root]
       real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
       type(excitation_type) :: ground
-      real(wp) :: h, q, v, f, q_node, v_node, f_node, ignored(2), j, c, g, l, load
+      type(state_type) :: start, node
+      real(wp) :: h, side, ignored(2), j, c, g, l, load
       integer :: k
 
       h = trace%time(row + 1) - trace%time(row)
-      ground%start = trace%acceleration(row)
-      ground%slope = (trace%acceleration(row + 1) - trace%acceleration(row))/h
       ! The side is that of the rotation; at an impact the velocity shows it.
-      ground%side = sign(1.0_wp, merge(trace%velocity(row), trace%rotation(row), trace%rotation(row) == 0.0_wp))
-      q = abs(trace%rotation(row))
-      v = ground%side*trace%velocity(row)
-      f = angular_acceleration(mechanism, ground, 0.0_wp, q, v)
+      side = sign(1.0_wp, merge(trace%velocity(row), trace%rotation(row), trace%rotation(row) == 0.0_wp))
+      ground%start = side*trace%acceleration(row)
+      ground%slope = side*(trace%acceleration(row + 1) - trace%acceleration(row))/h
+      start%q = abs(trace%rotation(row))
+      start%v = side*trace%velocity(row)
+      start%f = angular_acceleration(mechanism, ground, 0.0_wp, start%q, start%v)
       work_between = 0.0_wp
       do k = 1, 3
-         call dormand_prince_step(mechanism, ground, 0.0_wp, nodes(k)*h, q, v, f, q_node, v_node, f_node, &
-            & ignored(1), ignored(2))
-         call mechanism%terms(q_node, j, c, g, l, load)
-         work_between = work_between - ground%side*l*(ground%start + ground%slope*nodes(k)*h)*v_node*weights(k)*h
+         call dormand_prince_step(mechanism, ground, 0.0_wp, nodes(k)*h, start, node, ignored(1), ignored(2))
+         call mechanism%terms(node%q, j, c, g, l, load)
+         work_between = work_between - l*(ground%start + ground%slope*nodes(k)*h)*node%v*weights(k)*h
       end do
       work_between = work_between/(mechanism%potential(mechanism%capacity) - mechanism%potential(0.0_wp))
    end function work_between

@@ -3,15 +3,15 @@
 !> All is compared to the closed forms of the linear block, under an outward push x = -s u_g''/(alpha g).
 program test_events
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type, scene_type
+   use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration
    use dondolo_events, only : impact
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : new_rest
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
+   use dondolo_wall_constants, only : new_wall_constants
    use linear_block, only : linear_block_type, new_linear_block
    use motion_inputs, only : accelerogram, loose, tight
    implicit none
@@ -71,16 +71,14 @@ contains
       real(wp), intent(in) :: start(2), x, dt
       type(motion_type), intent(out) :: motion
       integer, intent(out) :: event
-      type(scene_type) :: scene
       logical :: sample_reached
 
-      scene = scene_type(new_rest(block), 1.0_wp, solver, alpha, alpha, p*alpha)
       motion%excitation%start = -x*block%trigger_acceleration()
       motion%q = start(1)
       motion%v = start(2)
       motion%f = angular_acceleration(block, motion%excitation, 0.0_wp, motion%q, motion%v)
       motion%step = dt
-      call advance(block, scene, dt, motion, event, sample_reached)
+      call advance(block, new_wall_constants(block, solver), dt, motion, event, sample_reached)
    end subroutine one_step
 
    !> A dip below q = 0 that begins and ends inside one step is an impact; one that stays above is not

@@ -9,7 +9,7 @@ program test_lanes
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_simulate, only : simulate
-   use dondolo_solver, only : other_scale, other_steps, solver_type
+   use dondolo_solver, only : perturbed, refined, solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
@@ -580,7 +580,7 @@ contains
          do i = 1, 5
             solver = solver_type()
             call run_alone(wall%mechanism, record, i*1.3_wp, solver, response)
-            call run_alone(wall%mechanism, record, other_scale(i*1.3_wp), other_steps(solver), other)
+            call run_alone(wall%mechanism, record, perturbed(i*1.3_wp), refined(solver), other)
             solver%estimate_error = .true.
             call run_alone(wall%mechanism, record, i*1.3_wp, solver, estimated)
             call check(is_same(response, estimated) .and. response%edp_error == 0.0_wp, 'the result is the same')

@@ -1,16 +1,16 @@
 !> After the record: the closed form of free motion against stepping on (docs/theory.md, section 4).
 program test_tail
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type, scene_type
+   use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration
    use dondolo_events, only : impact, limit_reached
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest
    use dondolo_rk45, only : simulate_rk45
    use dondolo_tail, only : free_motion, tail_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
    use motion_inputs, only : a_wall, accelerogram, tight
    implicit none
 
@@ -92,13 +92,13 @@ contains
       type(tail_type), intent(out) :: tail
       real(wp), parameter :: dt = 0.02_wp
       integer, parameter :: most_samples = 10000
-      type(scene_type) :: scene
+      type(wall_constants_type) :: constants
       type(motion_type) :: motion
       logical :: sample_reached, outwards
       integer :: event, sample
 
-      scene = scene_type(new_rest(mechanism), 1.0_wp, tight(1.0_wp), limit, mechanism%capacity, &
-         & mechanism%frequency_parameter()*mechanism%capacity)
+      constants = new_wall_constants(mechanism, tight(1.0_wp))
+      constants%limit = limit
       motion%q = q
       motion%v = v
       motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, q, v)
@@ -106,7 +106,7 @@ contains
       sample = 0
       do while (sample < most_samples)
          outwards = motion%v > 0.0_wp
-         call advance(mechanism, scene, dt, motion, event, sample_reached)
+         call advance(mechanism, constants, dt, motion, event, sample_reached)
          if (event == limit_reached .or. (outwards .and. motion%v <= 0.0_wp)) exit
          if (event == impact) then
             motion%v = -mechanism%restitution*motion%v

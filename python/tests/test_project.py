@@ -55,6 +55,32 @@ def test_rooms(root):
             assert rooms.index(known) <= rooms.index(room), f"{path.name} uses {name}"
 
 
+def test_rooms_of_motion(root):
+    """The engines share a common room and do not know each other."""
+    folder = root / "src/dondolo/motion"
+    home = {}
+    for path in folder.glob("**/*.[fF]90"):
+        room = path.relative_to(folder).parts[0] if path.parent != folder else ""
+        home |= {name: (room, path) for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    assert {room for room, _ in home.values()} == {"common", "rk45", "lanes", ""}
+    known = {"common": {"common"}, "rk45": {"common", "rk45"}, "lanes": {"common", "lanes"}}
+    for room, path in home.values():
+        for name in re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M):
+            if room and name in home:
+                assert home[name][0] in known[room], f"{path.name} uses {name}"
+
+
+def test_argument_lists(root):
+    """Not more than eight arguments, in rooms where no procedure has a longer list."""
+    counts = {}
+    for path in root.glob("src/dondolo/motion/**/*.[fF]90"):
+        text = re.sub(r"&\s*&", "", path.read_text())
+        for name, arguments in re.findall(r"^ *(?!end)[\w ()=]*(?:subroutine|function) (\w+)\(([^)]*)\)", text, re.M):
+            counts[name] = len(arguments.split(","))
+    assert len(counts) > 80
+    assert {name: count for name, count in counts.items() if count > 8} == {}
+
+
 def test_python_sources(root):
     text = (root / "python/meson.build").read_text()
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))

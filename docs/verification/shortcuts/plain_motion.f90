@@ -5,13 +5,15 @@
 !> the steps nor the order in which things happen.
 module plain_motion
    use dondolo_bernstein, only : first_descent, nowhere
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+      & state_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type, shortest_motion
+   use dondolo_rest, only : new_rest, rest_type
    use dondolo_solver, only : solver_type
+   use dondolo_step_limits, only : shortest_motion
    use dondolo_tail, only : free_motion, tail_type
    use straddling_step, only : ground_acceleration, step_over_samples
    implicit none
@@ -194,14 +196,19 @@ contains
       !> State at the end and the estimate of its error
       real(wp), intent(out) :: q, v, f, q_error, v_error
 
+      type(state_type) :: next
+
       if (scene%shortcut%straddling) then
          call step_over_samples(mechanism, scene%record, motion%side, motion%interval, motion%time, h, &
             & motion%q, motion%v, motion%f, q, v, f, q_error, v_error)
       else
-         associate (a => scene%record%acceleration, i => motion%interval)
-            call dormand_prince_step(mechanism, excitation_type(motion%side, a(i), (a(i + 1) - a(i))/scene%record%dt), &
-               & motion%time, h, motion%q, motion%v, motion%f, q, v, f, q_error, v_error)
+         associate (a => scene%record%acceleration, i => motion%interval, side => motion%side)
+            call dormand_prince_step(mechanism, excitation_type(side*a(i), side*(a(i + 1) - a(i))/scene%record%dt), &
+               & motion%time, h, state_type(motion%q, motion%v, motion%f), next, q_error, v_error)
          end associate
+         q = next%q
+         v = next%v
+         f = next%f
       end if
    end subroutine step_by
 
@@ -219,7 +226,7 @@ contains
       real(wp) :: b(0:5), x, before, after, trial, gap, rate, change, q_error, v_error
       integer :: i
 
-      b = dense_rotation(h, motion%q, motion%v, motion%f, q, v, f)
+      b = dense_rotation(h, state_type(motion%q, motion%v, motion%f), state_type(q, v, f))
       event = no_event
       x = nowhere
       if (.not. scene%shortcut%unlocated) call take_if_earlier(impact, first_descent(b), event, x)
@@ -287,7 +294,7 @@ contains
       real(wp) :: b(0:5), x
       integer :: sample, j
 
-      b = dense_rotation(h, motion%q, motion%v, motion%f, q, v, f)
+      b = dense_rotation(h, state_type(motion%q, motion%v, motion%f), state_type(q, v, f))
       sample = motion%interval
       do
          sample = sample + 1
@@ -331,7 +338,7 @@ contains
       type(scene_type), intent(in) :: scene
       type(motion_type), intent(in) :: motion
 
-      acceleration_now = angular_acceleration(mechanism, excitation_type(motion%side, &
+      acceleration_now = angular_acceleration(mechanism, excitation_type(motion%side* &
          & ground_acceleration(scene%record, motion%interval, motion%time)), 0.0_wp, motion%q, motion%v)
    end function acceleration_now
 

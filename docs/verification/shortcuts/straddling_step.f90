@@ -63,7 +63,7 @@ contains
       do i = 2, n
          speed(i) = v + h*dot_product(a(:, i), force)
          q_new = q + h*dot_product(a(:, i), speed)
-         force(i) = angular_acceleration(mechanism, excitation_type(side, &
+         force(i) = angular_acceleration(mechanism, excitation_type(side* &
             & ground_acceleration(record, interval, time + c(i)*h)), 0.0_wp, q_new, speed(i))
       end do
       v_new = speed(n)

@@ -22,15 +22,28 @@ module dondolo_text
 
 contains
 
+   ! The lengths precede the functions whose results they size; otherwise gfortran 12 reports an implicit interface.
+
+   !> The nearest number of four significant digits
+   pure real(wp) function four_digits(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      character(len=24) :: buffer
+
+      write (buffer, '(es24.3e4)') value
+      read (buffer, *) four_digits
+   end function four_digits
+
    !> Length of the text of a number
    pure integer function real_length(value)
       !> Number
       real(wp), intent(in) :: value
 
-      character(len=:), allocatable :: plain
+      character(len=:), allocatable :: shortest
 
-      call make_real(value, plain)
-      real_length = len(plain)
+      call make_real(value, shortest)
+      real_length = len(shortest)
    end function real_length
 
    !> Length of the text of a count
@@ -66,17 +79,6 @@ contains
 
       text = real_to_text(four_digits(value))
    end function rounded
-
-   !> The nearest number of four significant digits
-   pure real(wp) function four_digits(value)
-      !> Number
-      real(wp), intent(in) :: value
-
-      character(len=24) :: buffer
-
-      write (buffer, '(es24.3e4)') value
-      read (buffer, *) four_digits
-   end function four_digits
 
    !> Write the shortest decimal that reads back as the same number
    pure subroutine make_real(value, text)

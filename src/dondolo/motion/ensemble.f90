@@ -6,7 +6,7 @@ module dondolo_ensemble
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_lane_stage, only : new_stage, stage_type
+   use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
@@ -14,7 +14,7 @@ module dondolo_ensemble
    use dondolo_record_set, only : record_set_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : other_scale, other_steps, solver_type
+   use dondolo_solver, only : perturbed, refined, solver_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -53,32 +53,25 @@ contains
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
-      !> Hears how far the work is
+      !> Progress callback
       procedure(progress_interface), optional :: progress
 
-      type(response_type), allocatable :: other(:)
       type(queue_type) :: queue
-      integer :: histories
 
-      histories = size(ensemble%record)
-      if (allocated(ensemble%response)) deallocate(ensemble%response)
-      allocate(ensemble%response(histories))
-      queue%total = merge(2, 1, solver%estimate_error)*histories
-      call run_queue(ensemble, ensemble%scale, mechanism, records, set, solver, threads, queue, ensemble%response, &
-         & progress)
+      call queue%announce(merge(2, 1, solver%estimate_error)*size(ensemble%record), progress)
+      call queue%fill(ensemble%record, ensemble%scale)
+      call run_queue(queue, mechanism, records, set, solver, threads, ensemble%work)
+      call move_alloc(queue%response, ensemble%response)
       if (.not. solver%estimate_error) return
-      allocate(other(histories))
-      call run_queue(ensemble, other_scale(ensemble%scale), mechanism, records, set, other_steps(solver), threads, queue, &
-         & other, progress)
-      ensemble%response%edp_error = abs(other%edp - ensemble%response%edp)
+      call queue%fill(ensemble%record, perturbed(ensemble%scale))
+      call run_queue(queue, mechanism, records, set, refined(solver), threads, ensemble%work)
+      ensemble%response%edp_error = abs(queue%response%edp - ensemble%response%edp)
    end subroutine run_ensemble
 
-   !> Run every history once
-   subroutine run_queue(ensemble, scale, mechanism, records, set, solver, threads, queue, response, progress)
-      !> The histories; counts are added to
-      type(ensemble_type), intent(inout) :: ensemble
-      !> Factors on their records
-      real(wp), intent(in) :: scale(:)
+   !> Run every history in a queue
+   subroutine run_queue(queue, mechanism, records, set, solver, threads, work)
+      !> The histories, and their results
+      type(queue_type), intent(inout) :: queue
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Accelerograms
@@ -89,44 +82,35 @@ contains
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
-      !> What is done so far, of all
-      type(queue_type), intent(inout) :: queue
-      !> Results
-      type(response_type), intent(inout) :: response(:)
-      !> Hears how far the work is
-      procedure(progress_interface), optional :: progress
+      !> Counts, added to
+      type(work_type), intent(inout) :: work
 
-      type(stage_type) :: stage
-      type(work_type) :: work, own
+      type(lane_constants_type) :: constants
+      type(work_type) :: own
       character(len=16) :: variant
       integer :: number
 
-      ! High levels take longest: they stand last and go first, so that no thread is left alone with them at the end.
-      queue%last = size(response)
       variant = build_variant()
-      if (solver%engine /= 'rk45') stage = new_stage(mechanism, solver)
-      !$omp parallel num_threads(team_of(threads, size(response))) default(none) private(own, number) &
-      !$omp & shared(variant, stage, mechanism, records, set, solver, ensemble, scale, queue, response, work)
+      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver)
+      !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
+      !$omp & shared(variant, constants, mechanism, records, set, solver, queue, work)
       own = work_type()
-      if (stage%form%exists) then
-         call simulate_variant(variant, stage, mechanism, records, set, ensemble%record, scale, queue, &
-            & response, own, progress)
-         own%in_lanes = own%histories
+      if (constants%form%exists) then
+         call simulate_variant(variant, mechanism, constants, records, set, queue, own)
       else
          do
             number = queue%next()
             if (number == 0) exit
-            call simulate_rk45(mechanism, records(ensemble%record(number)), scale(number), solver, &
-               & response(number), work=own)
-            call queue%report(progress)
+            call simulate_rk45(mechanism, records(queue%record(number)), queue%scale(number), solver, &
+               & queue%response(number), work=own)
+            call queue%report()
          end do
       end if
       !$omp critical (add_work)
       call work%add(own)
       !$omp end critical (add_work)
       !$omp end parallel
-      call ensemble%work%add(work)
-      if (present(progress)) call progress(queue%done, queue%total)
+      call queue%report_all()
    end subroutine run_queue
 
    !> The engines that have computed histories, each with the build variant that ran
@@ -161,13 +145,13 @@ contains
       !> The engine lanes was asked for, and cannot; or a build variant that there is not
       type(error_type), allocatable, intent(out) :: error
 
-      type(stage_type) :: stage
+      type(lane_constants_type) :: constants
 
       call check_variant(error)
       if (allocated(error)) return
       if (solver%engine /= 'lanes') return
-      stage = new_stage(mechanism, solver)
-      if (stage%form%exists) return
+      constants = new_lane_constants(mechanism, solver)
+      if (constants%form%exists) return
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
          & 'must be ''auto'' or ''rk45'', or another edp_limit')
    end subroutine check_engine

@@ -12,7 +12,7 @@ module dondolo_simulate
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : other_scale, other_steps, solver_type
+   use dondolo_solver, only : perturbed, refined, solver_type
    implicit none
    private
 
@@ -49,7 +49,7 @@ contains
       end if
       call simulate_rk45(mechanism, record, scale, solver, response, trace)
       if (.not. solver%estimate_error) return
-      call simulate_rk45(mechanism, record, other_scale(scale), other_steps(solver), other)
+      call simulate_rk45(mechanism, record, perturbed(scale), refined(solver), other)
       response%edp_error = abs(other%edp - response%edp)
    end subroutine simulate
 

@@ -6,18 +6,16 @@
 module dondolo_lane_variants
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lane_stage, only : stage_type
+   use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lanes, only : simulate_first => simulate_lanes
 #ifdef DONDOLO_VARIANTS
    use dondolo_lanes_avx2, only : simulate_avx2 => simulate_lanes
    use dondolo_lanes_avx512, only : simulate_avx512 => simulate_lanes
 #endif
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
-   use dondolo_response, only : response_type
    use dondolo_text, only : join
    use dondolo_work, only : work_type
    implicit none
@@ -77,38 +75,31 @@ contains
    end function build_variant
 
    !> Histories of one wall, as long as the queue has some, by a variant
-   subroutine simulate_variant(variant, stage, mechanism, records, set, record, scale, queue, response, work, progress)
-      !> What build_variant has named
+   subroutine simulate_variant(variant, mechanism, constants, records, set, queue, work)
+      !> Name of the variant, from build_variant
       character(len=*), intent(in) :: variant
-      !> The wall, prepared
-      type(stage_type), intent(in) :: stage
-      !> Its mechanism
+      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
+      !> Its constants
+      type(lane_constants_type), intent(in) :: constants
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
       !> The same, joined
       type(record_set_type), intent(in) :: set
-      !> Record of each history, and the factor on it, negative to reverse it
-      integer, intent(in) :: record(:)
-      real(wp), intent(in) :: scale(:)
-      !> Numbers of the histories to run; shared with other threads
+      !> The histories, and their results; shared with other threads
       type(queue_type), intent(inout) :: queue
-      !> Result of each history
-      type(response_type), intent(inout) :: response(:)
       !> Counts, added to
       type(work_type), intent(inout) :: work
-      !> Hears how far the work is
-      procedure(progress_interface), optional :: progress
 
       select case (variant)
 #ifdef DONDOLO_VARIANTS
       case ('avx2')
-         call simulate_avx2(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+         call simulate_avx2(mechanism, constants, records, set, queue, work)
       case ('avx512')
-         call simulate_avx512(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+         call simulate_avx512(mechanism, constants, records, set, queue, work)
 #endif
       case default
-         call simulate_first(stage, mechanism, records, set, record, scale, queue, response, work, progress)
+         call simulate_first(mechanism, constants, records, set, queue, work)
       end select
    end subroutine simulate_variant
 

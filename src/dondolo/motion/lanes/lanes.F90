@@ -5,15 +5,14 @@
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_lanes
    use dondolo_kinds, only : wp
-   use dondolo_lane_history, only : begin, history_type, resolve
+   use dondolo_lane_constants, only : lane_constants_type
+   use dondolo_lane_history, only : begin, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
-   use dondolo_lane_stage, only : stage_type
-   use dondolo_lane_state, only : lane_width, lanes_type, step_taken
+   use dondolo_lane_state, only : lane_width, step_taken
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
-   use dondolo_response, only : response_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -23,63 +22,60 @@ module dondolo_lanes
 contains
 
    !> Histories of one wall, as long as the queue has some
-   subroutine simulate_lanes(stage, mechanism, records, set, record, scale, queue, response, work, progress)
-      !> The wall, prepared
-      type(stage_type), intent(in) :: stage
-      !> Its mechanism
-      class(mechanism_type), intent(in) :: mechanism
+   subroutine simulate_lanes(mechanism, constants, records, set, queue, work)
+      !> The mechanism
+      class(mechanism_type), intent(in), target :: mechanism
+      !> Its constants
+      type(lane_constants_type), intent(in), target :: constants
       !> Accelerograms
-      type(record_type), intent(in) :: records(:)
+      type(record_type), intent(in), target :: records(:)
       !> The same, joined
-      type(record_set_type), intent(in) :: set
-      !> Record of each history, and the factor on it, negative to reverse it
-      integer, intent(in) :: record(:)
-      real(wp), intent(in) :: scale(:)
-      !> Numbers of the histories to run; shared with other threads
-      type(queue_type), intent(inout) :: queue
-      !> Result of each history
-      type(response_type), intent(inout) :: response(:)
+      type(record_set_type), intent(in), target :: set
+      !> The histories, and their results; shared with other threads
+      type(queue_type), intent(inout), target :: queue
       !> Counts, added to
       type(work_type), intent(inout) :: work
-      !> Hears how far the work is
-      procedure(progress_interface), optional :: progress
 
-      type(lanes_type) :: lanes
-      type(history_type) :: history(lane_width)
+      type(lane_batch_type) :: batch
       integer :: active, i
 
+      batch%mechanism => mechanism
+      batch%constants => constants
+      batch%records => records
+      batch%set => set
+      batch%queue => queue
       active = 0
       do while (active < lane_width)
          if (.not. is_filled(active + 1)) exit
          active = active + 1
       end do
       do while (active > 0)
-         call step_lanes(lanes, active, stage%form, set%samples, stage%solver%rtol, stage%atol)
-         work%steps = work%steps + active
-         work%evaluations = work%evaluations + active
+         call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol)
+         batch%work%steps = batch%work%steps + active
          i = 1
          do while (i <= active)
-            if (lanes%flag(i) /= step_taken) then
-               associate (h => history(i))
-                  call resolve(stage, mechanism, records(h%record), set, lanes, i, h, response(h%number), work)
-                  if (h%over) then
-                     call queue%report(progress)
-                     if (.not. is_filled(i)) then
-                        ! The last lane moves in, so that those at work stay side by side.
-                        call move(lanes, history, active, i)
-                        ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no
-                        ! step is taken. Else it would run past the samples of its record.
-                        lanes%y(active) = 0.0_wp
-                        lanes%v(active) = 0.0_wp
-                        active = active - 1
-                        cycle
-                     end if
+            if (batch%lanes%flag(i) /= step_taken) then
+               call resolve(batch, i)
+               if (batch%history(i)%over) then
+                  call queue%report()
+                  if (.not. is_filled(i)) then
+                     ! The last lane moves in, so that those at work stay side by side.
+                     call move(batch, active, i)
+                     ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is
+                     ! taken. Else it would run past the samples of its record.
+                     batch%lanes%y(active) = 0.0_wp
+                     batch%lanes%v(active) = 0.0_wp
+                     active = active - 1
+                     cycle
                   end if
-               end associate
+               end if
             end if
             i = i + 1
          end do
       end do
+      batch%work%evaluations = batch%work%steps
+      batch%work%in_lanes = batch%work%histories
+      call work%add(batch%work)
 
    contains
 
@@ -94,42 +90,41 @@ contains
             number = queue%next()
             is_filled = number > 0
             if (.not. is_filled) return
-            history(i) = history_type(number=number, record=record(number), scale=scale(number))
-            call begin(stage, mechanism, records(record(number)), set, lanes, i, history(i), response(number), work)
-            if (.not. history(i)%over) return
-            call queue%report(progress)
+            call begin(batch, i, number)
+            if (.not. batch%history(i)%over) return
+            call queue%report()
          end do
       end function is_filled
 
    end subroutine simulate_lanes
 
    !> Move a lane
-   pure subroutine move(lanes, history, from, to)
-      !> Lanes
-      type(lanes_type), intent(inout) :: lanes
-      !> Their histories
-      type(history_type), intent(inout) :: history(:)
+   pure subroutine move(batch, from, to)
+      !> The lanes
+      type(lane_batch_type), intent(inout) :: batch
       !> The lane, and where it goes
       integer, intent(in) :: from, to
 
-      history(to) = history(from)
-      lanes%y(to) = lanes%y(from)
-      lanes%v(to) = lanes%v(from)
-      lanes%time(to) = lanes%time(from)
-      lanes%dt(to) = lanes%dt(from)
-      lanes%rate(to) = lanes%rate(from)
-      lanes%u(to) = lanes%u(from)
-      lanes%u_next(to) = lanes%u_next(from)
-      lanes%slope(to) = lanes%slope(from)
-      lanes%factor(to) = lanes%factor(from)
-      lanes%span(to) = lanes%span(from)
-      lanes%next_span(to) = lanes%next_span(from)
-      lanes%peak(to) = lanes%peak(from)
-      lanes%next(to) = lanes%next(from)
-      lanes%last(to) = lanes%last(from)
-      lanes%series(to, :) = lanes%series(from, :)
-      lanes%step(to) = lanes%step(from)
-      lanes%flag(to) = lanes%flag(from)
+      batch%history(to) = batch%history(from)
+      associate (lanes => batch%lanes)
+         lanes%y(to) = lanes%y(from)
+         lanes%v(to) = lanes%v(from)
+         lanes%time(to) = lanes%time(from)
+         lanes%dt(to) = lanes%dt(from)
+         lanes%rate(to) = lanes%rate(from)
+         lanes%u(to) = lanes%u(from)
+         lanes%u_next(to) = lanes%u_next(from)
+         lanes%slope(to) = lanes%slope(from)
+         lanes%factor(to) = lanes%factor(from)
+         lanes%span(to) = lanes%span(from)
+         lanes%next_span(to) = lanes%next_span(from)
+         lanes%peak(to) = lanes%peak(from)
+         lanes%next(to) = lanes%next(from)
+         lanes%last(to) = lanes%last(from)
+         lanes%series(to, :) = lanes%series(from, :)
+         lanes%step(to) = lanes%step(from)
+         lanes%flag(to) = lanes%flag(from)
+      end associate
    end subroutine move
 
 end module dondolo_lanes

@@ -4,31 +4,25 @@
 !> Events - impact, turning point, limit - are found on the dense output of a step; the step is then taken again so
 !> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_adaptive_step
-      use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
-      & is_beyond
+   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+      & is_beyond, state_type
    use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
+   use dondolo_history, only : history_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_rest, only : rest_type, shortest_motion
-   use dondolo_solver, only : solver_type
+   use dondolo_step_limits, only : longest_step, shortest_motion, smallest_step
+   use dondolo_wall_constants, only : wall_constants_type
    implicit none
    private
 
-   public :: motion_type, scene_type, advance
+   public :: motion_type, advance
 
    !> Evaluations of the terms in a step, the first of which the step before has done
    integer, parameter :: stages = 6
 
-   !> Smallest step / sample interval
-   real(wp), parameter :: smallest_step = 2.0_wp**(-20)
-
-   !> Where the motion is
-   type :: motion_type
-      !> Sample interval, from 1
-      integer :: interval = 1
-      !> Time since the first sample of the interval [s]
-      real(wp) :: time = 0.0_wp
-      !> What drives it: the accelerogram in this interval and the side
+   !> A history in the engine rk45
+   type, extends(history_type) :: motion_type
+      !> Excitation in the present sample interval
       type(excitation_type) :: excitation
       !> Rotation [rad]
       real(wp) :: q = 0.0_wp
@@ -42,51 +36,29 @@ module dondolo_adaptive_step
       real(wp) :: longest = huge(1.0_wp)
       !> Scaled error of the last accepted step
       real(wp) :: last_error = 1.0e-4_wp
-      !> Largest rotation so far [rad] and its time [s]
-      real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
-      !> Impacts so far
-      integer :: impacts = 0
-      !> Tiny bounces in a row
-      integer :: tiny_bounces = 0
       !> Steps taken, and evaluations of the terms
       integer :: steps = 0, evaluations = 0
-   contains
-      !> Take note of a sample or an event
-      procedure :: limit_steps
    end type motion_type
-
-   !> What stays the same during a history
-   type :: scene_type
-      !> Rest of the wall
-      type(rest_type) :: rest
-      !> Factor on the accelerogram, negative to reverse it
-      real(wp) :: scale
-      !> Tolerances
-      type(solver_type) :: solver
-      !> Rotation that counts as collapse [rad]
-      real(wp) :: limit
-      !> Units of rotation [rad] and velocity [rad/s] of the error: q_c and p q_c
-      real(wp) :: q_unit, v_unit
-   end type scene_type
 
 contains
 
    !> One accepted step: to the next sample, less where the error asks for it, or to the first event on the way
-   pure subroutine advance(mechanism, scene, dt, motion, event, sample_reached)
+   pure subroutine advance(mechanism, constants, dt, motion, event, sample_reached)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> What stays the same
-      type(scene_type), intent(in) :: scene
+      !> Its constants
+      type(wall_constants_type), intent(in) :: constants
       !> Sample interval [s]
       real(wp), intent(in) :: dt
-      !> Where the motion is
+      !> The motion
       type(motion_type), intent(inout) :: motion
       !> The event the step ends on
       integer, intent(out) :: event
       !> Does it end on the next sample?
       logical, intent(out) :: sample_reached
 
-      real(wp) :: remaining, h, q, v, f, q_error, v_error, error, x
+      type(state_type) :: start, next
+      real(wp) :: remaining, h, q_error, v_error, error, x
       logical :: accepted
       integer :: parts
 
@@ -94,52 +66,36 @@ contains
       event = no_event
       sample_reached = .not. remaining > 0.0_wp
       if (sample_reached) return
+      start = state_type(motion%q, motion%v, motion%f)
       do
          parts = max(1, ceiling(remaining/min(motion%step, motion%longest)))
          h = remaining/real(parts, wp)
-         call dormand_prince_step(mechanism, motion%excitation, motion%time, h, motion%q, motion%v, motion%f, &
-            & q, v, f, q_error, v_error)
+         call dormand_prince_step(mechanism, motion%excitation, motion%time, h, start, next, q_error, v_error)
          motion%evaluations = motion%evaluations + stages
-         ! The sum, since unlike the maximum it is never deaf to a value that is not a number.
-         error = abs(q_error)/(scene%solver%atol*scene%q_unit + scene%solver%rtol*max(abs(motion%q), abs(q))) &
-            & + abs(v_error)/(scene%solver%atol*scene%v_unit + scene%solver%rtol*max(abs(motion%v), abs(v)))
+         associate (rtol => constants%solver%rtol, atol => constants%solver%atol)
+            ! The sum, since the maximum may drop a NaN
+            error = abs(q_error)/(atol*constants%capacity + rtol*max(abs(start%q), abs(next%q))) &
+               & + abs(v_error)/(atol*constants%velocity_unit + rtol*max(abs(start%v), abs(next%v)))
+         end associate
          ! A step that left the geometry has no error to judge it by. The smallest step is accepted all the same, but
          ! then it contains an event, on which it ends: the limit, since that lies within the geometry, or an impact.
-         if (is_beyond(mechanism, q)) error = huge(error)
+         if (is_beyond(mechanism, next%q)) error = huge(error)
          call control_step(error, h, smallest_step*dt, motion, accepted)
          if (accepted) exit
       end do
       motion%steps = motion%steps + 1
 
-      ! In a step too short to be told from none, signs are rounding; what happened shows in the next.
+      ! The signs in a shorter step are rounding; the next step shows what happened.
       if (h > shortest_motion*dt) &
-         & call find_event(dense_rotation(h, motion%q, motion%v, motion%f, q, v, f), motion%peak, scene%limit, event, x)
-      if (event /= no_event) call land(mechanism, scene, motion, h, event, x, q, v, f)
+         & call find_event(dense_rotation(h, start, next), motion%peak, constants%limit, event, x)
+      if (event /= no_event) call land(mechanism, constants%limit, motion, h, event, x, next)
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(dt, min(motion%time + h, dt), sample_reached)
-      motion%q = q
-      motion%v = v
-      motion%f = f
-      if (event /= no_event) call motion%limit_steps(scene%solver, dt)
+      motion%q = next%q
+      motion%v = next%v
+      motion%f = next%f
+      if (event /= no_event) motion%longest = longest_step(constants%solver%steps_per_sample, dt, motion%time)
    end subroutine advance
-
-   !> From a sample or an event to the next sample there are at least as many steps as the solver asks for
-   elemental subroutine limit_steps(self, solver, dt)
-      !> Where the motion is: just after the sample or event
-      class(motion_type), intent(inout) :: self
-      !> The solver
-      type(solver_type), intent(in) :: solver
-      !> Sample interval [s]
-      real(wp), intent(in) :: dt
-
-      ! Longer by a little, so that rounding never asks for one step more
-      real(wp), parameter :: slack = 1.0001_wp
-
-      self%longest = huge(dt)
-      ! A step too short to move the time on would be taken for ever.
-      if (solver%steps_per_sample > 1) &
-         & self%longest = max(shortest_motion*dt, slack*(dt - self%time)/real(solver%steps_per_sample, wp))
-   end subroutine limit_steps
 
    !> Accept or reject a step and propose the next (PI control; Hairer, Norsett and Wanner 1993, section II.4)
    pure subroutine control_step(error, h, smallest, motion, accepted)
@@ -149,7 +105,7 @@ contains
       real(wp), intent(in) :: h
       !> Smallest step, always accepted [s]
       real(wp), intent(in) :: smallest
-      !> Where the motion is: the proposal and the last error
+      !> The motion: the proposal and the last error
       type(motion_type), intent(inout) :: motion
       !> Is it accepted?
       logical, intent(out) :: accepted
@@ -178,12 +134,12 @@ contains
 
    !> Take a step again so that it ends on an event: Newton's method on the step itself, kept in a bracket by
    !> bisection, from the place found on the dense output
-   pure subroutine land(mechanism, scene, motion, h, event, x, q, v, f)
+   pure subroutine land(mechanism, limit, motion, h, event, x, next)
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> What stays the same
-      type(scene_type), intent(in) :: scene
-      !> Start of the step
+      !> Rotation that counts as collapse [rad]
+      real(wp), intent(in) :: limit
+      !> The motion at the start of the step
       type(motion_type), intent(inout) :: motion
       !> In: the whole step; out: the step to the event [s]
       real(wp), intent(inout) :: h
@@ -191,35 +147,36 @@ contains
       integer, intent(inout) :: event
       !> Its place on the dense output, as a part of the step
       real(wp), intent(in) :: x
-      !> Rotation [rad], velocity [rad/s] and acceleration [rad/s2] at the end
-      real(wp), intent(inout) :: q, v, f
+      !> State at the end
+      type(state_type), intent(inout) :: next
 
       integer, parameter :: most_trials = 60
+      type(state_type) :: start
       real(wp) :: before, after, trial, gap, rate, change, sense, q_error, v_error
       logical :: crossed
       integer :: i
 
+      start = state_type(motion%q, motion%v, motion%f)
       before = 0.0_wp
       after = h
       trial = x*h
       crossed = .false.
       sense = 1.0_wp
-      if (motion%v < 0.0_wp .or. (motion%v == 0.0_wp .and. motion%f < 0.0_wp)) sense = -1.0_wp
+      if (start%v < 0.0_wp .or. (start%v == 0.0_wp .and. start%f < 0.0_wp)) sense = -1.0_wp
       do i = 1, most_trials
-         call dormand_prince_step(mechanism, motion%excitation, motion%time, trial, motion%q, motion%v, motion%f, &
-            & q, v, f, q_error, v_error)
+         call dormand_prince_step(mechanism, motion%excitation, motion%time, trial, start, next, q_error, v_error)
          motion%evaluations = motion%evaluations + stages
          ! The gap is positive before the event and falls to zero at it.
          select case (event)
          case (impact)
-            gap = q
-            rate = v
+            gap = next%q
+            rate = next%v
          case (limit_reached)
-            gap = scene%limit - q
-            rate = -v
+            gap = limit - next%q
+            rate = -next%v
          case default
-            gap = sense*v
-            rate = sense*f
+            gap = sense*next%v
+            rate = sense*next%f
          end select
          if (gap > 0.0_wp) then
             before = trial
@@ -244,14 +201,14 @@ contains
          return
       end if
       h = trial + change
-      q = q + change*(v + 0.5_wp*change*f)
-      v = v + change*f
-      if (event == impact) q = 0.0_wp
+      next%q = next%q + change*(next%v + 0.5_wp*change*next%f)
+      next%v = next%v + change*next%f
+      if (event == impact) next%q = 0.0_wp
       if (event == turning) then
-         v = 0.0_wp
-         if (q >= scene%limit) event = limit_reached
+         next%v = 0.0_wp
+         if (next%q >= limit) event = limit_reached
       end if
-      f = angular_acceleration(mechanism, motion%excitation, motion%time + h, q, v)
+      next%f = angular_acceleration(mechanism, motion%excitation, motion%time + h, next%q, next%v)
    end subroutine land
 
 end module dondolo_adaptive_step

@@ -7,7 +7,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit, other_steps, other_scale
+   public :: solver_type, check_solver, check_limit, refined, perturbed
    public :: engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -56,7 +56,7 @@ contains
 
    !> Settings that halve the steps, whether samples or tolerances limit them; where a tolerance is so tight that
    !> rounding would undo that, they double the steps
-   elemental function other_steps(solver) result(other)
+   elemental function refined(solver) result(other)
       !> Settings
       type(solver_type), intent(in) :: solver
       !> Other settings
@@ -71,18 +71,18 @@ contains
       other%rtol = factor*solver%rtol
       other%atol = factor*solver%atol
       other%steps_per_sample = 2*solver%steps_per_sample
-   end function other_steps
+   end function refined
 
    !> Factor on a record that differs by as much as all rounding of a history comes to: what it changes tells what
    !> rounding may have changed, where that is more than the steps do
-   elemental real(wp) function other_scale(scale)
+   elemental real(wp) function perturbed(scale)
       !> Factor
       real(wp), intent(in) :: scale
 
       real(wp), parameter :: units_in_the_last_place = 8.0_wp
 
-      other_scale = scale*(1.0_wp + units_in_the_last_place*epsilon(scale))
-   end function other_scale
+      perturbed = scale*(1.0_wp + units_in_the_last_place*epsilon(scale))
+   end function perturbed
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)

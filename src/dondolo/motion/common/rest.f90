@@ -9,11 +9,7 @@ module dondolo_rest
    implicit none
    private
 
-   public :: rest_type, new_rest, leave_edge
-   public :: shortest_motion
-
-   !> A motion shorter than this part of the sample interval cannot be told from rest
-   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
+   public :: rest_type, new_rest
 
    !> A wall near q = 0
    type :: rest_type
@@ -42,8 +38,6 @@ module dondolo_rest
       procedure :: next_start
       !> Moment that pushes the wall back to rest
       procedure :: inward_moment
-      !> Does the wall come to rest after an impact?
-      procedure :: settle
       !> Does a chain of bounces end at rest, whatever happens in between?
       procedure :: chain_ends
       !> Lower bounds of the inward moments within the height of a chain
@@ -57,10 +51,8 @@ module dondolo_rest
    !> that rise up to tenfold
    real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
 
-   !> A bounce that would rise less than this part of q_c in still ground is tiny; after this many tiny ones in a
-   !> row the wall is called at rest, which only guards against a chain without end (restitution next to 1)
+   !> A bounce that would rise less than this fraction of q_c in still ground is tiny
    real(wp), parameter :: tiny_height = 1.0e-12_wp
-   integer, parameter :: most_tiny_bounces = 1000
 
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
    real(wp), parameter :: speed_per_look = 3.0e-3_wp, most_bounces = 1.0e3_wp
@@ -164,73 +156,6 @@ contains
       end function opens
 
    end subroutine next_start
-
-   !> Leave the edge of a threshold, where rounding undid a start at once: nothing more starts on its side in this
-   !> interval, so go on to where the accelerogram changes its sign, or to the next sample
-   pure subroutine leave_edge(record, interval, time)
-      !> The accelerogram
-      type(record_type), intent(in) :: record
-      !> Sample interval, from 1
-      integer, intent(inout) :: interval
-      !> Time since the first sample of the interval [s]
-      real(wp), intent(inout) :: time
-
-      real(wp) :: crossing
-
-      associate (here => record%acceleration(interval), next => record%acceleration(interval + 1))
-         crossing = 0.0_wp
-         if (here > 0.0_wp .neqv. next > 0.0_wp) crossing = record%dt*(here/(here - next))
-      end associate
-      if (crossing > time) then
-         time = crossing
-      else
-         interval = interval + 1
-         time = 0.0_wp
-      end if
-   end subroutine leave_edge
-
-   !> Does the wall come to rest after an impact? Otherwise it rocks on, or bounces and the next impact decides
-   pure subroutine settle(self, record, scale, interval, time, acceleration, side, speed, peak, impacts, &
-      & tiny_bounces, at_rest)
-      !> The wall
-      class(rest_type), intent(in) :: self
-      !> The accelerogram; zero after its last sample
-      type(record_type), intent(in) :: record
-      !> Factor on it
-      real(wp), intent(in) :: scale
-      !> Sample interval of the impact; may lie beyond the record
-      integer, intent(in) :: interval
-      !> Its time since the first sample of the interval [s]
-      real(wp), intent(in) :: time
-      !> Ground acceleration at the impact [m/s2]
-      real(wp), intent(in) :: acceleration
-      !> Side after the impact
-      real(wp), intent(in) :: side
-      !> Speed after the impact [rad/s]
-      real(wp), intent(in) :: speed
-      !> Largest rotation so far [rad]
-      real(wp), intent(in) :: peak
-      !> Impacts so far
-      integer, intent(in) :: impacts
-      !> Tiny bounces in a row so far; this one is counted
-      integer, intent(inout) :: tiny_bounces
-      !> Does it?
-      logical, intent(out) :: at_rest
-
-      real(wp) :: moment, energy
-
-      energy = 0.5_wp*self%inertia*speed**2
-      tiny_bounces = merge(tiny_bounces + 1, 0, energy < self%tiny_energy)
-      moment = self%inward_moment(side, acceleration)
-      at_rest = speed == 0.0_wp .or. tiny_bounces > most_tiny_bounces
-      if (at_rest .or. moment <= 0.0_wp) return
-      at_rest = 2.0_wp*speed*self%inertia <= shortest_motion*record%dt*moment
-      ! A chain may not rise so high, whatever else; and only now and then where bounces have no number, since each
-      ! look may go through the whole record.
-      if (at_rest .or. energy > moment*min(self%height, peak)) return
-      if (modulo(impacts, self%bounces_per_look) == 0) &
-         & at_rest = self%chain_ends(record, scale, interval, time, side, speed, peak)
-   end subroutine settle
 
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>

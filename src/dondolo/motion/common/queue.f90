@@ -1,0 +1,120 @@
+!> A queue of histories of one wall that several threads take from.
+module dondolo_queue
+   use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: omp_lib, only : omp_get_thread_num
+   use dondolo_interrupt, only : look_for_interrupt
+   use dondolo_kinds, only : wp
+   use dondolo_response, only : response_type
+   implicit none
+   private
+
+   public :: queue_type, progress_interface
+
+   abstract interface
+      !> Progress callback; called by one thread only
+      subroutine progress_interface(done, total)
+         !> Histories computed
+         integer, intent(in) :: done
+         !> Histories in all
+         integer, intent(in) :: total
+      end subroutine progress_interface
+   end interface
+
+   !> Histories, taken from the last to the first
+   type :: queue_type
+      !> Record of each history, and the factor on it, negative to reverse its polarity
+      integer, allocatable :: record(:)
+      real(wp), allocatable :: scale(:)
+      !> Result of each history
+      type(response_type), allocatable :: response(:)
+      !> Number of the next history; less than 1: none is left
+      integer, private :: number = 0
+      !> Histories done, and all that make up the work, which may be more than those in the queue
+      integer, private :: done = 0, total = 0
+      !> Progress callback, if there is one
+      procedure(progress_interface), pointer, nopass, private :: progress => null()
+   contains
+      !> Announce the work to the progress callback
+      procedure :: announce
+      !> Put histories in
+      procedure :: fill
+      !> Take the number of a history
+      procedure :: next
+      !> One more is done
+      procedure :: report
+      !> All that were put in are done
+      procedure :: report_all
+   end type queue_type
+
+contains
+
+   !> Announce the work to the progress callback
+   subroutine announce(self, total, progress)
+      !> The queue
+      class(queue_type), intent(inout) :: self
+      !> Histories in all
+      integer, intent(in) :: total
+      !> Progress callback
+      procedure(progress_interface), optional :: progress
+
+      self%total = total
+      if (present(progress)) self%progress => progress
+   end subroutine announce
+
+   !> Put histories in
+   subroutine fill(self, record, scale)
+      !> The queue; empty
+      class(queue_type), intent(inout) :: self
+      !> Record of each history
+      integer, intent(in) :: record(:)
+      !> Factor on it
+      real(wp), intent(in) :: scale(:)
+
+      self%record = record
+      self%scale = scale
+      if (allocated(self%response)) deallocate(self%response)
+      allocate(self%response(size(record)))
+      ! High levels take longest: they are last and go first, so that no thread is left alone with them at the end.
+      self%number = size(record)
+   end subroutine fill
+
+   !> Take the number of a history; 0 if none is left, or after Ctrl-C
+   integer function next(self)
+      !> The queue
+      class(queue_type), intent(inout) :: self
+
+      integer(c_int) :: interrupted
+
+      !$omp atomic capture
+      next = self%number
+      self%number = self%number - 1
+      !$omp end atomic
+      call look_for_interrupt(interrupted)
+      if (next < 1 .or. interrupted == 1) next = 0
+   end function next
+
+   !> One more is done
+   subroutine report(self)
+      !> The queue
+      class(queue_type), intent(inout) :: self
+
+      integer :: now
+
+      !$omp atomic capture
+      self%done = self%done + 1
+      now = self%done
+      !$omp end atomic
+      if (associated(self%progress)) then
+         if (omp_get_thread_num() == 0) call self%progress(now, self%total)
+      end if
+   end subroutine report
+
+   !> All that were put in are done
+   subroutine report_all(self)
+      !> The queue
+      class(queue_type), intent(in) :: self
+
+      if (associated(self%progress)) call self%progress(self%done, self%total)
+   end subroutine report_all
+
+end module dondolo_queue

@@ -1,0 +1,36 @@
+!> Limits on the length of a step, shared by the engines.
+module dondolo_step_limits
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: shortest_motion, smallest_step
+   public :: longest_step
+
+   !> Fraction of the sample interval below which a motion is treated as rest, and a step as no step
+   real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
+
+   !> Fraction of the sample interval below which the error control does not shorten a step
+   real(wp), parameter :: smallest_step = 2.0_wp**(-20)
+
+contains
+
+   !> Longest step from a sample or an event to the next sample, so that there are at least `steps_per_sample` [s]
+   elemental real(wp) function longest_step(steps_per_sample, dt, time)
+      !> Least number of steps, as the solver demands it
+      integer, intent(in) :: steps_per_sample
+      !> Sample interval [s]
+      real(wp), intent(in) :: dt
+      !> Time of the sample or event since the last sample [s]
+      real(wp), intent(in) :: time
+
+      ! Slightly longer, so that rounding never adds a step
+      real(wp), parameter :: slack = 1.0001_wp
+
+      longest_step = huge(dt)
+      ! A step too short to advance the time would be repeated forever.
+      if (steps_per_sample > 1) &
+         & longest_step = max(shortest_motion*dt, slack*(dt - time)/real(steps_per_sample, wp))
+   end function longest_step
+
+end module dondolo_step_limits

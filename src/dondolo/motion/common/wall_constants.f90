@@ -1,0 +1,42 @@
+!> Constants of a wall and a solver, shared by all histories and by the engines.
+module dondolo_wall_constants
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_solver, only : solver_type
+   implicit none
+   private
+
+   public :: wall_constants_type, new_wall_constants
+
+   !> Constants of a wall
+   type :: wall_constants_type
+      !> The wall at rest
+      type(rest_type) :: rest
+      !> Tolerances and limit
+      type(solver_type) :: solver
+      !> Capacity q_c and rotation that counts as collapse [rad]
+      real(wp) :: capacity, limit
+      !> Velocity p q_c, the unit of the absolute tolerance [rad/s]
+      real(wp) :: velocity_unit
+   end type wall_constants_type
+
+contains
+
+   !> Constants of a mechanism
+   pure function new_wall_constants(mechanism, solver) result(constants)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> Its constants
+      type(wall_constants_type) :: constants
+
+      constants%rest = new_rest(mechanism)
+      constants%solver = solver
+      constants%capacity = mechanism%capacity
+      constants%limit = solver%edp_limit*mechanism%capacity
+      constants%velocity_unit = mechanism%frequency_parameter()*mechanism%capacity
+   end function new_wall_constants
+
+end module dondolo_wall_constants

@@ -1,0 +1,43 @@
+!> Constants of a wall in the engine lanes.
+module dondolo_lane_constants
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_normal_form, only : new_normal_form, normal_form_type, y_limit
+   use dondolo_solver, only : solver_type
+   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
+   implicit none
+   private
+
+   public :: lane_constants_type, new_lane_constants
+
+   !> Constants of a wall, with its normal form
+   type, extends(wall_constants_type) :: lane_constants_type
+      !> The wall in normal form; check that it exists
+      type(normal_form_type) :: form
+      !> Absolute tolerance of the velocity of y [1/s]
+      real(wp) :: atol = 0.0_wp
+      !> Largest y and rotation [rad] at the start of a history: peaks below them are not located
+      real(wp) :: first_peak = 0.0_wp, first_rotation = 0.0_wp
+   end type lane_constants_type
+
+contains
+
+   !> Constants of a mechanism
+   pure function new_lane_constants(mechanism, solver) result(constants)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> Its constants
+      type(lane_constants_type) :: constants
+
+      constants%wall_constants_type = new_wall_constants(mechanism, solver)
+      constants%form = new_normal_form(mechanism, constants%limit)
+      if (constants%form%exists) &
+         & constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
+      if (.not. solver%collapses_only) return
+      constants%first_peak = y_limit
+      constants%first_rotation = constants%limit
+   end function new_lane_constants
+
+end module dondolo_lane_constants
