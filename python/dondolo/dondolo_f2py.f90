@@ -3,8 +3,9 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
-! 0, or 1 and 2 as the exit codes of the executable. Procedures that compute release Python's lock (threadsafe); those that
-! make texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
+! 0, or 1 and 2 as the exit codes of the executable, or 3 for lack of memory. Procedures that compute release Python's lock
+! (threadsafe); those that call functions with results of deferred length keep it, since gfortran's are not safe in several
+! threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
 subroutine constants(defaults, version, statuses)
