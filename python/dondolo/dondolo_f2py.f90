@@ -3,8 +3,8 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
-! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that make
-! texts keep it, because gfortran's are not safe in several threads (see dondolo_text).
+! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that call
+! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
 subroutine constants(defaults, version, statuses)

@@ -100,7 +100,7 @@ def test_no_single_precision_at_the_boundary():
 
 
 def test_procedures_that_compute_release_the_lock(root):
-    """Only those may: gfortran's functions that return texts are not safe in several threads."""
+    """Only those may: gfortran's functions with results of deferred length are not safe in several threads."""
     text = (root / "python/dondolo/dondolo_f2py.f90").read_text()
     procedures = re.split(r"(?m)^subroutine ", text)[1:]
     free = {re.match(r"\w+", procedure)[0] for procedure in procedures if "!f2py threadsafe" in procedure}
