@@ -23,9 +23,9 @@ header() { grep -v '^#' "$1" | head -n 1; }
 # The files of a folder, and what is in them
 listing() { find . -type f -o -type l -o -type d | sort; }
 
-# run ARGUMENTS...: sets rc, output in ../stdout and ../stderr
+# run ARGUMENTS...: sets rc, output in ../stdout and ../stderr. What costs more than a minute of CPU time is killed.
 run() {
-   timeout 300 "$exe" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null
+   (ulimit -t 60 && exec timeout 300 "$exe" "$@" >"$work/stdout" 2>"$work/stderr" </dev/null)
    rc=$?
 }
 
@@ -679,13 +679,11 @@ people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1
    "walls.csv: line 2: name = 'a [2Jb': must stand on one line, without control characters"
 awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3"; for (i = 1; i <= 100000; i++) print "w" i ",one_sided,3,0.3" }' \
    >walls.csv
-seconds=$SECONDS
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
 awk 'BEGIN { for (i = 1; i <= 100000; i++) printf "c%d,", i; print "name" }' >walls.csv
 refused "population: 100001 columns" 'walls.csv: line 1: more than 10000 cells' people.nml
 { printf "$head"; head -c 20000000 /dev/zero | tr '\0' ','; echo; } >walls.csv
 refused "population: a line of 20 MB" 'walls.csv: line 2: longer than 1048576 bytes' people.nml
-check "population: none of these takes long: $((SECONDS - seconds)) s" test $((SECONDS - seconds)) -lt 20
 people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5;0.25\n' \
    "walls.csv: line 2: thickness = '0.25': must be a number, with a decimal comma as elsewhere in the table and no point"
 people "decimal commas between commas" "${head}a,one_sided,3,5,0,25,1\n" \

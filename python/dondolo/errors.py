@@ -16,7 +16,7 @@ class InputError(DondoloError, ValueError):
     """What was asked for is wrong; the message is the sentence of the executable."""
 
 
-class MissingFileError(InputError, FileNotFoundError):
+class MissingFileError(FileNotFoundError, InputError):
     """A file that was asked for does not exist."""
 
 

@@ -289,7 +289,8 @@ class TwoBlockWall(Wall):
     --------
     Joists that bear 0.12 m into the wall from its inner face:
 
-    >>> wall = TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    >>> import dondolo as dd
+    >>> wall = dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
     >>> wall.eccentricity
     -0.065
     """

@@ -1,6 +1,5 @@
 """Multiple stripes: results, blocks, threads, interruption."""
 
-import contextlib
 import os
 import pickle
 import signal
@@ -214,13 +213,14 @@ def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
 
 def test_interruption_is_quick(records):
     wall = dd.FreeStandingWall(6.0, 1.0)
+    """Of work that takes half a minute on a quick machine little is done when Ctrl-C comes after half a second."""
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
-    start = time.perf_counter()
     timer.start()
-    with contextlib.suppress(KeyboardInterrupt):
-        dd.multiple_stripe(wall, records * 50, np.linspace(0.2, 2.0, 50), progress=False)
+    with pytest.raises(dd.Interrupted) as caught:
+        dd.multiple_stripe(wall, records * 50, np.linspace(0.2, 2.0, 500), progress=False)
     timer.cancel()
-    assert 0.4 < time.perf_counter() - start < 2.5
+    partial = caught.value.partial
+    assert partial is None or len(partial.levels) < 250
 
 
 def test_progress_is_silent_without_a_terminal(wall, few, capfd):
