@@ -254,6 +254,7 @@ def test_many_walls_take_linear_time(tmp_path):
 
     def work(count):
         people = dd.read_population(tmp_path / f"{count}.csv")
+        assert (people[-1].name, people.groups[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
         again = people + dd.Population([dd.OneSidedWall(3.0, 0.25, name="last")])
         again.to_csv(tmp_path / "again.csv")
         assert len(again) == count + 1
@@ -261,13 +262,13 @@ def test_many_walls_take_linear_time(tmp_path):
     sizes = (1500, 12_000)
     for count in sizes:
         rows = (f"wall {i},one_sided,{2.0 + i / count!r},0.25,g{i % 7}\n" for i in range(count))
-        (tmp_path / f"{count}.csv").write_text("name,mechanism,height,thickness,group\n" + "".join(rows))
+        path = tmp_path / f"{count}.csv"
+        path.write_text("name,mechanism,height,thickness,group\n" + "".join(rows))
     assert growth(work, *sizes) < 24.0
-    assert (people[-1].name, people.groups[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
-    text = (tmp_path / "walls.csv").read_text()
-    (tmp_path / "walls.csv").write_text(text + "wall 17,one_sided,3,0.25,\n")
+    text = path.read_text()
+    path.write_text(text + "wall 17,one_sided,3,0.25,\n")
     with pytest.raises(dd.InputError, match=f"line {count + 2}: name = 'wall 17': another wall has this name"):
-        dd.read_population(tmp_path / "walls.csv")
+        dd.read_population(path)
 
 
 def test_figure(tmp_path):

@@ -61,7 +61,7 @@ def test_rooms_of_motion(root):
     home = {}
     for path in folder.glob("**/*.[fF]90"):
         room = path.relative_to(folder).parts[0] if path.parent != folder else ""
-        home |= {name: (room, path) for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+        home |= dict.fromkeys(re.findall(r"^module (\w+)", path.read_text(), re.M), (room, path))
     assert {room for room, _ in home.values()} == {"common", "rk45", "lanes", ""}
     known = {"common": {"common"}, "rk45": {"common", "rk45"}, "lanes": {"common", "lanes"}}
     for room, path in home.values():
