@@ -60,10 +60,16 @@ contains
       logical :: recognised
 
       type(text_file_type) :: plain
+      integer :: lines
       logical :: has_commas
 
-      call make_plain(text, plain, has_commas)
-      recognised = recognises_plain(plain)
+      call look_for_commas(text, lines, has_commas)
+      if (lines == text%lines() .and. .not. has_commas) then
+         recognised = recognises_plain(text)
+      else
+         call make_plain(text, lines, has_commas, plain)
+         recognised = recognises_plain(plain)
+      end if
    end function recognises
 
    !> Is a text in this format, without decimal commas?
@@ -103,9 +109,15 @@ contains
 
       type(text_file_type) :: plain
       character(len=:), allocatable :: processing
+      integer :: lines
       logical :: has_commas
 
-      call make_plain(text, plain, has_commas)
+      call look_for_commas(text, lines, has_commas)
+      if (lines == text%lines() .and. .not. has_commas) then
+         call read_plain(text, samples, error)
+         return
+      end if
+      call make_plain(text, lines, has_commas, plain)
       call read_plain(plain, samples, error)
       if (.not. has_commas .or. allocated(error)) return
       processing = samples%metadata%get('processing')
@@ -113,38 +125,55 @@ contains
       call samples%metadata%set('processing', processing//'decimal commas read')
    end subroutine read_columns
 
-   !> Replace decimal commas by points, and drop rows of empty cells at the end
-   subroutine make_plain(text, plain, has_commas)
+   !> Find out whether a text has decimal commas or rows of empty cells at the end
+   subroutine look_for_commas(text, lines, has_commas)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The same with decimal points
-      type(text_file_type), intent(out) :: plain
-      !> Did it have decimal commas?
+      !> Its lines without rows of empty cells at the end
+      integer, intent(out) :: lines
+      !> Does it have decimal commas?
       logical, intent(out) :: has_commas
 
       character(len=:), allocatable :: line
-      integer :: begin, lines, i
+      integer :: begin
 
-      plain%file = text%file
-      plain%text = text%text
       do lines = text%lines(), 1, -1
          if (verify(text%text(text%first(lines):text%last(lines)), blanks//';,') > 0) exit
       end do
-      plain%first = text%first(:lines)
-      plain%last = text%last(:lines)
-      begin = first_value_line(plain)
       has_commas = .false.
+      begin = first_value_line(text)
       if (begin > lines) return
-      line = unquoted(plain%line(begin))
-      associate (values => plain%text(plain%first(begin):plain%last(lines)))
-         has_commas = index(values, ',') > 0 .and. index(values, '.') == 0
+      associate (values => text%text(text%first(begin):text%last(lines)))
+         ! A point is soon found, so that most files are not searched to their end.
+         if (index(values, '.') > 0) return
+         has_commas = index(values, ',') > 0
+         line = unquoted(text%line(begin))
          ! A comma beside a blank separates
          if (has_commas .and. index(line, ';') == 0) has_commas = scan(line, blanks) > 0 .and. &
             & index(values, ', ') == 0 .and. index(values, ' ,') == 0 .and. &
             & index(values, ','//achar(9)) == 0 .and. index(values, achar(9)//',') == 0
       end associate
+   end subroutine look_for_commas
+
+   !> Replace decimal commas by points, and drop rows of empty cells at the end
+   subroutine make_plain(text, lines, has_commas, plain)
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Its lines without rows of empty cells at the end
+      integer, intent(in) :: lines
+      !> Does it have decimal commas?
+      logical, intent(in) :: has_commas
+      !> The same with decimal points
+      type(text_file_type), intent(out) :: plain
+
+      integer :: i
+
+      plain%file = text%file
+      plain%text = text%text
+      plain%first = text%first(:lines)
+      plain%last = text%last(:lines)
       if (.not. has_commas) return
-      do i = plain%first(begin), plain%last(lines)
+      do i = plain%first(first_value_line(plain)), plain%last(lines)
          if (plain%text(i:i) == ',') plain%text(i:i) = '.'
       end do
    end subroutine make_plain
