@@ -47,8 +47,8 @@ program shortcuts
    do k = 1, size(studied)
       do j = 1, size(case%stripes%levels)
          do i = 1, size(case%records)
-            call simulate_plain(case%population%walls(1)%mechanism, case%records(i), &
-               & case%scale_to(1, i, case%stripes%levels(j)), case%solver%solver, studied(k), response)
+            call simulate_plain(case%wall%mechanism, case%records(i), &
+               & case%scale_to(i, case%stripes%levels(j)), case%solver%solver, studied(k), response)
             write (output_unit, '(*(a))') trim(studied(k)%name), ',', case%records(i)%name, ',', &
                & to_text(case%stripes%levels(j)), ',', to_text(response%edp), ',', &
                & to_text(merge(1, 0, response%collapsed))
