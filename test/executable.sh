@@ -731,7 +731,7 @@ rm -rf out walls.csv limit.nml
 good_case | sed 's/levels = .*/first = 0.01, last = 1.0, count = 1000/; s/^ *0.6, 1.0$//' >memory.nml
 awk 'BEGIN { print "file,dt_s,units,name"; for (i = 1; i <= 2000; i++) print "r1.txt,0.01,m/s2,n" i }' >records/many.csv
 sed 's/records.csv/many.csv/' memory.nml >many.nml
-(ulimit -v 500000; timeout 60 "$exe" --threads 1 many.nml >/dev/null 2>"$work/stderr"; echo $? >"$work/rc")
+(ulimit -v 300000; timeout 60 "$exe" --threads 1 many.nml >/dev/null 2>"$work/stderr"; echo $? >"$work/rc")
 check "memory: exit code" equal "$(cat rc)" 1
 check "memory: one line, not: $(cat stderr)" equal "$(grep -c '^dondolo: .*not enough memory: needs [0-9]* MB$' stderr)/$(wc -l <stderr)" 1/1
 check "memory: no file" equal "$(find out -type f 2>/dev/null)" ""

@@ -30,7 +30,7 @@ module dondolo_boundary
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
-      & bytes_of_sample = 64.0_c_double, bytes_of_history = 200.0_c_double
+      & bytes_of_sample = 64.0_c_double, bytes_of_history = 160.0_c_double
 
    !> Contents of unknown size on their way to Python
    type :: parcel_type

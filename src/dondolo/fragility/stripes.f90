@@ -26,8 +26,8 @@ module dondolo_stripes
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
 
-   !> Memory that a history of the plan takes while it is run [bytes]
-   real(wp), parameter :: bytes_of_history = 200.0_wp
+   !> Memory that a history of the plan takes while it is run, once or twice [bytes]
+   real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -139,12 +139,13 @@ contains
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(solver, wall%mechanism, error)
-      if (.not. allocated(error)) call check_room(2.0_wp*bytes_of_history*real(size(records), wp) &
-         & *real(size(levels), wp), error)
       if (allocated(error)) return
       stripes%im = scaling%name
       stripes%levels = levels
       call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
+      call check_room(merge(bytes_of_two_runs, bytes_of_history, solver%estimate_error) &
+         & *real(size(stripes%record), wp)*real(size(levels), wp), error)
+      if (allocated(error)) return
       call choose_scales(stripes, wall, records, scaling, values, peaks, error)
       if (allocated(error)) return
       allocate(stripes%response(size(stripes%record), size(levels)))
