@@ -51,10 +51,14 @@ contains
       !> Count
       integer(int64), intent(in) :: value
 
-      character(len=24) :: buffer
+      integer(int64) :: left
 
-      write (buffer, '(i0)') value
-      count_length = len_trim(buffer)
+      count_length = merge(2, 1, value < 0)
+      left = value/10
+      do while (left /= 0)
+         count_length = count_length + 1
+         left = left/10
+      end do
    end function count_length
 
    !> Shortest decimal that reads back as the same number
@@ -98,7 +102,8 @@ contains
          if (value < 0.0_wp) text = '-Infinity'
          return
       end if
-      do digits = 1, precision(value) + 3
+      ! A decimal of so many digits that reads back is the shortest one with zeros at its end.
+      do digits = precision(value), precision(value) + 3
          write (format, '(a, i0, a)') '(es48.', digits - 1, 'e4)'
          write (buffer, format) value
          read (buffer, *, iostat=stat) again
@@ -123,6 +128,7 @@ contains
       sign = ''
       if (scientific(1:1) == '-') sign = '-'
       digits = scientific(len(sign) + 1:len(sign) + 1)//scientific(len(sign) + 3:mark - 1)
+      digits = digits(:max(1, verify(digits, '0', back=.true.)))
       if (exponent < -4 .or. exponent > 15) then
          text = scientific(:len(sign) + 1)
          if (len(digits) > 1) text = text//'.'//digits(2:)
@@ -144,7 +150,7 @@ contains
       !> Its text
       character(len=count_length(int(value, int64))) :: text
 
-      write (text, '(i0)') value
+      text = count_to_text(int(value, int64))
    end function integer_to_text
 
    !> A large count without blanks
@@ -154,7 +160,18 @@ contains
       !> Its text
       character(len=count_length(value)) :: text
 
-      write (text, '(i0)') value
+      character(len=*), parameter :: figures = '0123456789'
+      integer(int64) :: left
+      integer :: i, figure
+
+      ! Digit by digit: tables have many integers, and a WRITE of each takes longer than the rest of a row.
+      left = value
+      do i = len(text), merge(2, 1, value < 0), -1
+         figure = int(abs(mod(left, 10_int64))) + 1
+         text(i:i) = figures(figure:figure)
+         left = left/10
+      end do
+      if (value < 0) text(1:1) = '-'
    end function count_to_text
 
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
