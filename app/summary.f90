@@ -53,8 +53,8 @@ contains
          end if
       end select
       if (case%job%task /= 'typology' .or. allocated(results%typologies)) write (output_unit, '(a)') &
-         & 'the records move the base of the wall: ground records underestimate the demand on parapets, gables, '// &
-         & 'pinnacles and upper storeys'
+         & 'note: records are applied at the base of the wall; ground records underestimate the demand on parapets, '// &
+         & 'gables, pinnacles and upper storeys'
       write (output_unit, '(a)') ''
       if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
       do i = 1, paths%count
@@ -185,8 +185,8 @@ contains
       end do
       if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
       call print_fit(case, results%row%curve(size(results%row%curve)))
-      if (any(results%row%curve%has_fit())) write (output_unit, '(a)') 'the standard errors take the records for '// &
-         & 'independent between stripes, which share them; bootstrap() in Python does not'
+      if (any(results%row%curve%has_fit())) write (output_unit, '(a)') 'note: standard errors assume '// &
+         & 'independent stripes, although these share their records; bootstrap() in Python does not assume it'
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes

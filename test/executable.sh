@@ -140,10 +140,10 @@ check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fr
 check "stripes: summary has the median between the levels at 16 and 84 %" equal \
    "$(sed -n 's/^pga at a probability of 16, 50, 84 %: [0-9.]*, \(.*\), [0-9.]* g$/\1/p' stdout)" \
    "$(sed -n 's/^theta = \([0-9.]*\) g .*/\1/p' stdout)"
-check "stripes: summary says what the standard errors take for independent" grep -q \
-   '^the standard errors take the records for independent between stripes' stdout
-check "stripes: summary says what the records move" grep -q \
-   '^the records move the base of the wall: ground records underestimate the demand on parapets, gables' stdout
+check "stripes: summary says what the standard errors assume" grep -q \
+   '^note: standard errors assume independent stripes' stdout
+check "stripes: summary says where the records are applied" grep -q \
+   '^note: records are applied at the base of the wall; ground records underestimate the demand on parapets, gables' stdout
 check "stripes: summary names the engine" grep -qE ' threads, engine lanes \([a-z0-9]+\)$' stdout
 check "stripes: no escape sequence where there is no terminal" lacks stderr $'\033'
 run --quiet good.nml
@@ -231,7 +231,7 @@ check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: levels at 16, 50, 84 % of each curve" equal \
    "$(grep -cE '^population, .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, [0-9.]+, [0-9.]+ g$' stdout)" \
    "$(grep -c '^population, .*: theta = ' stdout)"
-check "typology: summary says what the records move" contains stdout 'the records move the base of the wall: '
+check "typology: summary says what the records move" contains stdout 'note: records are applied at the base of the wall; '
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
 check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $4 + 0 }' | tr '\n' ' ')" "2 1 3 "
 check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $1 }' | tr '\n' ' ')" \

@@ -29,20 +29,20 @@ try:
     else:
         dd.multiple_stripe(wall, [record], [record.pga / wall.gravity], engine=sys.argv[2], progress=False)
     print("done")
-except KeyboardInterrupt as error:
-    print(type(error).__name__)
+except KeyboardInterrupt:
+    print("interrupted")
 short = dd.Record(ground[:200], 0.01)
 print(dd.simulate(wall, short, 0.5).impacts)
 """
 
 
 @pytest.mark.parametrize("engine", ["rk45", "lanes"])
-@pytest.mark.parametrize(("what", "error"), [("simulate", "KeyboardInterrupt"), ("stripes", "Interrupted")])
-def test_a_history_is_broken_off(what, error, engine):
+@pytest.mark.parametrize("what", ["simulate", "stripes"])
+def test_a_history_is_broken_off(what, engine):
     """The whole would take half an hour. What comes after is not broken off."""
     command = [sys.executable, "-c", PROGRAM, what, engine]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60)
-    assert done.stdout.split() == [error, "0"], done.stderr
+    assert done.stdout.split() == ["interrupted", "0"], done.stderr
 
 
 def test_the_executable_dies_of_it(executable, tmp_path):
