@@ -231,7 +231,7 @@ check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: levels at 16, 50, 84 % of each curve" equal \
    "$(grep -cE '^population, .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, [0-9.]+, [0-9.]+ g$' stdout)" \
    "$(grep -c '^population, .*: theta = ' stdout)"
-check "typology: summary says what the records move" contains stdout 'note: records are applied at the base of the wall; '
+check "typology: summary says where the records are applied" contains stdout 'note: records are applied at the base of the wall; '
 check "typology: quotes in a name" contains out/people_walls.csv '"b ""b""",two_block,'
 check "typology: weights" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $4 + 0 }' | tr '\n' ' ')" "2 1 3 "
 check "typology: mechanisms" equal "$(grep -v '^#' out/people_typology.csv | awk -F, 'NR % 4 == 2 { print $1 }' | tr '\n' ' ')" \
