@@ -264,6 +264,10 @@ contains
       call check_no_numbers('a;b'//lf//'1.800,5;1'//lf, 'a = ''1.800,5'': must be a number, with a decimal comma as')
       call check_no_numbers('a;b'//lf//'1.5;1'//lf//'1,5;2'//lf, 'a = ''1.5'': must be a number, with a decimal comma as')
       call check_no_numbers('a,b'//lf//'"1,5",2'//lf, 'a = ''1,5'': must be a number, with a decimal point')
+      ! An error of a spreadsheet is no comment
+      call check_numbers('a;b'//lf//'# 1; 2; 3'//lf//'1,5;2'//lf, [1.5_wp, 2.0_wp], &
+         & ': read with '//semicolons//', decimal commas')
+      call check_no_numbers('a;b'//lf//'#N/D;2'//lf//'1,5;2'//lf, 'begins with # as a comment does')
    end subroutine test_spreadsheets
 
    !> A table of two numbers, and how it was read

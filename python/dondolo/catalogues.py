@@ -61,7 +61,7 @@ def build_catalogue(
         raise InputError(f"{root}: no such folder")
     target = root / "catalogue.csv" if file is None else Path(file)
     if file is None and target.exists():
-        raise InputError(f"{target}: stands there already: -o must name the catalogue")
+        raise InputError(f"{target}: already exists: name the catalogue with -o, which replaces it if it is one")
     columns = ("file", "channel", "dt_s", "units", *_KEYS)
     check_replaced(target, ",".join(columns), "catalogue")
     table: dict[str, list[str]] = {column: [] for column in columns}

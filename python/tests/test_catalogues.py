@@ -55,7 +55,7 @@ def test_a_folder(folder):
     ]
     code, out, err = run("catalogue", folder)
     assert code == 2
-    assert "stands there already" in err
+    assert "already exists" in err
 
 
 def test_steps_and_units_for_files_without(folder, tmp_path):

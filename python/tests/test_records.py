@@ -152,3 +152,23 @@ def test_metadata_of_a_case(tmp_path):
     assert two.metadata["station"] == "TLM"
     assert two.metadata["units"] == "g"
     assert two.pga == 0.3 * 9.80665
+
+
+@pytest.mark.parametrize("between", ["\t", "  "])
+def test_titles_with_blanks_state_their_units(between, tmp_path):
+    values = "".join(f"{0.01 * i:.2f}{between}{value}\n" for i, value in enumerate((0, 100, -50)))
+    path = tmp_path / "record.txt"
+    path.write_text(f"Time (s){between}Acc (gal)\n{values}")
+    assert dd.read_record(path).pga == pytest.approx(1.0)
+    with pytest.raises(dd.InputError, match="units"):
+        dd.read_record(path, units="g")
+    path.write_text(f"Tempo (s){between}Velocita (cm/s)\n{values}")
+    with pytest.raises(dd.InputError, match="is no acceleration"):
+        dd.read_record(path, units="g")
+
+
+@pytest.mark.parametrize("title", ["T [s];Se [g]", "T (s);Se(T) (g)", "Periodo;Accelerazione (g)", "T (s);SLV orizz. (g)"])
+def test_spectra_are_no_records(title, tmp_path):
+    (tmp_path / "spectrum.csv").write_text(f"{title}\n0.00;0.2\n0.01;0.3\n0.02;0.4\n")
+    with pytest.raises(dd.InputError, match="is no acceleration|must be in s"):
+        dd.read_record(tmp_path / "spectrum.csv")

@@ -272,6 +272,13 @@ contains
             cycle
          end if
          if (index(adjustl(row), '#') /= 1) exit
+         ! A spreadsheet writes #N/A into a cell, and a wall may have the name #12.
+         if (.not. allocated(self%columns) .or. self%separator == unknown) cycle
+         if (size(self%columns) == 1 .or. occurrences(row, self%separator) /= size(self%columns) - 1) cycle
+         self%line = self%lines%number
+         call raise_input(error, self%place()//': begins with # as a comment does, but has as many cells as the header: '// &
+            & 'mend the cell or put it in double quotes, or remove the line')
+         return
       end do
       self%line = self%lines%number
       quotes = occurrences(row, '"')

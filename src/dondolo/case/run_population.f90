@@ -236,7 +236,7 @@ contains
          if (.not. allocated(error) .and. (file%first /= survey%first .or. file%last /= survey%last)) &
             & call raise_input(error, file%path//': is of rows '//to_text(file%first)//' to '//to_text(file%last))
       end associate
-      if (allocated(error)) error%message = error%message//'; remove it to begin anew'
+      if (allocated(error)) error%message = error%message//'; remove it to begin anew, unless another run is writing it'
    end subroutine find_start
 
    !> Go on with the file that an earlier run has left, or begin one

@@ -11,7 +11,8 @@ module dondolo_column_titles
 
    !> Words of titles whose values are no accelerations of the ground in time
    character(len=*), parameter :: others(*) = [character(len=12) :: 'velocity', 'veloc', 'vel', 'displacement', &
-      & 'displ', 'disp', 'period', 'frequency', 'freq', 'spectrum', 'spectral', 'sa', 'psa', 'sv', 'psv', 'sd']
+      & 'displ', 'disp', 'period', 'frequency', 'freq', 'spectrum', 'spectral', 'pseudo', 'sa', 'psa', 'sv', 'psv', 'sd', &
+      & 'velocit', 'velocita', 'spostamento', 'periodo', 'frequenza', 'spettro', 'spettrale', 'slo', 'sld', 'slv', 'slc']
 
    !> Units of other quantities
    character(len=*), parameter :: other_units(*) = [character(len=4) :: 'm', 'cm', 'mm', 'in', 'ft', 'm/s', 'cm/s', &
@@ -22,7 +23,7 @@ module dondolo_column_titles
 
    !> Words of a title of times that are in no seconds
    character(len=*), parameter :: no_seconds(*) = [character(len=12) :: 'ms', 'msec', 'millisecond', 'milliseconds', &
-      & 'us', 'min', 'minute', 'minutes', 'hour', 'hours', 'h', 'hz', 'period', 'frequency', 'freq']
+      & 'us', 'min', 'minute', 'minutes', 'hour', 'hours', 'h', 'hz', 'period', 'frequency', 'freq', 'periodo', 'frequenza']
 
 contains
 
@@ -62,10 +63,11 @@ contains
       character(len=*), intent(in) :: title
       !> Units in it
       character(len=*), intent(in) :: units
-      !> A word of it, or its units, belong to another quantity
+      !> A word of it, or its units, belong to another quantity. Se is a spectrum of Eurocode 8, SE is a direction
       logical :: other
 
-      other = has_word(title, others) .or. any(other_units == without_sec(lower(units)))
+      other = has_word(title, others) .or. any(other_units == without_sec(lower(units))) .or. &
+         & index(' '//title//' ', ' Se ') > 0 .or. index(' '//title, ' Se(') > 0
    end function is_other_quantity
 
    !> May the values under a title be seconds?

@@ -299,11 +299,19 @@ contains
             cycle
          end if
          call find_cells(text, line, separator_of(text, line), first, last, titles)
-         ! Blanks may stand inside titles too: a single column has the whole line for its title
+         ! Titles may hold blanks: between tabs; in a single column; and those of a time and one channel, where the last units
+         ! of acceleration in the line are the channel's
+         if (titles /= cells) call find_cells(text, line, achar(9), first, last, titles)
          if (cells == 1) then
             titles = 1
             first(1) = text%first(line)
             last(1) = text%last(line)
+         else if (cells == 2 .and. titles /= 2 .and. line == begin - 1) then
+            content = unquoted(text%line(line))
+            units = units_in(content)
+            if (len(units) > 0) samples%channels(1)%units = units
+            if (is_other_quantity(content, units)) samples%channels(1)%refusal = text%place(line)//': channel '''// &
+               & shown(content)//''' is no acceleration'
          end if
          if (titles /= cells) cycle
          content = unquoted(text%text(first(1):last(1)))
