@@ -267,7 +267,8 @@ contains
       ! An error of a spreadsheet is no comment
       call check_numbers('a;b'//lf//'# 1; 2; 3'//lf//'1,5;2'//lf, [1.5_wp, 2.0_wp], &
          & ': read with '//semicolons//', decimal commas')
-      call check_no_numbers('a;b'//lf//'#N/D;2'//lf//'1,5;2'//lf, 'begins with # as a comment does')
+      call check_csv('a;b'//lf//'#N/D;2'//lf//'1,5;2'//lf, ': line 2: begins with # as a comment does')
+      call check_csv('a;b'//lf//'1,5;2'//lf//'#12;2'//lf, ': line 3: begins with # as a comment does')
    end subroutine test_spreadsheets
 
    !> A table of two numbers, and how it was read

@@ -94,6 +94,8 @@ class Population(Shown):
             raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
         for wall, group in zip(walls, groups, strict=True):
             _on_one_line("group", group, wall)
+        # A table cannot tell blanks from nothing.
+        groups = tuple(group if group.strip(" ") else "" for group in groups)
         origin = _several("origin", self.origin, "lines")
         for line in origin:
             as_text("origin", line)

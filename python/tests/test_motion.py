@@ -105,11 +105,12 @@ def test_errors(wall, sine, changes, sentence):
     assert str(caught.value).startswith(sentence)
 
 
+@pytest.mark.filterwarnings("ignore:The .float_precision. argument is deprecated")
 def test_table(wall, sine, tmp_path):
     pandas = pytest.importorskip("pandas")
     response = dd.simulate(wall, sine, scale=3.0)
     response.to_csv(tmp_path / "history.csv")
-    table = pandas.read_csv(tmp_path / "history.csv", comment="#")
+    table = pandas.read_csv(tmp_path / "history.csv", comment="#", float_precision="round_trip")
     pandas.testing.assert_frame_equal(table, response.to_frame(), check_exact=True)
 
 

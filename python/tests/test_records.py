@@ -167,8 +167,10 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
         dd.read_record(path, units="g")
 
 
-@pytest.mark.parametrize("title", ["T [s];Se [g]", "T (s);Se(T) (g)", "Periodo;Accelerazione (g)", "T (s);SLV orizz. (g)"])
+@pytest.mark.parametrize(
+    "title", ["T [s];Se [g]", "T (s);Se(T) (g)", "Periodo;Accelerazione (g)", "T (s);SLV orizz. (g)"]
+)
 def test_spectra_are_no_records(title, tmp_path):
     (tmp_path / "spectrum.csv").write_text(f"{title}\n0.00;0.2\n0.01;0.3\n0.02;0.4\n")
-    with pytest.raises(dd.InputError, match="is no acceleration|must be in s"):
+    with pytest.raises(dd.InputError, match=r"is no acceleration|must be in s"):
         dd.read_record(tmp_path / "spectrum.csv")

@@ -228,11 +228,14 @@ def test_progress_is_silent_without_a_terminal(wall, few, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.filterwarnings("ignore:The .float_precision. argument is deprecated")
 def test_tables(analysis, tmp_path):
     pandas = pytest.importorskip("pandas")
     for name in ("histories", "stripes", "walls"):
         analysis.to_csv(tmp_path / "table.csv", name)
-        table = pandas.read_csv(tmp_path / "table.csv", comment="#", dtype={"group": object}).fillna({"group": ""})
+        table = pandas.read_csv(
+            tmp_path / "table.csv", comment="#", float_precision="round_trip", dtype={"group": object}
+        ).fillna({"group": ""})
         pandas.testing.assert_frame_equal(table, analysis.to_frame(name), check_exact=True, check_dtype=False)
     with pytest.raises(dd.InputError, match="table = 'walks': must be one of 'histories', 'stripes', 'walls'"):
         analysis.to_frame("walks")

@@ -38,6 +38,9 @@ module dondolo_csv_reader
       type(line_reader_type) :: lines
       !> What separates the cells: a comma, a semicolon or a tab
       character(len=1), private :: separator = ','
+      !> The same, of the row that is or may be the header, and how many it has
+      character(len=1), private :: header_separator = unknown
+      integer, private :: header_separators = 0
       !> Decimal mark of its numbers: a point, unless they show another
       type(decimal_mark_type), private :: mark
       !> Cells of the header, with those at its end that name no column
@@ -186,9 +189,11 @@ contains
       integer :: line
 
       self%separator = unknown
+      self%header_separators = 0
       call read_row(self, first, error)
       if (allocated(error) .or. self%line == 0) return
       line = self%line
+      call count_separators(self, first)
       call read_row(self, second, error)
       if (allocated(error)) return
       if (self%line > 0) then
@@ -196,15 +201,27 @@ contains
             self%title_line = line
             line = self%line
             call move_alloc(second, first)
+            call count_separators(self, first)
          else
             call move_alloc(second, self%held)
             self%held_line = self%line
          end if
       end if
       self%line = line
-      self%separator = separator_of(first)
+      self%separator = self%header_separator
       call split(self, first, error)
    end subroutine read_header
+
+   !> Note the separators of a row that may be the header
+   subroutine count_separators(self, row)
+      !> The reader
+      type(csv_reader_type), intent(inout) :: self
+      !> Text of the row
+      character(len=*), intent(in) :: row
+
+      self%header_separator = separator_of(row)
+      self%header_separators = occurrences(row, self%header_separator)
+   end subroutine count_separators
 
    !> Take the row that was read as the names of the columns
    subroutine take_header(self, error)
@@ -273,8 +290,8 @@ contains
          end if
          if (index(adjustl(row), '#') /= 1) exit
          ! A spreadsheet writes #N/A into a cell, and a wall may have the name #12.
-         if (.not. allocated(self%columns) .or. self%separator == unknown) cycle
-         if (size(self%columns) == 1 .or. occurrences(row, self%separator) /= size(self%columns) - 1) cycle
+         if (self%header_separators == 0) cycle
+         if (occurrences(row, self%header_separator) /= self%header_separators) cycle
          self%line = self%lines%number
          call raise_input(error, self%place()//': begins with # as a comment does, but has as many cells as the header: '// &
             & 'mend the cell or put it in double quotes, or remove the line')
