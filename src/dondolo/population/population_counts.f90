@@ -8,12 +8,13 @@ module dondolo_population_counts
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_room
+   use dondolo_roster, only : roster_type
    use dondolo_wall, only : mechanism_names
    use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
-   public :: population_counts_type, new_population_counts, number_of_group
+   public :: population_counts_type, new_population_counts
 
    !> A population and its counts. A row is one mechanism of a wall; the rows of a wall stand one after the other
    type :: population_counts_type
@@ -51,31 +52,34 @@ module dondolo_population_counts
 contains
 
    !> A population without counts
-   subroutine new_population_counts(population, levels, states, first, error)
-      !> The population: arrays of these sizes, with no histories
+   subroutine new_population_counts(population, roster, levels, states, error)
+      !> The population, with no histories
       type(population_counts_type), intent(out) :: population
+      !> Its rows
+      type(roster_type), intent(in) :: roster
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
       !> Number of damage states
       integer, intent(in) :: states
-      !> First row of each wall, and behind them the number of rows + 1
-      integer, intent(in) :: first(:)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: bytes_of_row = 64.0_wp, bytes_of_count = 4.0_wp, bytes_of_curve = 192.0_wp
       integer :: rows
 
-      rows = first(size(first)) - 1
+      rows = roster%count
       call check_room(real(rows, wp)*(bytes_of_row + real(states, wp)*(bytes_of_curve &
          & + bytes_of_count*real(size(levels), wp))), error)
       if (allocated(error)) return
       population%levels = levels
-      population%first = first
-      allocate (population%group(rows), population%mechanism(rows), population%histories(rows), source=0)
-      allocate (population%weight(rows), population%p_occ(rows), source=1.0_wp)
-      allocate (population%reached(size(levels), states, rows), source=0)
-      allocate (population%curve(states, rows), population%combined(states, size(first) - 1))
+      population%groups = roster%groups
+      population%first = roster%first_rows()
+      population%group = roster%row(:rows)%group
+      population%weight = roster%row(:rows)%weight
+      population%mechanism = roster%row(:rows)%mechanism
+      population%p_occ = roster%row(:rows)%p_occ
+      allocate (population%histories(rows), population%reached(size(levels), states, rows), source=0)
+      allocate (population%curve(states, rows), population%combined(states, population%walls()))
    end subroutine new_population_counts
 
    !> Number of rows
@@ -174,17 +178,5 @@ contains
          curves%combined = self%combined(state, number)
       end associate
    end function wall
-
-   !> Number of a group
-   pure integer function number_of_group(groups, name) result(number)
-      !> Names of the groups
-      type(lines_type), intent(in) :: groups
-      !> Name of a group; there is none of an empty name
-      character(len=*), intent(in) :: name
-
-      do number = groups%count, 1, -1
-         if (groups%line(number)%text == name) exit
-      end do
-   end function number_of_group
 
 end module dondolo_population_counts

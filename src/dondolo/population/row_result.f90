@@ -149,7 +149,7 @@ contains
    end subroutine pack_row
 
    !> A row out of bytes
-   pure subroutine unpack_row(bytes, shape, row)
+   subroutine unpack_row(bytes, shape, row)
       !> Bytes, as many as bytes_of_row says
       character(len=*), intent(in) :: bytes
       !> How many numbers there are of a row
@@ -171,26 +171,18 @@ contains
       if (allocated(row%response)) deallocate (row%response)
       allocate (row%response(row%histories, shape%levels))
       number = real_bytes*size(row%response, kind=int64)
-      row%response%edp = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), shape_of())
+      row%response%edp = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%histories, shape%levels])
       at = at + number
-      row%response%time_of_peak = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), shape_of())
+      row%response%time_of_peak = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%histories, shape%levels])
       at = at + number
       number = 4*size(row%response, kind=int64)
-      row%response%impacts = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), shape_of())
+      row%response%impacts = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%histories, shape%levels])
       call set_collapsed()
 
    contains
 
-      !> Shape of the histories
-      pure function shape_of()
-         !> Histories, levels
-         integer :: shape_of(2)
-
-         shape_of = [row%histories, shape%levels]
-      end function shape_of
-
       !> A history has collapsed where it reaches the last state
-      pure subroutine set_collapsed()
+      subroutine set_collapsed()
 
          integer :: i, j, flag
 

@@ -8,8 +8,9 @@ module dondolo_typology
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_members, only : choose_members, members_type, population_probabilities
-   use dondolo_population_counts, only : number_of_group, population_counts_type
+   use dondolo_population_counts, only : population_counts_type
    use dondolo_population_sums, only : add_group, group_type, sum_wall, sums_type
+   use dondolo_roster, only : number_of_group
    use dondolo_text, only : to_text
    use dondolo_wall_curves, only : wall_curves_type
    implicit none
