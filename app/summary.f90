@@ -81,8 +81,8 @@ contains
       crew = ' threads'
       if (threads == 1) crew = ' thread'
       if (results%resumed > 0) then
-         write (output_unit, '(a)') to_text(histories)//' histories, those of rows '//to_text(case%survey%first)//' to '// &
-            & to_text(results%resumed)//' by an earlier run, engine '//results%engine()
+         write (output_unit, '(a)') to_text(histories)//' histories, those of '//to_text(results%resumed)// &
+            & ' rows by an earlier run, engine '//results%engine()
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
             & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
@@ -120,7 +120,7 @@ contains
       !> Its results
       type(results_type), intent(in) :: results
 
-      associate (response => results%response, record => case%records(case%history%record))
+      associate (response => results%response, record => case%suite%records(case%history%record))
          write (output_unit, '(a)') 'record '''//record%name//''', scale '//rounded(case%history_scale())// &
             & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
          if (response%collapsed) then

@@ -2,14 +2,15 @@
 !> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
-   use dondolo_counts, only : counts_type
-   use dondolo_counts_stream, only : counts_stream_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_report_rows, only : fragility_head, fragility_row, history_head, history_row, stripes_head, &
       & stripes_row, wall_cells, wall_head, wall_row
    use dondolo_result_files, only : result_files_type
+   use dondolo_results, only : results_type, row_counts_type
+   use dondolo_row_result, only : row_result_type
    use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_table
    implicit none
    private
@@ -19,44 +20,73 @@ module dondolo_row_reports
 contains
 
    !> Write one table of a population
-   subroutine write_rows(case, counts, name, files, error)
+   subroutine write_rows(case, results, name, files, error)
       !> The case
       type(case_type), intent(in) :: case
-      !> Counts of all rows
-      type(counts_stream_type), intent(inout) :: counts
+      !> Its results
+      type(results_type), intent(inout) :: results
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files, one of which was begun
       type(result_files_type), intent(inout) :: files
-      !> The population or the counts have changed
+      !> The population or a store has changed
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
       type(member_type) :: member
-      type(counts_type) :: row
-      logical :: found, is_there
+      type(row_counts_type) :: row
+      integer :: i
+      logical :: found
 
       call write_names(case, name, files)
-      call counts%open(error)
-      if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
-      do while (.not. allocated(error))
-         call reader%next(member, found, error)
-         if (.not. allocated(error)) call counts%next(row, is_there, error)
-         if (allocated(error)) exit
-         if (found .neqv. is_there) call raise_failure(error, case%population_path()//': has changed while it was read')
-         if (allocated(error) .or. .not. found) exit
-         call write_row(case, member, row, name, files, error)
-      end do
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      associate (population => results%population)
+         do i = 1, population%rows() + 1
+            if (allocated(error)) exit
+            call reader%next(member, found, error)
+            if (.not. allocated(error) .and. (found .neqv. i <= population%rows())) &
+               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (allocated(error) .or. .not. found) exit
+            row%histories = population%histories(i)
+            row%reached = population%reached(:, :, i)
+            row%curve = population%curve(:, i)
+            if (name == '_histories.csv') call read_histories(results, i, row, error)
+            if (.not. allocated(error)) call write_row(case, member, row, name, files, error)
+         end do
+      end associate
       call reader%close()
+      do i = 1, size(results%stores)
+         call results%stores(i)%close()
+      end do
    end subroutine write_rows
+
+   !> Histories of a row of a population
+   subroutine read_histories(results, number, row, error)
+      !> Results
+      type(results_type), intent(inout) :: results
+      !> Number of the row
+      integer, intent(in) :: number
+      !> The row: its histories are set
+      type(row_counts_type), intent(inout) :: row
+      !> A store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_result_type) :: stored
+      integer :: k
+
+      do k = 1, size(results%stores) - 1
+         if (number <= results%stores(k)%identity%last) exit
+      end do
+      call results%stores(k)%read(number, stored, error)
+      if (.not. allocated(error)) call move_alloc(stored%response, row%response)
+   end subroutine read_histories
 
    !> Write one table of the one wall of a case
    subroutine write_one_row(case, row, name, files, error)
       !> The case
       type(case_type), intent(in) :: case
       !> Counts of the wall, with all its histories
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files, one of which was begun
@@ -104,7 +134,7 @@ contains
       !> The wall
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files
@@ -127,29 +157,30 @@ contains
    !> All histories of a row
    subroutine write_histories(case, member, row, files, error)
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
       !> They cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(stripes_type) :: plan
       character(len=:), allocatable :: cells, last
       integer :: i, j
 
-      call plan_stripes(plan, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
-         & case%peaks, case%records_input%polarity, case%solver%solver, error)
+      call case%make_study(study)
+      call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
       cells = wall_cells(member%wall)
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
-            call files%line(history_row(cells, case%records(plan%record(i))%name, plan%polarity(i), plan%im, &
+            call files%line(history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j))//last)
          end do
       end do
@@ -162,7 +193,7 @@ contains
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
 
@@ -183,7 +214,7 @@ contains
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
 

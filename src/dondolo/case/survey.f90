@@ -4,25 +4,24 @@ module dondolo_survey
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_identity, only : add_wall
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
-   use dondolo_record, only : record_type
-   use dondolo_records_group, only : records_input_type
+   use dondolo_roster, only : roster_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
-   use dondolo_solver_group, only : solver_input_type
    use dondolo_stripes, only : plan_stripes, stripes_type
-   use dondolo_stripes_group, only : stripes_input_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : most_groups
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private
 
-   public :: survey_type, survey_population, check_size, fingerprint_lines, number_of_group
+   public :: survey_type, survey_population, check_size, fingerprint_lines
 
    !> What a survey has found
    type :: survey_type
@@ -36,14 +35,14 @@ module dondolo_survey
       logical :: is_part = .false.
       !> Histories of these rows, all levels
       integer(int64) :: histories = 0
-      !> Names of the groups, in the order in which they appear
-      type(lines_type) :: groups
+      !> Its rows
+      type(roster_type) :: roster
       !> What there is to say of scale factors
       type(scale_warning_type) :: scales
       !> What there is to say of values that no masonry has
       type(wall_warning_type) :: oddities
-      !> Fingerprint of the table
-      type(fingerprint_type) :: fingerprint
+      !> Fingerprints of the lines of the table, and of the walls in it
+      type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -51,24 +50,15 @@ module dondolo_survey
 contains
 
    !> Survey a population
-   subroutine survey_population(survey, file, records_input, records, values, peaks, stripes_input, solver_input, &
-      & rows, error)
+   subroutine survey_population(survey, file, study, gravity, rows, error)
       !> What is found
       type(survey_type), intent(out) :: survey
       !> Path of the table
       character(len=*), intent(in) :: file
-      !> What is said of the accelerograms
-      type(records_input_type), intent(in) :: records_input
-      !> The accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> Values of the intensity measure for them as they stand
-      real(wp), intent(in) :: values(:)
-      !> Their PGA [m/s2]
-      real(wp), intent(in) :: peaks(:)
-      !> Intensity measure and levels
-      type(stripes_input_type), intent(in) :: stripes_input
-      !> How the motions are computed
-      type(solver_input_type), intent(in) :: solver_input
+      !> What the walls are tried with
+      type(study_type), intent(in) :: study
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
       !> First and last row that are to be run
       integer, intent(in) :: rows(2)
       !> Everything that is wrong with the table, or the first level that asks too much
@@ -80,7 +70,7 @@ contains
       type(problems_type) :: problems
       logical :: found
 
-      call reader%open(file, error, solver_input%gravity)
+      call reader%open(file, error, gravity)
       if (allocated(error)) return
       survey%first = rows(1)
       survey%note = reader%table%note()
@@ -90,20 +80,21 @@ contains
          survey%rows = reader%row
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
-            call note_group(survey%groups, member%group, error)
-            if (.not. allocated(error)) call check_limit(solver_input%solver, member%wall%mechanism, error)
-            if (.not. allocated(error)) call check_history(solver_input%solver, member%wall%mechanism, .false., error)
+            call survey%roster%add(member)
+            call add_wall(survey%walls_fingerprint, member%wall)
+            if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
+            if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
+            if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)
             call add_place(error, reader%table%place())
          end if
          if (.not. allocated(error)) then
-            call plan_stripes(plan, member%wall, records, stripes_input%levels, stripes_input%scaling, values, &
-               & peaks, records_input%polarity, solver_input%solver, error)
+            call plan_stripes(plan, member%wall, study, error)
             if (allocated(error)) then
                call add_place(error, reader%table%place())
                call reader%close()
                return
             end if
-            call survey%scales%look(plan, records)
+            call survey%scales%look(plan, study%suite%records)
             call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
                & survey%histories = survey%histories + size(plan%scale)
@@ -116,34 +107,17 @@ contains
       if (.not. allocated(error)) call fingerprint_lines(file, survey%fingerprint, error)
    end subroutine survey_population
 
-   !> Note a group, if it is new
-   subroutine note_group(groups, name, error)
-      !> Names of the groups
+   !> Refuse a group that is one too many
+   subroutine refuse_group(groups, error)
+      !> Names of the groups; the last one is taken out again
       type(lines_type), intent(inout) :: groups
-      !> Name of a group, empty for none
-      character(len=*), intent(in) :: name
       !> There are too many
       type(error_type), allocatable, intent(out) :: error
 
-      if (len(name) == 0 .or. number_of_group(groups, name) > 0) return
-      if (groups%count == most_groups) then
-         call raise_input(error, 'group = '''//name//''': there may be at most '//to_text(most_groups)//' groups')
-      else
-         call groups%add(name)
-      end if
-   end subroutine note_group
-
-   !> Number of a group
-   pure integer function number_of_group(groups, name) result(number)
-      !> Names of the groups
-      type(lines_type), intent(in) :: groups
-      !> Name of a group; there is none of an empty name
-      character(len=*), intent(in) :: name
-
-      do number = groups%count, 1, -1
-         if (groups%line(number)%text == name) exit
-      end do
-   end function number_of_group
+      call raise_input(error, 'group = '''//groups%line(groups%count)%text//''': there may be at most '// &
+         & to_text(most_groups)//' groups')
+      groups%count = groups%count - 1
+   end subroutine refuse_group
 
    !> Check that the histories of a run can be counted; those of parts that are merged may be more
    subroutine check_size(file, histories, error)
