@@ -29,12 +29,12 @@ from pathlib import Path
 import dondolo as dd, study
 from dondolo.populations import checkpoint
 warnings.simplefilter("ignore")
-keep = _checkpoint.Checkpoint.keep
+keep = checkpoint.Checkpoint.keep
 def tell(self, first, walls, work, flags):
     print("run", first, walls, flush=True)
     keep(self, first, walls, work, flags)
     print("kept", first, walls, flush=True)
-_checkpoint.Checkpoint.keep = tell
+checkpoint.Checkpoint.keep = tell
 path, folder, block = sys.argv[1:]
 typology = dd.typology(**study.arguments(checkpoint=path, block=int(block), threads=1))
 study.write(typology, Path(folder))
