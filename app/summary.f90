@@ -82,7 +82,7 @@ contains
       if (threads == 1) crew = ' thread'
       if (results%resumed > 0) then
          write (output_unit, '(a)') to_text(histories)//' histories, those of '//to_text(results%resumed)// &
-            & ' rows by an earlier run, engine '//results%engine()
+            & trim(merge(' row ', ' rows', results%resumed == 1))//' by an earlier run, engine '//results%engine()
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
             & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &

@@ -48,6 +48,29 @@ module dondolo_row_result
 
 contains
 
+   ! The lengths precede what is as long; otherwise gfortran 12 reports an implicit interface.
+
+   !> Bytes that the flags of a row take
+   pure integer function bytes_of_flags(shape, histories)
+      !> How many levels and states there are
+      type(shape_type), intent(in) :: shape
+      !> Histories of a stripe
+      integer, intent(in) :: histories
+
+      bytes_of_flags = int((int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64)
+   end function bytes_of_flags
+
+   !> Bytes that a row takes
+   pure integer(int64) function bytes_of_row(shape, histories)
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> Histories of a stripe
+      integer, intent(in) :: histories
+
+      bytes_of_row = work_bytes + int(bytes_of_flags(shape, histories), int64)
+      if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
+   end function bytes_of_row
+
    !> Set the flags: a history is in a state from a threshold of the EDP on
    pure subroutine set_flags(self, response, thresholds)
       !> The row: histories and flags are set
@@ -102,27 +125,6 @@ contains
          end do
       end do
    end function reached
-
-   !> Bytes that the flags of a row take
-   pure integer function bytes_of_flags(shape, histories)
-      !> How many levels and states there are
-      type(shape_type), intent(in) :: shape
-      !> Histories of a stripe
-      integer, intent(in) :: histories
-
-      bytes_of_flags = int((int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64)
-   end function bytes_of_flags
-
-   !> Bytes that a row takes
-   pure integer(int64) function bytes_of_row(shape, histories)
-      !> How many numbers there are of a row
-      type(shape_type), intent(in) :: shape
-      !> Histories of a stripe
-      integer, intent(in) :: histories
-
-      bytes_of_row = work_bytes + int(bytes_of_flags(shape, histories), int64)
-      if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
-   end function bytes_of_row
 
    !> A row as bytes: what was computed, flags, and of the histories that are kept edp, time of the peak and impacts
    pure subroutine pack_row(row, bytes)

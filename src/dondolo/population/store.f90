@@ -9,7 +9,7 @@ module dondolo_store
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_row_result, only : row_result_type
-   use dondolo_store_format, only : begins_like_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
+   use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
       & read_head
    use dondolo_system, only : cut_file, remove_file, rename_file, writer_type
    use dondolo_text, only : to_text
@@ -101,7 +101,6 @@ contains
       !> It is something else
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: begin
       integer :: stat
 
       store%path = path
@@ -118,10 +117,7 @@ contains
          call raise_input(error, path//': is no file of counts of dondolo, or cannot be read')
          return
       end if
-      ! A run that was killed when it had hardly begun leaves less than a head.
-      allocate (character(len=min(store%size, 1000_int64)) :: begin)
-      read (store%unit, iostat=stat) begin
-      if (stat /= 0 .or. index(begin, new_line('a')) > 0 .or. .not. begins_like_head(begin)) then
+      if (.not. is_cut_head(store%unit, store%size)) then
          call read_head(store%unit, path, store%identity, store%bytes, error)
          if (.not. allocated(error)) call make_room(store, error)
          if (.not. allocated(error)) call find_rows(store)

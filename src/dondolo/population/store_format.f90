@@ -15,7 +15,7 @@ module dondolo_store_format
    implicit none
    private
 
-   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, begins_like_head
+   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, is_cut_head
 
    !> What the file begins with, and the number of the format
    character(len=*), parameter :: mark = 'dondolo counts ', format_number = '3'
@@ -75,16 +75,23 @@ contains
       head = line//head
    end subroutine make_head
 
-   !> Does the beginning of a file, which may be cut, look like that of a head?
-   pure logical function begins_like_head(text)
-      !> What there is of it
-      character(len=*), intent(in) :: text
+   !> Does a file hold the beginning of a head only? A run was killed when it had hardly begun
+   logical function is_cut_head(unit, size)
+      !> Unit of the file, at its beginning
+      integer, intent(in) :: unit
+      !> Its size
+      integer(int64), intent(in) :: size
 
-      integer :: length
+      character(len=min(size, int(line_bytes, int64))) :: line
+      integer :: stat, length
 
-      length = min(len(text), len(mark))
-      begins_like_head = text(:length) == mark(:length)
-   end function begins_like_head
+      read (unit, pos=1, iostat=stat) line
+      length = min(len(line), len(mark))
+      is_cut_head = stat == 0 .and. line(:length) == mark(:length)
+      if (.not. is_cut_head .or. len(line) < line_bytes) return
+      read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
+      is_cut_head = stat == 0 .and. size < line_bytes + int(length, int64)
+   end function is_cut_head
 
    !> Read the head of a file
    subroutine read_head(unit, path, identity, bytes, error)
