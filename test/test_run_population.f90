@@ -17,7 +17,6 @@ program test_run_population
    use dondolo_store, only : look_into_store, open_store, store_type
    use dondolo_store_format, only : make_head
    use dondolo_study, only : study_type
-   use dondolo_survey, only : number_of_group
    use dondolo_system, only : remove_file
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type

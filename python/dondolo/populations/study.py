@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 
 from dondolo._fortran import _binding
 from dondolo.analysis.request import new_request
-from dondolo.analysis.work import Work
 from dondolo.errors import Interrupted
 from dondolo.populations.blocks import run_walls
 from dondolo.populations.combination import combine
@@ -103,9 +102,9 @@ def typology(
     rows = np.repeat(whole, np.diff(np.append(first, len(people))))
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
-    work = Work.total(run.works)
-    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
-    known = {"flags": run.flags.chosen(np.flatnonzero(rows)), "warnings": (*plan.warnings, *result.warnings)}
+    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, run.work)
+    flags = run.flags.chosen(np.flatnonzero(rows[run.complete]))
+    known = {"flags": flags, "warnings": (*plan.warnings, *result.warnings)}
     result = dataclasses.replace(result, **known)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_number, as_text, shaped
 from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
@@ -29,6 +29,25 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
+
+
+def flat_population(
+    people: Population, levels: FloatArray, counts: IntArray, histories: IntArray
+) -> _binding.FlatPopulation:
+    """A population as Fortran takes it; counts are those of a damage state (rows, levels)."""
+    words = (
+        as_text("group", word)
+        for wall, group in zip(people.walls, people.groups, strict=True)
+        for word in (wall.mechanism, group)
+    )
+    return _binding.FlatPopulation(
+        b"".join(word + b"\n" for word in words),
+        levels,
+        np.ascontiguousarray(counts).T,
+        histories,
+        np.stack([people.weights, people.p_occ]),
+        np.diff(np.append(people.first_rows, len(people))).astype(np.int32),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,8 +298,8 @@ class Typology(Shown):
             No such mechanism or group, or a level that is negative or no number.
         """
         values = as_levels(x)
-        probabilities, _ = self._members(mechanism, group).at(values.ravel())
-        return probabilities.reshape((len(probabilities), *values.shape))
+        _, _, found = self._at(values, np.zeros(0), mechanism, group, members=True)
+        return found.reshape((len(found), *values.shape))
 
     def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
         """Weighted mean of the walls' curves at any levels.
@@ -302,10 +321,8 @@ class Typology(Shown):
             As `probabilities`.
         """
         values = as_levels(x)
-        members = self._members(mechanism, group)
-        parts = (members.at(part) for part in members.parts(values.ravel()))
-        mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
-        return shaped(np.minimum(mean, 1.0), values)
+        mean, _, _ = self._at(values, np.zeros(0), mechanism, group)
+        return shaped(mean, values)
 
     def fractiles(
         self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84), mechanism: str | None = None, group: str = ""
@@ -338,20 +355,17 @@ class Typology(Shown):
             shares = np.array(np.nan)
         if not np.all((shares > 0.0) & (shares <= 1.0)):
             raise InputError("q: must be shares of the weight, above 0 and up to 1")
-        members = self._members(mechanism, group)
-        found = np.zeros((shares.size, values.size))
-        done = 0
-        for part in members.parts(values.ravel()):
-            probabilities, weights = members.at(part)
-            order = np.argsort(probabilities, axis=0, kind="stable")
-            reached = np.cumsum(weights[order], axis=0)
-            # The rounding that Fortran allows, too
-            targets = (shares.ravel() - 1e-12)[:, None] * weights.sum()
-            for k in range(probabilities.shape[1]):
-                place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
-                found[:, done + k] = probabilities[order[place, k], k]
-            done += probabilities.shape[1]
+        _, found, _ = self._at(values, shares.ravel(), mechanism, group)
         return found.reshape(shares.shape + values.shape)
+
+    def _at(
+        self, x: FloatArray, q: FloatArray, mechanism: str | None, group: str, members: bool = False
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Mean, fractiles and, where they are wanted, the members' probabilities of a curve at some levels."""
+        curve = self.group(mechanism, group)
+        population = flat_population(self.population, self.levels, self.collapses.T, self.histories)
+        curves = [(one.status, one.theta, one.beta) for one in self.curves]
+        return _binding.curve_of_population(population, curves, (curve.mechanism, group), x.ravel(), q, members)
 
     def _members(self, mechanism: str | None, group: str) -> Members:
         """The walls behind a curve."""

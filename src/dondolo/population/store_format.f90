@@ -15,7 +15,7 @@ module dondolo_store_format
    implicit none
    private
 
-   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, is_cut_head
+   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entries, is_cut_head
 
    !> What the file begins with, and the number of the format
    character(len=*), parameter :: mark = 'dondolo counts ', format_number = '3'
@@ -181,26 +181,95 @@ contains
 
       character(len=entry_head) :: head
       character(len=:), allocatable :: contents
-      integer(int32) :: numbers(2)
       integer(int64) :: length, room
       integer :: stat
+      logical :: is_whole
 
       bytes = 0
       read (unit, pos=place, iostat=stat) head
       if (stat /= 0) return
+      inquire (unit=unit, size=room)
+      call read_entry_head(head, shape, row, length)
+      if (length == 0 .or. length > room) return
+      allocate (character(len=length - entry_head) :: contents)
+      read (unit, iostat=stat) contents
+      if (stat /= 0) return
+      call unpack_entry(head, contents, shape, row, is_whole)
+      if (is_whole) bytes = length
+   end subroutine read_entry
+
+   !> Rows out of bytes, one behind the other
+   subroutine unpack_entries(bytes, shape, count, rows, are_whole)
+      !> The bytes
+      character(len=*), intent(in) :: bytes
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> How many rows there are
+      integer, intent(in) :: count
+      !> The rows
+      type(row_result_type), allocatable, intent(out) :: rows(:)
+      !> They are as they were packed
+      logical, intent(out) :: are_whole
+
+      integer(int64) :: at, length
+      integer :: i
+
+      allocate (rows(count))
+      at = 0
+      are_whole = .true.
+      do i = 1, count
+         if (at + entry_head <= len(bytes, int64)) then
+            call read_entry_head(bytes(at + 1:at + entry_head), shape, rows(i), length)
+         else
+            length = 0
+         end if
+         are_whole = length > 0 .and. at + length <= len(bytes, int64)
+         if (are_whole) call unpack_entry(bytes(at + 1:at + entry_head), bytes(at + entry_head + 1:at + length), shape, &
+            & rows(i), are_whole)
+         if (.not. are_whole) return
+         at = at + length
+      end do
+   end subroutine unpack_entries
+
+   !> Read what a row begins with
+   subroutine read_entry_head(head, shape, row, length)
+      !> Its first bytes
+      character(len=*), intent(in) :: head
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row: its number and its histories are set
+      type(row_result_type), intent(inout) :: row
+      !> Its length; 0: it is none of this shape
+      integer(int64), intent(out) :: length
+
+      integer(int32) :: numbers(2)
+
       numbers = transfer(head(:8), numbers)
       length = transfer(head(9:guarded), length)
       row%row = numbers(1)
       row%histories = numbers(2)
-      if (row%histories < 1) return
-      inquire (unit=unit, size=room)
-      if (length > room .or. length /= bytes_of_entry(shape, row%histories)) return
-      allocate (character(len=length - entry_head) :: contents)
-      read (unit, iostat=stat) contents
-      if (stat /= 0) return
-      if (fingerprint_of(head(:guarded), contents) /= head(guarded + 1:)) return
-      call unpack_row(contents, shape, row)
-      bytes = length
-   end subroutine read_entry
+      if (row%histories < 1) then
+         length = 0
+      else if (length /= bytes_of_entry(shape, row%histories)) then
+         length = 0
+      end if
+   end subroutine read_entry_head
+
+   !> Take what a row contains, if it is as it was packed
+   subroutine unpack_entry(head, contents, shape, row, is_whole)
+      !> Its first bytes
+      character(len=*), intent(in) :: head
+      !> The bytes behind
+      character(len=*), intent(in) :: contents
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row, with its number and its histories
+      type(row_result_type), intent(inout) :: row
+      !> It is
+      logical, intent(out) :: is_whole
+
+      is_whole = fingerprint_of(head(:guarded), contents) == head(guarded + 1:)
+      if (is_whole) call unpack_row(contents, shape, row)
+   end subroutine unpack_entry
 
 end module dondolo_store_format
