@@ -174,7 +174,7 @@ contains
       !> Part of a file, of any length
       character(len=*), intent(in) :: part
       !> Its first characters
-      character(len=min(len(part), longest_shown + 3*min(len(part)/(longest_shown + 1), 1))) :: shown
+      character(len=merge(longest_shown + 3, len(part), len(part) > longest_shown)) :: shown
 
       shown = part
       if (len(part) > longest_shown) shown(longest_shown + 1:) = '...'
