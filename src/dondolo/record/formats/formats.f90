@@ -93,7 +93,7 @@ contains
          format = known(i)
          return
       end do
-      call raise_input(error, 'format = '''//trim(name)//''': must be one of '//join(known%name))
+      call raise_input(error, 'format = '''//trim(name)//''': must be one of '//join([(known(i)%name, i=1, size(known))]))
    end subroutine find_format
 
    !> Find the format of a text
@@ -119,7 +119,7 @@ contains
          end if
          format = known(i)
       end do
-      if (format%name == '') call raise_input(error, 'the format is not known: must be one of '//join(known%name))
+      if (format%name == '') call raise_input(error, 'the format is not known: must be one of '//join([(known(i)%name, i=1, size(known))]))
    end subroutine recognise_format
 
 end module dondolo_formats
