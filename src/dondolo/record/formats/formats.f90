@@ -1,4 +1,4 @@
-!> The formats of accelerogram files that are known. A new format is one new file with two procedures, and one line here.
+!> The formats of accelerogram files that are known. A new format is one new file with two procedures, and a line here.
 module dondolo_formats
    use dondolo_error, only : error_type, raise_input
    use dondolo_format_asa, only : read_asa, recognises_asa
@@ -93,7 +93,8 @@ contains
          format = known(i)
          return
       end do
-      call raise_input(error, 'format = '''//trim(name)//''': must be one of '//join([(known(i)%name, i=1, size(known))]))
+      call raise_input(error, 'format = '''//trim(name)//''': must be one of '// &
+         & join([(known(i)%name, i=1, size(known))]))
    end subroutine find_format
 
    !> Find the format of a text
@@ -119,7 +120,8 @@ contains
          end if
          format = known(i)
       end do
-      if (format%name == '') call raise_input(error, 'the format is not known: must be one of '//join([(known(i)%name, i=1, size(known))]))
+      if (format%name == '') call raise_input(error, 'the format is not known: must be one of '// &
+         & join([(known(i)%name, i=1, size(known))]))
    end subroutine recognise_format
 
 end module dondolo_formats
