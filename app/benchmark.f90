@@ -3,7 +3,7 @@ module dondolo_benchmark
    use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
    use dondolo_case, only : case_type
-   use dondolo_ensemble, only : engine_text
+   use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
@@ -12,7 +12,7 @@ module dondolo_benchmark
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
    use dondolo_study, only : study_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : counted, rounded, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names
    use dondolo_work, only : work_type
@@ -78,7 +78,7 @@ contains
       end do
       if (.not. quiet) write (output_unit, '(a)') ''
       write (output_unit, '(a)') 'figure of merit: '//to_text(nint(histories*real(team, wp)/weak))// &
-         & ' histories a second on '//to_text(team)//threads_of(team)//', '//to_text(nint(histories/weak))//' on each'
+         & ' histories a second on '//counted(team, 'thread')//', '//to_text(nint(histories/weak))//' on each'
       if (quiet) return
       arithmetic = best_arithmetic(team, 0.1_wp*seconds)
       write (output_unit, '(a)') 'arithmetic of the steps: '//rounded(1.0e-9_wp*rate_of(fingerprint, once=weak, &
@@ -192,11 +192,14 @@ contains
       !> How many times over it is done
       integer, intent(in) :: copies
 
+      character(len=:), allocatable :: engines
+
+      call name_engines(fingerprint%work, engines)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
-         & 'processor: '//processor_name(), &
+         & 'processor: '//trim(processor_name()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
          & 'options: '//compiler_options(), &
-         & 'engine: '//engine_text(fingerprint%work)
+         & 'engine: '//engines
       associate (work => fingerprint%work)
          write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
             & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
@@ -226,16 +229,5 @@ contains
          & 'Collapses agree between machines, compilers and variants, but for histories on the edge of collapse; the', &
          & 'sum may differ by some hundreds, since rocking amplifies rounding errors, and in a few histories they show.'
    end subroutine print_fingerprint
-
-   !> The word thread in the number that follows a count
-   pure function threads_of(number) result(word)
-      !> The count
-      integer, intent(in) :: number
-      !> Blank and word
-      character(len=:), allocatable :: word
-
-      word = ' threads'
-      if (number == 1) word = ' thread'
-   end function threads_of
 
 end module dondolo_benchmark

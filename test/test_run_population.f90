@@ -472,7 +472,7 @@ contains
       call write_file('walls.csv', population//'f,one_sided,3,0.2,,1,old,1'//lf)
       call read_case(scratch//'/a.nml', case, error)
       call run_case(case, results, error, 1)
-      call check_error(error, 'belongs to another study: number of rows 7 there, 8 here; other walls; remove it to begin anew', 'other walls')
+      call check_error(error, 'belongs to another study: number of rows 7 there, 8 here; other walls; remove it', 'other walls')
       call write_file('walls.csv', population)
       call remove_file(path)
    end subroutine test_killed

@@ -103,9 +103,8 @@ def typology(
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
     result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, run.work)
-    flags = run.flags.chosen(np.flatnonzero(rows[run.complete]))
-    known = {"flags": flags, "warnings": (*plan.warnings, *result.warnings)}
-    result = dataclasses.replace(result, **known)
+    flags, told = run.flags.chosen(np.flatnonzero(rows[run.complete])), (*plan.warnings, *result.warnings)
+    result = dataclasses.replace(result, flags=flags, warnings=told)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     _binding.warn(result.warnings)

@@ -1,6 +1,6 @@
 !> What comes of a case.
 module dondolo_results
-   use dondolo_ensemble, only : engine_text
+   use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_lines, only : lines_type
    use dondolo_population_counts, only : population_counts_type
@@ -70,14 +70,14 @@ contains
    function engine(self) result(text)
       !> Results
       class(results_type), intent(in) :: self
-      !> See engine_text
+      !> See name_engines
       character(len=:), allocatable :: text
 
       character(len=:), allocatable :: variant
 
       if (allocated(self%stores)) call self%stores(1)%identity%key%get('build variant', variant)
       ! A variant that is not allocated is an argument that is not present
-      text = engine_text(self%work, variant)
+      call name_engines(self%work, text, variant)
    end function engine
 
    !> Remove the stores
