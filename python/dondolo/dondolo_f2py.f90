@@ -1007,7 +1007,7 @@ end subroutine fit_walls
 
 ! A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
 ! statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
-! probabilities = 1 those of each of its members come as a parcel (members, n)
+! probabilities = 1 a parcel has their number as integer and their probabilities as reals (members, n)
 subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
       & x, n, q, k, probabilities, mean, fractiles, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -1059,6 +1059,7 @@ subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares
       if (probabilities == 1) all(:, first:last) = transpose(p(:, members%column))
    end do
    if (.not. allocated(error) .and. probabilities == 1) then
+      parcel%integers = [size(members%column)]
       parcel%reals = reshape(all, [size(all)])
       call send(parcel, handle, sizes)
    end if

@@ -559,7 +559,10 @@ def curve_of_population(
     texts = (as_text("group", text) for text in which)
     mean, fractiles, *sent = _core.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
     check(*sent[2:])
-    found = receive(*sent).reals.reshape(len(x), -1).T if members else np.zeros((0, len(x)))
+    found = np.zeros((0, len(x)))
+    if members:
+        parcel = receive(*sent)
+        found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
     return mean, fractiles, found
 
 

@@ -133,6 +133,7 @@ contains
       !> Bytes, as many as bytes_of_row says
       character(len=*), intent(out) :: bytes
 
+      real(wp), allocatable :: numbers(:)
       integer(int64) :: at, number
 
       bytes(:work_bytes) = transfer([row%work%histories, row%work%still, row%work%in_lanes, row%work%intervals, &
@@ -142,9 +143,12 @@ contains
       at = at + len(row%flags)
       if (.not. allocated(row%response)) return
       number = real_bytes*size(row%response, kind=int64)
-      bytes(at + 1:at + number) = transfer(row%response%edp, bytes(at + 1:at + number))
+      ! gfortran 12 transfers components of an array of a derived type as if they stood one after the other.
+      numbers = [row%response%edp]
+      bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
       at = at + number
-      bytes(at + 1:at + number) = transfer(row%response%time_of_peak, bytes(at + 1:at + number))
+      numbers = [row%response%time_of_peak]
+      bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
       at = at + number
       number = 4*size(row%response, kind=int64)
       bytes(at + 1:at + number) = transfer(int(row%response%impacts, int32), bytes(at + 1:at + number))

@@ -122,7 +122,7 @@ contains
       if (stat == 0 .and. length > 0 .and. length <= longest_head) then
          allocate (character(len=length) :: head)
          read (unit, iostat=stat) head
-         if (stat == 0 .and. line(len(mark) + 12:) == fingerprint_of(head, '')//new_line('a')) then
+         if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
             at = index(head, new_line('a'))
             read (head(:at - 1), *, iostat=stat) words(1), identity%first, identity%last, words(2), &
                & identity%shape%levels, words(3), identity%shape%states, words(4), keeps, words(5), bits
