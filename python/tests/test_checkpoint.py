@@ -12,7 +12,7 @@ import time
 import numpy as np
 import pytest
 import study
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
 from dondolo.populations.store import Store
 
 import dondolo as dd
@@ -243,9 +243,9 @@ def store_of(path):
     from dondolo.analysis.request import new_request
 
     given = study.arguments()
-    names = ("records", "levels", "im", "polarity", "engine")
-    options = {name: given.get(name, default) for name, default in zip(names, (None, None, "pga", "as_recorded", "auto"))}
-    request = new_request(given["population"].walls, **options, rtol=None, atol=None, edp_limit=None, threads=1)
+    words = {"im": "pga", "polarity": given["polarity"], "engine": "auto"}
+    numbers = {"rtol": None, "atol": None, "edp_limit": None, "threads": 1}
+    request = new_request(given["population"].walls, given["records"], given["levels"], **words, **numbers)
     return Store(path, request, np.array([*given["edp_thresholds"], 1.0]))
 
 

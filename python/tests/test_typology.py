@@ -211,7 +211,6 @@ def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
-    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1e9)
     with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     assert len(caught.value.partial.walls) == 3

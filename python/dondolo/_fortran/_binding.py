@@ -547,10 +547,10 @@ def curve_of_population(
     q: FloatArray,
     members: bool = False,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """A curve of a population at some levels: its mean, fractiles (q, x), and the probabilities of its members (members, x).
+    """A curve of a population at some levels: its mean, fractiles (q, x), and probabilities of its members (members, x).
 
-    Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. Without `members` there
-    are no probabilities.
+    Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. The probabilities are
+    there with `members` only.
     """
     statuses = constants().statuses
     numbers = np.zeros((len(curves), 8))

@@ -23,7 +23,6 @@ from dondolo.walls.wall import Wall
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from dondolo.populations.crew import Crew
 
 IntArray = NDArray[np.int32]
 

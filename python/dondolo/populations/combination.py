@@ -12,7 +12,7 @@ from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.errors import Interrupted
-from dondolo.populations.typology import flat_population, Group, IntArray, Typology
+from dondolo.populations.typology import Group, IntArray, Typology, flat_population
 from dondolo.walls.population import Population
 
 
