@@ -139,12 +139,12 @@ def test_typology_shows_every_wall_and_the_mean(records):
     people = dd.typology(dd.Population(walls), records, levels=LEVELS, progress=False)
     ax = dd.plot_typology(people)
     mean = line(ax, "weighted mean")
-    np.testing.assert_allclose(mean.get_ydata(), people.mean(mean.get_xdata()))
+    np.testing.assert_allclose(mean.get_ydata(), people["all"].mean(mean.get_xdata()))
     grid = mean.get_xdata()
     thin = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
     # Walls, edges of the band and median, mean, lognormal
-    assert len(thin) == 3 + 3 + 1 + people.fit().has_fit
-    np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people.mean_fraction)
+    assert len(thin) == 3 + 3 + 1 + people["all"].fit.has_fit
+    np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people["all"].mean_fraction)
     assert dd.plot_typology(people, mechanism="one_sided").get_title(loc="left") == "one-sided"
     with pytest.raises(dd.InputError, match="must be one of"):
         dd.plot_typology(people, mechanism="two_block")

@@ -110,8 +110,8 @@ def test_python_sources(root):
 def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
-        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "analysis", "populations",
-        "risk", "exchange", "reporting", "__init__", "__main__",
+        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "risk", "analysis",
+        "populations", "exchange", "reporting", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
 
