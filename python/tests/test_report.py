@@ -181,8 +181,8 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["θ [g]"] == four(curve.fit.theta for curve in state.groups)
     table, curve = page.table("Whole population, collapse"), people["all"]
     assert table["mean of curves"] == chances(curve.mean_curve)
-    assert table["16 % fractile"] == chances(curve.fractiles[0])
-    assert table["84 % fractile"] == chances(curve.fractiles[2])
+    assert table["16 % fractile"] == chances(curve.level_fractiles[0])
+    assert table["84 % fractile"] == chances(curve.level_fractiles[2])
     table = page.table("high, one-sided, collapse")
     assert table["50 % fractile"] == chances(people["one_sided", "high"].level_fractiles[1])
     table = page.table("Walls and mechanisms")

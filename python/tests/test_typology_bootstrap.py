@@ -178,10 +178,10 @@ def test_of_a_typology():
     assert np.array_equal(
         light.theta, resample_population(states.population, flags, states.levels, 50, 0, "walls").theta
     )
-    assert np.median(light.theta) < np.median(states.bootstrap(n=50, over="walls").theta)
+    assert np.median(light.theta) < np.median(states["all"].bootstrap(n=50, over="walls").theta)
     # One wall drawn over its records is the bootstrap of its stripes.
     wall = given["population"][2]
-    alone = dd.typology([wall], given["records"], given["levels"], progress=False).bootstrap(n=100, over="records")
+    alone = dd.typology([wall], given["records"], given["levels"], progress=False)["all"].bootstrap(n=100, over="records")
     stripes = dd.multiple_stripe(wall, given["records"], given["levels"], progress=False)
     if stripes.fit().has_fit:
         theta = stripes.fit().bootstrap(n=100).theta
