@@ -181,7 +181,9 @@ def test_of_a_typology():
     assert np.median(light.theta) < np.median(states["all"].bootstrap(n=50, over="walls").theta)
     # One wall drawn over its records is the bootstrap of its stripes.
     wall = given["population"][2]
-    alone = dd.typology([wall], given["records"], given["levels"], progress=False)["all"].bootstrap(n=100, over="records")
+    alone = dd.typology([wall], given["records"], given["levels"], progress=False)["all"].bootstrap(
+        n=100, over="records"
+    )
     stripes = dd.multiple_stripe(wall, given["records"], given["levels"], progress=False)
     if stripes.fit().has_fit:
         theta = stripes.fit().bootstrap(n=100).theta
