@@ -4,14 +4,15 @@ module dondolo_benchmark
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
    use dondolo_case, only : case_type
    use dondolo_counts, only : counts_type
-   use dondolo_ensemble, only : engine_text
+   use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
    use dondolo_population, only : member_type
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_study, only : study_type
+   use dondolo_text, only : counted, rounded, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names
    use dondolo_work, only : work_type
@@ -77,7 +78,7 @@ contains
       end do
       if (.not. quiet) write (output_unit, '(a)') ''
       write (output_unit, '(a)') 'figure of merit: '//to_text(nint(histories*real(team, wp)/weak))// &
-         & ' histories a second on '//to_text(team)//threads_of(team)//', '//to_text(nint(histories/weak))//' on each'
+         & ' histories a second on '//counted(team, 'thread')//', '//to_text(nint(histories/weak))//' on each'
       if (quiet) return
       arithmetic = best_arithmetic(team, 0.1_wp*seconds)
       write (output_unit, '(a)') 'arithmetic of the steps: '//rounded(1.0e-9_wp*rate_of(fingerprint, once=weak, &
@@ -91,7 +92,7 @@ contains
    !> Run the work once, and keep what can be compared
    subroutine find_fingerprint(case, walls, fingerprint, error)
       !> The work
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> What it gives
@@ -99,13 +100,16 @@ contains
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(stripes_type) :: stripes
       integer :: i, kind
 
+      call case%make_study(study)
+      ! All EDPs are compared
+      study%solver%collapses_only = .false.
       do i = 1, size(walls)
          associate (wall => walls(i)%wall)
-            call multiple_stripe(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling%name, &
-               & case%records_input%polarity, case%solver%solver, 0, error)
+            call multiple_stripe(stripes, wall, study, error)
             if (allocated(error)) return
             kind = findloc(mechanism_names == wall%input%mechanism, .true., dim=1)
          end associate
@@ -121,7 +125,7 @@ contains
    !> Time that the work takes, several times over
    subroutine measure(case, walls, copies, threads, seconds, error)
       !> The work
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> How many times over
@@ -133,15 +137,17 @@ contains
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(counts_type), allocatable :: rows(:)
       type(work_type) :: work
       integer(int64) :: start
       real(wp) :: spent(times)
       integer :: i
 
+      call case%make_study(study, threads)
       do i = 1, times
          call system_clock(start)
-         call run_rows(case, repeat_walls(walls, copies), 1, rows, work, error, threads, 0)
+         call run_rows(study, repeat_walls(walls, copies), rows, work, error, 0, 0)
          if (allocated(error)) return
          spent(i) = seconds_since(start)
       end do
@@ -187,14 +193,17 @@ contains
       !> How many times over it is done
       integer, intent(in) :: copies
 
+      character(len=:), allocatable :: engines
+
+      call name_engines(fingerprint%work, engines)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
-         & 'processor: '//processor_name(), &
+         & 'processor: '//trim(processor_name()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
          & 'options: '//compiler_options(), &
-         & 'engine: '//engine_text(fingerprint%work)
+         & 'engine: '//engines
       associate (work => fingerprint%work)
          write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
-            & to_text(size(case%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
+            & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
             & ' levels, '//to_text(copies)//' times over', &
             & '   '//to_text(work%histories)//' histories, '//to_text(work%still)//' of them never move; '// &
             & to_text(work%intervals)//' sample intervals, the wall rocks in '//to_text(work%rocked)//'; '// &
@@ -221,16 +230,5 @@ contains
          & 'Collapses agree between machines, compilers and variants, but for histories on the edge of collapse; the', &
          & 'sum may differ by some hundreds, since rocking amplifies rounding errors, and in a few histories they show.'
    end subroutine print_fingerprint
-
-   !> The word thread in the number that follows a count
-   pure function threads_of(number) result(word)
-      !> The count
-      integer, intent(in) :: number
-      !> Blank and word
-      character(len=:), allocatable :: word
-
-      word = ' threads'
-      if (number == 1) word = ' thread'
-   end function threads_of
 
 end module dondolo_benchmark

@@ -57,15 +57,15 @@ contains
       end if
       call print_records(case)
       if (case%job%task == 'history') then
-         write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
+         write (output_unit, '(a)') 'one history: record '''//case%suite%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
-         call print_warnings(oddities, case%records(case%history%record:case%history%record), case, scales)
+         call print_warnings(oddities, case%suite%records(case%history%record:case%history%record), case, scales)
          return
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
-         & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
+         & trim(list(case%stripes%levels))//case%stripes%scaling%unit_after_blank()
       if (size(case%stripes%thresholds) > 1) &
-         & write (output_unit, '(a)') 'EDP thresholds:'//list(case%stripes%thresholds)
+         & write (output_unit, '(a)') 'EDP thresholds:'//trim(list(case%stripes%thresholds))
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
@@ -74,7 +74,7 @@ contains
          & to_text(file%last - file%first + 1)//' rows, in '//file%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
-      call print_warnings(oddities, case%records, case, scales)
+      call print_warnings(oddities, case%suite%records, case, scales)
    end subroutine print_plan
 
    !> Print what a run would warn of beforehand: last, where it is seen
@@ -168,15 +168,15 @@ contains
       write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%input%name, width), &
          & wall%input%mechanism, wall%input%height, wall%input%thickness, &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
-         & wall%mechanism%capacity, wall%mechanism%restitution, load_of(wall%input)
+         & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall%input))
    end subroutine print_row
 
    !> The load on a wall, and where it bears
    pure function load_of(input) result(text)
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
-      !> Blanks and a few words, empty without a load
-      character(len=:), allocatable :: text
+      !> Blanks and a few words, filled up with blanks; empty without a load
+      character(len=160) :: text
 
       real(wp) :: half
 
@@ -186,11 +186,11 @@ contains
       half = 0.5_wp*input%thickness
       text = '  load '//rounded(input%overburden)//' N/m, '
       if (input%eccentricity < 0.0_wp) then
-         text = text//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
+         text = trim(text)//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
       else if (input%eccentricity > 0.0_wp) then
-         text = text//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
+         text = trim(text)//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
       else
-         text = text//'on the centreline'
+         text = trim(text)//'on the centreline'
       end if
    end function load_of
 
@@ -204,11 +204,11 @@ contains
 
       associate (scaling => case%stripes%scaling)
          ! The PGA stands there anyway
-         if (allocated(case%values) .and. scaling%measure%kind /= 'pga') then
-            table = record_table(case%records, case%solver%gravity, scaling%measure%name, scaling%measure%unit(), &
-               & case%values/scaling%measure%level_size(case%solver%gravity))
+         if (case%is_scaled() .and. scaling%measure%kind /= 'pga') then
+            table = record_table(case%suite%records, case%solver%gravity, scaling%measure%name, scaling%measure%unit(), &
+               & case%suite%values(scaling%measure, case%job%threads)/scaling%measure%level_size(case%solver%gravity))
          else
-            table = record_table(case%records, case%solver%gravity)
+            table = record_table(case%suite%records, case%solver%gravity)
          end if
       end associate
       do i = 1, table%count
@@ -221,14 +221,14 @@ contains
    pure function list(values) result(text)
       !> Numbers
       real(wp), intent(in) :: values(:)
-      !> Their texts
-      character(len=:), allocatable :: text
+      !> Their texts, filled up with blanks
+      character(len=48*size(values)) :: text
 
       integer :: i
 
       text = ''
       do i = 1, size(values)
-         text = text//' '//to_text(values(i))
+         text = trim(text)//' '//to_text(values(i))
       end do
    end function list
 

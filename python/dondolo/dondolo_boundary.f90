@@ -21,7 +21,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum, check_room, &
+   public :: report, split_lines, pack_lines, as_solver, check_rotations, check_spectrum, check_room, &
       & check_parcel, check_trace, check_interrupt
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
@@ -141,20 +141,28 @@ contains
       end do
    end subroutine split_lines
 
-   !> Lines as one text
-   pure function pack_lines(lines) result(text)
+   !> Length of lines as one text
+   pure integer function packed_length(lines) result(length)
       !> Lines
       type(lines_type), intent(in) :: lines
-      !> The same, each ended by new_line
-      character(len=:), allocatable :: text
 
-      integer :: i, length, at
+      integer :: i
 
       length = 0
       do i = 1, lines%count
          length = length + len(lines%line(i)%text) + 1
       end do
-      allocate (character(len=length) :: text)
+   end function packed_length
+
+   !> Lines as one text
+   pure function pack_lines(lines) result(text)
+      !> Lines
+      type(lines_type), intent(in) :: lines
+      !> The same, each ended by new_line
+      character(len=packed_length(lines)) :: text
+
+      integer :: i, length, at
+
       at = 0
       do i = 1, lines%count
          length = len(lines%line(i)%text) + 1
@@ -254,17 +262,6 @@ contains
       call look_for_interrupt(interrupted)
       if (interrupted == 1) call raise_failure(error, 'interrupted')
    end subroutine check_interrupt
-
-   !> Check a number of threads
-   subroutine check_threads(threads, error)
-      !> Number
-      integer(c_int), intent(in) :: threads
-      !> It makes no sense
-      type(error_type), allocatable, intent(out) :: error
-
-      if (threads < 0 .or. threads > 4096) &
-         & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
-   end subroutine check_threads
 
    !> Check the oscillators of a response spectrum
    subroutine check_spectrum(periods, damping, error)

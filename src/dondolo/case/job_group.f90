@@ -5,7 +5,7 @@ module dondolo_job_group
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_text, only : join, lower, to_text
-   use dondolo_ensemble, only : largest_threads
+   use dondolo_threads, only : largest_threads
    implicit none
    private
 
