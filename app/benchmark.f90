@@ -25,7 +25,7 @@ module dondolo_benchmark
    integer, parameter :: times = 3
 
    !> What the work gives, once
-   type :: fingerprint_type
+   type :: outcome_type
       !> Collapses and histories of each mechanism
       integer :: collapses(size(mechanism_names)) = 0, histories(size(mechanism_names)) = 0
       !> Sum of all EDPs, each rounded to a millionth [1e-6]
@@ -33,7 +33,7 @@ module dondolo_benchmark
       !> What was computed, and multiplications and additions of its steps
       type(work_type) :: work
       real(wp) :: operations = 0.0_wp
-   end type fingerprint_type
+   end type outcome_type
 
 contains
 
@@ -50,7 +50,7 @@ contains
 
       type(case_type) :: work
       type(member_type), allocatable :: walls(:)
-      type(fingerprint_type) :: fingerprint
+      type(outcome_type) :: fingerprint
       character(len=160) :: line
       real(wp) :: once, alone, strong, weak, histories, arithmetic
       integer :: copies, team
@@ -96,7 +96,7 @@ contains
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> What it gives
-      type(fingerprint_type), intent(out) :: fingerprint
+      type(outcome_type), intent(out) :: fingerprint
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
@@ -173,7 +173,7 @@ contains
    !> Multiplications and additions of steps a second
    pure real(wp) function rate_of(fingerprint, once, copies)
       !> What the work gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
       !> Time of a measurement [s]
       real(wp), intent(in) :: once
       !> How many times over the work was done in it
@@ -189,7 +189,7 @@ contains
       !> Number of its walls
       integer, intent(in) :: walls
       !> What it gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
       !> How many times over it is done
       integer, intent(in) :: copies
 
@@ -217,7 +217,7 @@ contains
    !> Print what can be compared with other machines
    subroutine print_fingerprint(fingerprint)
       !> What the work gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
 
       integer :: i
 

@@ -184,13 +184,13 @@ contains
       if (.not. allocated(input%overburden)) return
       if (.not. input%overburden > 0.0_wp) return
       half = 0.5_wp*input%thickness
-      text = '  load '//rounded(input%overburden)//' N/m, '
+      text = '  load '//rounded(input%overburden)//' N/m'
       if (input%eccentricity < 0.0_wp) then
-         text = trim(text)//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
+         text = trim(text)//', '//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
       else if (input%eccentricity > 0.0_wp) then
-         text = trim(text)//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
+         text = trim(text)//', '//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
       else
-         text = trim(text)//'on the centreline'
+         text = trim(text)//', on the centreline'
       end if
    end function load_of
 
