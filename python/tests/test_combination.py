@@ -447,6 +447,7 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cost $x_{$", "_east", "__"])
 def test_figures_of_groups_with_any_name(name, tmp_path):
     walls = [(wall[0], name, *wall[2:]) for wall in WALLS[:3]]

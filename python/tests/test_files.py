@@ -55,6 +55,7 @@ def people(few):
     return dd.typology(population, few, levels, polarity="both", edp_thresholds=[0.3], progress=False)
 
 
+@pytest.mark.slow
 def test_a_typology_is_saved_and_read_back(people, tmp_path):
     prefix = tmp_path / "city"
     people.save(prefix)

@@ -80,6 +80,7 @@ def frequency(curve):
     return 0.5 * (p[1:] + p[:-1]) @ -np.diff(2e-5 * x**-2.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["facades", "centre"])
 def test_functions_are_the_mean_curves(which, request, tmp_path):
     people = request.getfixturevalue(which)

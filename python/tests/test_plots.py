@@ -205,6 +205,7 @@ def test_one_sided_walls_do_not_turn_inwards(wall):
         dd.plot_wall(wall, rotation=-0.01)
 
 
+@pytest.mark.slow
 def test_animation_follows_the_motion(motion, tmp_path):
     animation = dd.animate_history(motion, frames_per_second=2, speed=4.0)
     animation.save(tmp_path / "motion.gif", writer="pillow")
@@ -219,6 +220,7 @@ def command(*arguments, folder):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "figures"),
     [

@@ -20,6 +20,8 @@ import pytest
 import dondolo as dd
 from dondolo import _page
 
+pytestmark = pytest.mark.slow
+
 matplotlib.use("agg")
 
 VOID = {"meta", "link", "img", "br", "hr", "input"}

@@ -406,6 +406,7 @@ def test_time_ends_at_the_saturation(people, records):
     assert alone.probability(200.0) == pytest.approx(one.probability(200.0), rel=1e-7)
 
 
+@pytest.mark.slow
 def test_deaggregation(hazard, curve):
     risk = dd.mean_annual_frequency(curve, hazard)
     edges = np.array([0.001, 0.1, 0.3, 0.5, 0.7, 1.0, 9.0])
@@ -595,6 +596,7 @@ def test_shown(hazard, curve):
     assert list(hazard.to_frame()["pga"]) == LEVELS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("endless", [False, True])
 def test_figure(hazard, curve, endless):
     hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
