@@ -466,8 +466,9 @@ contains
       do k = 1, 3
          do i = 1, size(numbers)
             if (.not. weights(i) > 0.0_wp .or. numbers(i) >= found(k)) cycle
-            if (sum(weights, numbers <= numbers(i)) >= (fractile_shares(k) - 1.0e-12_wp)*sum(weights)) &
-               & found(k) = numbers(i)
+            if (sum(weights, numbers <= numbers(i)) >= (fractile_shares(k) - 1.0e-12_wp)*sum(weights)) then
+               found(k) = numbers(i)
+            end if
          end do
       end do
    end function sorted_fractiles

@@ -17,7 +17,7 @@ from dondolo.populations.store import Store
 
 import dondolo as dd
 
-pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 
 # Says of every block that it is run and that it is kept, and ends with all results in a folder
 RUN = """

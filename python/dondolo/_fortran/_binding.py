@@ -511,8 +511,8 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     parcel = receive(*_core.fit_walls(population.texts, names, *population[1:]))
     levels, histories, rows = population.levels, population.histories, population.rows
     m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
-    names = ("", *constants().statuses)
-    status = [names[code] for code in parcel.integers[1 : 1 + r + w + number]]
+    known = ("", *constants().statuses)
+    status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
     walls = parcel.integers[1 + r + w + number :]
     numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
@@ -547,7 +547,7 @@ def curve_of_population(
     q: FloatArray,
     members: bool = False,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """A curve of a population at some levels: its mean, fractiles (q, x), and probabilities of its members (members, x).
+    """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
 
     Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. The probabilities are
     there with `members` only.

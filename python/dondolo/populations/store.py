@@ -73,7 +73,8 @@ class Store:
 
     def complete(self) -> NDArray[np.bool_]:
         """Which rows are there, shape (rows,)."""
-        return _core.store_state(self._handle, len(self._request.walls))[0].astype(bool)
+        there: IntArray = _core.store_state(self._handle, len(self._request.walls))[0]
+        return there.astype(bool)
 
     def claim(self) -> None:
         """Make the file this process's; a `DondoloError` tells that it cannot be written, or that another run does."""
