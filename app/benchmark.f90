@@ -107,7 +107,7 @@ contains
             call multiple_stripe(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling%name, &
                & case%records_input%polarity, case%solver%solver, 0, error)
             if (allocated(error)) return
-            kind = findloc(mechanism_names == wall%input%mechanism, .true., dim=1)
+            kind = findloc(mechanism_names == wall%mechanism_name(), .true., dim=1)
          end associate
          fingerprint%collapses(kind) = fingerprint%collapses(kind) + sum(stripes%collapses())
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)

@@ -17,14 +17,15 @@ module dondolo_case
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
+   use dondolo_settings_group, only : echo_settings, read_values
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
    use dondolo_stripes, only : measure_records
    use dondolo_stripes_group, only : check_states, echo_stripes, read_stripes_group, stripes_input_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
-   use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use dondolo_wall_group, only : echo_wall, read_wall
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type
    implicit none
    private
 
@@ -110,7 +111,7 @@ contains
       if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
       if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
       if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
-      if (.not. allocated(error)) call read_wall(namelist%group('wall'), wall, error)
+      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error)
       if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
@@ -208,7 +209,7 @@ contains
       if (.not. allocated(error)) &
          & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
       call group%locate(error)
-      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
+      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall
 
    !> Check what belongs together
@@ -404,7 +405,7 @@ contains
       if (allocated(self%population_file)) then
          call echo_population(self%population_file, lines)
       else
-         call echo_wall(self%wall%input, lines)
+         call echo_settings('wall', self%wall%input, lines, last='restitution_factor')
       end if
       call echo_records(self%records_input, lines)
       if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, lines)

@@ -116,7 +116,7 @@ contains
       integer :: k
 
       row%continues = member%continues
-      row%mechanism = findloc(mechanism_names == member%wall%input%mechanism, .true., dim=1)
+      row%mechanism = findloc(mechanism_names == member%wall%mechanism_name(), .true., dim=1)
       row%group = number_of_group(case%survey%groups, member%group)
       row%weight = member%weight
       row%p_occ = member%p_occ
@@ -139,7 +139,7 @@ contains
             work = stripes%work
             if (case%job%histories) call move_alloc(stripes%response, row%response)
          end if
-         call add_place(error, 'wall '''//member%wall%input%name//'''')
+         call add_place(error, 'wall '''//member%wall%name()//'''')
       end associate
    end subroutine run_row
 
