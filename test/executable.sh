@@ -518,7 +518,7 @@ s/thickness = 0.25/thickness = 0.25 hinge = 0.5/|bad.nml: &wall: hinge = 0.5: on
 s/thickness = 0.25/thickness = 0.25 overburden = 10/|bad.nml: &wall: overburden = 10: only for mechanism = 'two_block'
 s/thickness = 0.25/thickness = 0.25 eccentricity = 0.1/|bad.nml: &wall: eccentricity = 0.1: only for mechanism
 s/one_sided'/two_block' hinge = 1/|bad.nml: &wall: hinge = 1: must lie between 0.01 and 0.99
-s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9
+s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must lie between 0 and 1e9 N/m
 s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
 s/one_sided'/two_block' bearing = 'inner'/|bad.nml: &wall: bearing_distance: must be given with bearing = 'inner'
 s/one_sided'/two_block' bearing = 'centre' eccentricity = 0/|bad.nml: &wall: eccentricity = 0: give either eccentricity or bearing
@@ -584,7 +584,7 @@ s/edp_limit = 1.0/edp_limit = 0/|bad.nml: &solver: edp_limit = 0: must be positi
 s/edp_limit = 1.0/estimate_error = yes/|bad.nml: &solver: estimate_error = yes: must be .true. or .false.
 s/edp_limit = 1.0/estimate_error = '.true.'/|bad.nml: &solver: estimate_error = '.true.': must be .true. or .false.
 s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
-s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive and at most 1000 m/s2 (line 27)
+s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive (line 27)
 s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81
 s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8): not for task = 'stripes', which takes &wall
 8,13d|bad.nml: &wall: must be given for task = 'stripes' (line 3)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from dondolo import _binding
 from dondolo._files import as_file
 from dondolo._result_file import ResultFile
 from dondolo.combination import combine
@@ -24,17 +25,8 @@ from dondolo.typology import Typology
 from dondolo.walls import MECHANISMS, Wall
 from dondolo.work import Work
 
-# Columns of _walls.csv and the arguments of a wall
-_WALL_COLUMNS = {
-    "height_m": "height",
-    "thickness_m": "thickness",
-    "density_kg_m3": "density",
-    "hinge": "hinge",
-    "restitution_value": "restitution_value",
-    "restitution_factor": "restitution_factor",
-    "overburden_n_m": "overburden",
-    "eccentricity_m": "eccentricity",
-}
+# Columns of _walls.csv and the numbers of a wall
+_WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
 
 
 @dataclass(frozen=True)

@@ -102,17 +102,7 @@ def walls_table(
         return [getattr(wall, what, None) for wall in walls]
 
     return {
-        "wall": column("name"),
-        "mechanism": column("mechanism"),
-        "height_m": column("height"),
-        "thickness_m": column("thickness"),
-        "density_kg_m3": column("density"),
-        "hinge": column("hinge"),
-        "restitution_model": column("restitution"),
-        "restitution_value": column("restitution_value"),
-        "restitution_factor": column("restitution_factor"),
-        "overburden_n_m": column("overburden"),
-        "eccentricity_m": column("eccentricity"),
+        **{row.column: column(row.name) for row in _binding.WALL_PROPERTIES if row.column},
         "alpha_rad": column("slenderness_angle"),
         "p_rad_s": column("frequency_parameter"),
         "trigger_acceleration_m_s2": column("trigger_acceleration"),
@@ -126,8 +116,7 @@ def walls_table(
 
 def population_table(population: Population) -> Table:
     """Columns of a population's table, as it is read."""
-    names = ("name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value")
-    names += ("restitution_factor", "overburden", "eccentricity")
+    names = [row.name for row in _binding.WALL_PROPERTIES if row.column]
     table: Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
 

@@ -2,8 +2,8 @@
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type, raise_input, status_missing
-   use dondolo_history_group, only : echo_history, find_record, history_input_type, read_history_group
-   use dondolo_job_group, only : echo_job, job_type, read_job
+   use dondolo_history_group, only : find_record, history_input_type, read_history_group
+   use dondolo_job_group, only : job_type, read_job
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : check_variant
    use dondolo_lines, only : lines_type
@@ -11,16 +11,18 @@ module dondolo_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
-   use dondolo_population_group, only : echo_population, read_population_group
+   use dondolo_population_group, only : put_population, read_population_group
+   use dondolo_property_tables, only : group_names
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_set, only : new_record_set, record_set_type
-   use dondolo_records_group, only : echo_records, read_records_group, records_input_type
+   use dondolo_records_group, only : read_records_group, records_input_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
+   use dondolo_settings, only : group_settings_type
    use dondolo_settings_group, only : echo_settings, read_values
-   use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
+   use dondolo_solver_group, only : read_solver_group, solver_input_type
    use dondolo_stripes, only : measure_records
-   use dondolo_stripes_group, only : check_states, echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_stripes_group, only : check_states, read_stripes_group, stripes_input_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
@@ -34,10 +36,6 @@ module dondolo_case
 
    !> Memory that a sample of a record takes while the records are measured and joined [bytes]
    real(wp), parameter :: bytes_of_sample = 64.0_wp
-
-   !> Groups of a case
-   character(len=10), parameter :: group_names(7) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
-      & 'stripes', 'solver', 'history']
 
    !> A case
    type :: case_type
@@ -401,16 +399,27 @@ contains
       !> Lines to add to
       type(lines_type), intent(inout) :: lines
 
-      call echo_job(self%job, lines)
+      type(group_settings_type) :: settings
+
+      call self%job%put(settings)
+      call echo_settings('job', settings, lines, owner=self%job%task)
       if (allocated(self%population_file)) then
-         call echo_population(self%population_file, lines)
+         call put_population(self%population_file, settings)
+         call echo_settings('population', settings, lines)
       else
          call echo_settings('wall', self%wall%input, lines, last='restitution_factor')
       end if
-      call echo_records(self%records_input, lines)
-      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, lines)
-      call echo_solver(self%solver, lines)
-      if (self%job%task == 'history') call echo_history(self%history, lines)
+      call self%records_input%put(settings)
+      call echo_settings('records', settings, lines)
+      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) then
+         call self%stripes%put(settings)
+         call echo_settings('stripes', settings, lines)
+      end if
+      call self%solver%put(settings)
+      call echo_settings('solver', settings, lines, beside='atol')
+      if (self%job%task /= 'history') return
+      call self%history%put(settings)
+      call echo_settings('history', settings, lines)
    end subroutine echo
 
    !> Paths of the files it is made of

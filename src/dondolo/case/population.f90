@@ -294,19 +294,17 @@ contains
       real(wp) :: number
       integer :: i, column
 
-      table => settings%table()
+      call settings%get_table(table)
       do i = 1, size(table)
-         associate (name => trim(table(i)%name))
-            column = given(reader, name)
-            if (column == 0) cycle
-            if (table(i)%kind == is_text) then
-               call settings%set(name, reader%table%get_text(column))
-               cycle
-            end if
-            call reader%table%get_real(column, number, error)
-            if (.not. allocated(error)) call settings%set(name, number)
-            call problems%take(error)
-         end associate
+         column = given(reader, trim(table(i)%name))
+         if (column == 0) cycle
+         if (table(i)%kind == is_text) then
+            call settings%set(table(i)%name, reader%table%get_text(column))
+            cycle
+         end if
+         call reader%table%get_real(column, number, error)
+         if (.not. allocated(error)) call settings%set(table(i)%name, number)
+         call problems%take(error)
       end do
    end subroutine read_cells
 

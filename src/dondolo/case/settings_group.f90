@@ -26,7 +26,7 @@ contains
       type(property_type), pointer :: table(:)
       integer :: i
 
-      table => settings%table()
+      call settings%get_table(table)
       call group%check_names(table%name, error)
       do i = 1, size(table)
          if (allocated(error)) return
@@ -45,36 +45,35 @@ contains
       !> It is of the wrong type
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: name, text
       real(wp), allocatable :: list(:)
       real(wp) :: number
       integer :: kind, whole
       logical :: yes
 
-      associate (name => trim(property%name))
-         kind = property%kind
-         if (kind == is_number_or_name) kind = merge(is_text, is_integer, group%has_text(name))
-         select case (kind)
-         case (is_text)
-            call group%get_text(name, text, error)
-            if (.not. allocated(error)) call settings%set(name, text)
-         case (is_integer)
-            whole = 0
-            call group%get_integer(name, whole, error)
-            if (.not. allocated(error)) call settings%set(name, whole)
-         case (is_logical)
-            yes = .false.
-            call group%get_logical(name, yes, error)
-            if (.not. allocated(error)) call settings%set(name, yes)
-         case (is_list)
-            call group%get_reals(name, list, error)
-            if (.not. allocated(error)) call settings%set(name, list)
-         case default
-            number = 0.0_wp
-            call group%get_real(name, number, error)
-            if (.not. allocated(error)) call settings%set(name, number)
-         end select
-      end associate
+      name = trim(property%name)
+      kind = property%kind
+      if (kind == is_number_or_name) kind = merge(is_text, is_integer, group%has_text(name))
+      select case (kind)
+      case (is_text)
+         call group%get_text(name, text, error)
+         if (.not. allocated(error)) call settings%set(name, text)
+      case (is_integer)
+         whole = 0
+         call group%get_integer(name, whole, error)
+         if (.not. allocated(error)) call settings%set(name, whole)
+      case (is_logical)
+         yes = .false.
+         call group%get_logical(name, yes, error)
+         if (.not. allocated(error)) call settings%set(name, yes)
+      case (is_list)
+         call group%get_reals(name, list, error)
+         if (.not. allocated(error)) call settings%set(name, list)
+      case default
+         number = 0.0_wp
+         call group%get_real(name, number, error)
+         if (.not. allocated(error)) call settings%set(name, number)
+      end select
    end subroutine read_value
 
    !> Read a group: defaults filled in, ranges checked
@@ -116,7 +115,7 @@ contains
       character(len=:), allocatable :: start, text
       integer :: i, at
 
-      table => settings%table()
+      call settings%get_table(table)
       do i = 1, size(table)
          if (present(last)) then
             if (table(i)%name == last) cycle
@@ -139,15 +138,15 @@ contains
          !> Its place in the table
          integer, intent(in) :: k
 
-         associate (property => table(k), variable => trim(table(k)%name))
-            if (.not. settings%has(variable)) return
+         associate (property => table(k))
+            if (.not. settings%has(property%name)) return
             if (present(owner)) then
                if (.not. has_owner(property, owner)) return
             end if
             call make_assignment(property, settings, text)
             if (present(beside)) then
                at = assignments%count
-               if (variable == beside .and. at > 0) then
+               if (property%name == beside .and. at > 0) then
                   assignments%line(at)%text = assignments%line(at)%text//', '//text
                   return
                end if
@@ -167,24 +166,24 @@ contains
       !> `name = value`
       character(len=:), allocatable, intent(out) :: text
 
+      character(len=:), allocatable :: name
       integer :: kind
 
-      associate (name => trim(property%name))
-         kind = property%kind
-         if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(name))
-         select case (kind)
-         case (is_text)
-            text = assignment_text(name, settings%word(name))
-         case (is_integer)
-            text = assignment_text(name, nint(settings%number(name)))
-         case (is_logical)
-            text = assignment_text(name, settings%holds(name))
-         case (is_list)
-            text = assignment_text(name, settings%list(name))
-         case default
-            text = assignment_text(name, settings%number(name))
-         end select
-      end associate
+      name = trim(property%name)
+      kind = property%kind
+      if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(name))
+      select case (kind)
+      case (is_text)
+         text = assignment_text(name, settings%word(name))
+      case (is_integer)
+         text = assignment_text(name, nint(settings%number(name)))
+      case (is_logical)
+         text = assignment_text(name, settings%holds(name))
+      case (is_list)
+         text = assignment_text(name, settings%list(name))
+      case default
+         text = assignment_text(name, settings%number(name))
+      end select
    end subroutine make_assignment
 
 end module dondolo_settings_group

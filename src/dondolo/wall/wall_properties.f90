@@ -55,8 +55,8 @@ module dondolo_wall_properties
       &   'from the centreline towards the active top hinge: the outer face where the wall folds outwards, negative '// &
       &   'for an inner bearing'), &
       & property_type('bearing', is_text, optional=.true., owners=two_block, replaced=.true., example='centre', &
-      &   choices=reshape(bearing_names, [most_choices], pad=blank), meaning='instead of the eccentricity: where that '// &
-      &   'load bears'), &
+      &   choices=reshape(bearing_names, [most_choices], pad=blank), meaning='where that load bears, '// &
+      &   'instead of the eccentricity'), &
       & property_type('bearing_distance', unit='m', optional=.true., owners=two_block, replaced=.true., &
       &   example='0.06', meaning='distance of the load''s resultant from the inner or the outer face: half the '// &
       &   'length that joists bear')]
@@ -75,23 +75,23 @@ module dondolo_wall_properties
    !> What a user says of a wall
    type, extends(settings_type) :: wall_input_type
    contains
-      procedure :: table
+      procedure :: get_table
       procedure :: find
    end type wall_input_type
 
 contains
 
    !> The table
-   function table(self)
+   subroutine get_table(self, table)
       !> What is said of a wall
       class(wall_input_type), intent(in) :: self
       !> The properties of walls
-      type(property_type), pointer :: table(:)
+      type(property_type), pointer, intent(out) :: table(:)
 
       associate (of => self)
       end associate
       table => wall_properties
-   end function table
+   end subroutine get_table
 
    !> Place of a property in the table
    pure integer function find(self, name)

@@ -9,7 +9,8 @@ module dondolo_property
    implicit none
    private
 
-   public :: property_type, find_property, column_name, has_owner, number_of_choices, check_number, check_word
+   public :: property_type, find_property, has_owner, number_of_choices, check_number, check_word
+   public :: column_name, default_text, describe_property
    public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name
    public :: choices_length, most_choices, blank, no_limit
 
@@ -59,8 +60,10 @@ module dondolo_property
       character(len=choices_length) :: owners(most_choices) = ''
       !> What a text that must be given names, for messages
       character(len=40) :: names = ''
+      !> What can take its place, where one of both must be given
+      character(len=24) :: instead = ''
       !> What a template shows, where it is not the default
-      character(len=32) :: example = ''
+      character(len=40) :: example = ''
       !> Column in tables of results, where it is not the name and the unit
       character(len=24) :: column = ''
       !> Does another property take its place when a wall is made of it?
@@ -121,16 +124,6 @@ contains
       number_of_choices = count(len_trim(choices) > 0)
    end function number_of_choices
 
-   !> A limit as it stands in messages
-   pure function limit_text(limit) result(text)
-      !> Limit
-      real(wp), intent(in) :: limit
-      !> Its shortest text: 1e9 rather than 1000000000
-      character(len=len_trim(short_limit(limit))) :: text
-
-      text = short_limit(limit)
-   end function limit_text
-
    !> A limit with few characters
    pure function short_limit(limit) result(text)
       !> Limit
@@ -144,6 +137,91 @@ contains
       zeros = len_trim(text) - verify(trim(text), '0', back=.true.)
       if (index(text, '.') == 0 .and. zeros > 4) text = text(:len_trim(text) - zeros)//'e'//to_text(zeros)
    end function short_limit
+
+   !> A limit as it stands in messages
+   pure function limit_text(limit) result(text)
+      !> Limit
+      real(wp), intent(in) :: limit
+      !> Its shortest text: 1e9 rather than 1000000000
+      character(len=len_trim(short_limit(limit))) :: text
+
+      text = short_limit(limit)
+   end function limit_text
+
+   !> A property as a line: name, kind, unit, 'required', 'optional' or its default, smallest and largest value, choices,
+   !> owners, column (empty where it has none) and meaning, with a tab between two; entries with several names have blanks between
+   subroutine describe_property(property, line)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Its line
+      character(len=:), allocatable, intent(out) :: line
+
+      character(len=7), parameter :: kinds(6) = [character(len=7) :: 'real', 'integer', 'text', 'logical', 'list', 'either']
+      character(len=:), allocatable :: default
+
+      call default_text(property, default)
+      line = trim(property%name)
+      call add(kinds(property%kind))
+      call add(property%unit)
+      call add(trim(merge('required', merge('optional', '        ', property%optional), property%required))//default)
+      call add(to_text(property%smallest))
+      call add(to_text(property%largest))
+      call add(listed(property%choices))
+      call add(listed(property%owners))
+      call add(merge(repeat(' ', len(property%column)), column_name(property), property%replaced))
+      call add(property%meaning)
+
+   contains
+
+      !> Add an entry
+      subroutine add(entry)
+         !> The entry
+         character(len=*), intent(in) :: entry
+
+         line = line//achar(9)//trim(entry)
+      end subroutine add
+
+      !> Names with blanks between
+      pure function listed(names) result(text)
+         !> Names, empty ones after them
+         character(len=*), intent(in) :: names(:)
+         !> Text
+         character(len=(choices_length + 1)*most_choices) :: text
+
+         integer :: i
+
+         text = ''
+         do i = 1, number_of_choices(names)
+            text = trim(text)//' '//names(i)
+         end do
+         text = adjustl(text)
+      end function listed
+
+   end subroutine describe_property
+
+   !> Default of a property as it stands in a namelist, without the quotes of a text; empty where it has none
+   pure subroutine default_text(property, text)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Text
+      character(len=:), allocatable, intent(out) :: text
+
+      text = ''
+      if (property%required .or. property%optional) return
+      select case (property%kind)
+      case (is_text)
+         text = trim(property%word)
+      case (is_logical)
+         text = trim(merge('.true. ', '.false.', property%default > 0.0_wp))
+      case (is_list)
+         text = ''
+      case (is_integer, is_number_or_name)
+         text = to_text(nint(property%default))
+      case default
+         text = to_text(property%default)
+         if (verify(text, '-0123456789') == 0) text = text//'.0'
+      end select
+   end subroutine default_text
 
    !> What is allowed of a number, if it is not
    pure subroutine check_number(property, value, allowed)

@@ -37,7 +37,7 @@ module dondolo_settings
       character(len=:), allocatable :: unknown
    contains
       !> The table
-      procedure(table_interface), deferred :: table
+      procedure(table_interface), deferred :: get_table
       !> Place of a property in it
       procedure(find_interface), deferred :: find
       !> Has a property a value?
@@ -66,13 +66,13 @@ module dondolo_settings
 
    abstract interface
       !> The table of properties
-      function table_interface(self) result(table)
+      subroutine table_interface(self, table)
          import :: property_type, settings_type
          !> Settings
          class(settings_type), intent(in) :: self
          !> Their table, which stays as it is
-         type(property_type), pointer :: table(:)
-      end function table_interface
+         type(property_type), pointer, intent(out) :: table(:)
+      end subroutine table_interface
 
       !> Place of a property in the table, 0 if it has none of this name
       pure integer function find_interface(self, name)
@@ -90,7 +90,7 @@ module dondolo_settings
       !> Their table
       type(property_type), pointer :: rows(:) => null()
    contains
-      procedure :: table => group_table
+      procedure :: get_table => get_group_table
       procedure :: find => find_in_group
    end type group_settings_type
 
@@ -107,14 +107,14 @@ contains
    end subroutine new_settings
 
    !> The table of the settings of a group
-   function group_table(self) result(table)
+   subroutine get_group_table(self, table)
       !> Settings
       class(group_settings_type), intent(in) :: self
       !> Their table
-      type(property_type), pointer :: table(:)
+      type(property_type), pointer, intent(out) :: table(:)
 
       table => self%rows
-   end function group_table
+   end subroutine get_group_table
 
    !> Place of a property in the table of a group
    pure integer function find_in_group(self, name) result(at)
@@ -240,13 +240,16 @@ contains
       !> Its place, 0 if there is none
       integer, intent(out) :: at
 
+      type(property_type), pointer :: table(:)
+
       at = self%find(name)
       if (at == 0) then
          if (.not. allocated(self%unknown)) self%unknown = name
          return
       end if
       if (.not. allocated(self%known)) then
-         allocate (self%known(size(self%table())), source=.false.)
+         call self%get_table(table)
+         allocate (self%known(size(table)), source=.false.)
          allocate (self%numbers(size(self%known)), source=0.0_wp)
          allocate (self%words(size(self%known)))
       end if
@@ -306,7 +309,7 @@ contains
 
       call self%prepare(name, at)
       if (at == 0) return
-      table => self%table()
+      call self%get_table(table)
       if (len_trim(table(at)%choices(1)) > 0) then
          self%words(at)%text = lower(trim(value))
       else
@@ -356,7 +359,7 @@ contains
       type(property_type), pointer :: table(:)
       integer :: i
 
-      table => self%table()
+      call self%get_table(table)
       do i = 1, size(table)
          associate (property => table(i))
             if (property%required .or. property%optional .or. self%has(property%name)) cycle
@@ -443,14 +446,15 @@ contains
       character(len=*), intent(in), optional :: owner
 
       type(property_type), pointer :: table(:)
-      character(len=:), allocatable :: allowed
+      character(len=:), allocatable :: name, allowed
       integer :: i
 
-      table => self%table()
+      call self%get_table(table)
       if (allocated(self%unknown)) &
          & call problems%note(self%unknown//': no such variable; there are '//join(table%name))
       do i = 1, size(table)
-         associate (property => table(i), name => trim(table(i)%name))
+         name = trim(table(i)%name)
+         associate (property => table(i))
             if (present(owner)) then
                if (.not. has_owner(property, owner)) then
                   if (len(owner) > 0 .and. self%has(name)) call problems%note(name//' = '//value_text(self, i)// &
