@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding
+from dondolo._fortran import _binding
 from dondolo._page import (
     ROWS,
     Markup,
@@ -27,12 +27,12 @@ from dondolo._page import (
 )
 from dondolo._report_run import Run, quoted
 from dondolo._report_words import BETA, THETA, date_in_words, state_name, status_table
-from dondolo.motion import Response
-from dondolo.records import Record
-from dondolo.results import heads
-from dondolo.stripes import Stripes
-from dondolo.style import mechanism_name
-from dondolo.typology import Typology
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.exchange.results import heads
+from dondolo.figures.style import mechanism_name
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
 
 
 def inputs_chapter(run: Run) -> Markup:

@@ -6,22 +6,22 @@ import functools
 import warnings
 from typing import Any
 
-from dondolo import _binding
+from dondolo._fortran import _binding
 from dondolo._page import Markup, figure, joined, number, paragraph, percent, table
 from dondolo._report_typology import combined
 from dondolo._report_words import Chapter, state_name
 from dondolo.errors import DondoloWarning
-from dondolo.hazard import HazardCurve
-from dondolo.risk import between
-from dondolo.typology import Typology
+from dondolo.populations.typology import Typology
+from dondolo.risk.frequency import between
+from dondolo.risk.hazard import HazardCurve
 
 _YEARS = 50.0
 
 
 def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter, list[str]]:
     """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
-    from dondolo.risk import mean_annual_frequency
-    from dondolo.risk_plots import plot_risk
+    from dondolo.risk.frequency import mean_annual_frequency
+    from dondolo.risk.plots import plot_risk
 
     population = isinstance(results, Typology)
     if population:

@@ -11,15 +11,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo.cases import Results
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.fragility import Fragility
-from dondolo.motion import Response
-from dondolo.population import Population
-from dondolo.records import Record
-from dondolo.results import StoredResults, heads
-from dondolo.stripes import Stripes
-from dondolo.typology import Typology
+from dondolo.exchange.cases import Results
+from dondolo.exchange.results import StoredResults, heads
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.walls.population import Population
 
 _STATES = (0.1, 0.4, 1.0)
 

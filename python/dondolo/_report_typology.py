@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding, style
+from dondolo._fortran import _binding
 from dondolo._page import (
     Markup,
     cards,
@@ -35,8 +35,9 @@ from dondolo._report_words import (
     with_unit,
 )
 from dondolo.errors import DondoloError
-from dondolo.style import counted, mechanism_name
-from dondolo.typology import Group, Typology
+from dondolo.figures import style
+from dondolo.figures.style import counted, mechanism_name
+from dondolo.populations.typology import Group, Typology
 
 # Samples of the bootstrap
 _SAMPLES = 500
@@ -83,7 +84,7 @@ def typology_chapters(people: Typology) -> list[Chapter]:
 
 
 def _typology_figures(people: Typology) -> Markup:
-    from dondolo.plots_typology import plot_combination, plot_damage_states, plot_groups, plot_typology
+    from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
 
     of_all = [curve for curve in people.groups if not curve.group]
     pieces = [

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding
+from dondolo._fortran import _binding
 from dondolo._page import (
     Markup,
     cards,
@@ -33,9 +33,9 @@ from dondolo._report_words import (
     state_name,
     with_unit,
 )
-from dondolo.fragility import Fragility
-from dondolo.motion import Response
-from dondolo.stripes import Stripes
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fragility import Fragility
 
 # Samples of the bootstrap
 _SAMPLES = 2000
@@ -72,8 +72,8 @@ def stripes_chapters(stripes: Stripes, curve: Fragility, thresholds: Sequence[fl
 
 
 def _stripes_figures(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> Markup:
-    from dondolo.plots import plot_fragility, plot_stripes
-    from dondolo.plots_typology import plot_damage_states
+    from dondolo.analysis.plots import plot_fragility, plot_stripes
+    from dondolo.populations.plots import plot_damage_states
 
     unit = f" {_binding.unit_of(stripes.im)}".rstrip()
     levels = ", ".join(
@@ -159,7 +159,7 @@ def _stripes_uncertainty(curve: Fragility) -> Markup:
         "covariance (delta method)": curve.parameter_interval(),
         "profile likelihood": curve.parameter_interval(method="profile"),
     }
-    if curve.stripes is not None:
+    if curve.sample is not None:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(_SAMPLES).parameter_interval()
     columns: dict[Any, Any] = {"method": list(methods)}
     for letter, name in ((THETA, "theta"), (BETA, "beta")):
@@ -189,8 +189,8 @@ def response_cards(motion: Response) -> Markup:
 
 def response_chapters(motion: Response) -> list[Chapter]:
     """Figures of a motion."""
-    from dondolo.drawing import plot_wall
-    from dondolo.plots import plot_history
+    from dondolo.analysis.drawing import plot_wall
+    from dondolo.analysis.plots import plot_history
 
     outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
     pieces = [

@@ -10,10 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from dondolo import _binding, style
-from dondolo._arguments import FloatArray
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _binding
 from dondolo._page import Markup, facts, joined, number, symbol, table, tag, whole
-from dondolo.fragility import Fragility
+from dondolo.curves.fragility import Fragility
+from dondolo.figures import style
 
 Chapter = tuple[str, str, Markup]
 THETA = symbol("θ")

@@ -6,24 +6,25 @@ import os
 from collections.abc import Sequence
 from datetime import datetime
 
-from dondolo import _binding, tables
 from dondolo import _report_inputs as asked
-from dondolo._arguments import as_text
-from dondolo._files import check_replaced
+from dondolo._base.arguments import as_text
+from dondolo._base.files import check_replaced
+from dondolo._fortran import _binding
 from dondolo._page import Markup, joined, page, paragraph, tag, whole
 from dondolo._report_risk import risk_chapter
 from dondolo._report_run import Run, run_of
 from dondolo._report_typology import typology_cards, typology_chapters, typology_sentences
 from dondolo._report_wall import response_cards, response_chapters, stripes_cards, stripes_chapters
 from dondolo._report_words import date_in_words, symbols
-from dondolo.cases import Results
+from dondolo._storage import tables
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
 from dondolo.errors import InputError, silent
-from dondolo.hazard import HazardCurve
-from dondolo.motion import Response
-from dondolo.results import StoredResults
-from dondolo.stripes import Stripes
-from dondolo.style import mechanism_name
-from dondolo.typology import Typology
+from dondolo.exchange.cases import Results
+from dondolo.exchange.results import StoredResults
+from dondolo.figures.style import mechanism_name
+from dondolo.populations.typology import Typology
+from dondolo.risk.hazard import HazardCurve
 
 _GENERATOR = "dondolo report"
 

@@ -5,7 +5,7 @@ module dondolo_records_group
    use dondolo_property, only : blank, choices_length, is_text, most_choices, property_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
-   use dondolo_stripes, only : polarity_names
+   use dondolo_study, only : polarity_names
    implicit none
    private
 

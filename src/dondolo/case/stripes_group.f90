@@ -7,7 +7,7 @@ module dondolo_stripes_group
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
-   use dondolo_stripes, only : check_levels, check_thresholds
+   use dondolo_study, only : check_levels, check_thresholds
    use dondolo_text, only : to_text
    implicit none
    private
