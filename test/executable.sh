@@ -482,7 +482,7 @@ done <<'TABLE'
 s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &population
 s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
 s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
-s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'threads'
+s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'threads'
 s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are 'engine', 'rtol'
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
@@ -673,7 +673,7 @@ people "a row too short" "${head}a,one_sided,3\n" 'walls.csv: line 2: 3 cells: m
 printf '%b' "${head}a,one_sided,-3,0.3,1\nb,one_sided,3,0.3,1\nb,one_sided,3,0.3,1\nc,arch,3,-0.3,1\n" >walls.csv
 run people.nml
 check "population: everything wrong at once" equal "$(cut -c 1-40 stderr | tr '\n' ';')" \
-   "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: thickness = ;dondolo: walls.csv: line 5: mechanism = ;"
+   "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;dondolo: walls.csv: line 5: thickness = ;"
 check "population: everything wrong at once: exit code" equal "$rc" 2
 people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1\n" \
    "walls.csv: line 2: name = 'a [2Jb': must stand on one line, without control characters"

@@ -235,6 +235,8 @@ contains
       character(len=:), allocatable :: unit
 
       associate (least => property%smallest, most => property%largest)
+         ! What has no range of its own is checked against other properties
+         if (.not. (property%positive .or. least > -no_limit .or. most < no_limit)) return
          unit = ''
          if (len_trim(property%unit) > 0) unit = ' '//trim(property%unit)
          if (property%positive .and. .not. value >= tiny(value)) then
