@@ -254,7 +254,7 @@ contains
       call input%set('name', 'wall '//to_text(self%row))
       member%has_name = given(self, 'name') > 0
       call read_cells(self, input, problems)
-      call member%wall%input%set('name', input%word('name'))
+      call member%wall%input%set('name', trim(input%word('name')))
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       call problems%take(error)

@@ -91,6 +91,7 @@ contains
       if (.not. any(mechanism == mechanism_names)) mechanism = ''
       bears = input%has('bearing') .or. input%has('bearing_distance')
       call wall%input%fill(mechanism)
+      call wall%input%set('name', trim(wall%input%word('name')))
       if (bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
       call wall%input%check(problems, 'mechanism', mechanism)
       call check_number(gravity_property, wall%gravity, allowed)

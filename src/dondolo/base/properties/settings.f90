@@ -313,7 +313,7 @@ contains
       if (len_trim(table(at)%choices(1)) > 0) then
          self%words(at)%text = lower(trim(value))
       else
-         self%words(at)%text = trim(value)
+         self%words(at)%text = value
       end if
    end subroutine set_word
 
@@ -362,7 +362,10 @@ contains
       call self%get_table(table)
       do i = 1, size(table)
          associate (property => table(i))
-            if (property%required .or. property%optional .or. self%has(property%name)) cycle
+            if (property%required .or. property%optional) cycle
+            if (allocated(self%known)) then
+               if (self%known(i)) cycle
+            end if
             if (present(owner)) then
                if (.not. has_owner(property, owner)) cycle
             end if
@@ -446,29 +449,28 @@ contains
       character(len=*), intent(in), optional :: owner
 
       type(property_type), pointer :: table(:)
-      character(len=:), allocatable :: name, allowed
+      character(len=:), allocatable :: allowed
       integer :: i
 
       call self%get_table(table)
       if (allocated(self%unknown)) &
          & call problems%note(self%unknown//': no such variable; there are '//join(table%name))
       do i = 1, size(table)
-         name = trim(table(i)%name)
          associate (property => table(i))
             if (present(owner)) then
                if (.not. has_owner(property, owner)) then
-                  if (len(owner) > 0 .and. self%has(name)) call problems%note(name//' = '//value_text(self, i)// &
-                     & ': only for '//label//' = '//one_of(property%owners))
+                  if (len(owner) > 0 .and. is_known(i)) call problems%note(trim(property%name)//' = '// &
+                     & value_text(self, i)//': only for '//label//' = '//one_of(property%owners))
                   cycle
                end if
             end if
-            if (.not. self%has(name)) then
+            if (.not. is_known(i)) then
                if (.not. property%required) cycle
                allowed = 'must be given'
                if (len_trim(property%names) > 0) allowed = allowed//', '//trim(property%names)
                if (len_trim(property%choices(1)) > 0) allowed = allowed//', one of '// &
                   & join(property%choices(:number_of_choices(property%choices)))
-               call problems%note(name//': '//allowed)
+               call problems%note(trim(property%name)//': '//allowed)
                cycle
             end if
             select case (property%kind)
@@ -480,9 +482,20 @@ contains
             case default
                if (allocated(allowed)) deallocate (allowed)
             end select
-            if (allocated(allowed)) call problems%note(name//' = '//value_text(self, i)//': '//allowed)
+            if (allocated(allowed)) call problems%note(trim(property%name)//' = '//value_text(self, i)//': '//allowed)
          end associate
       end do
+
+   contains
+
+      !> Has a property a value?
+      pure logical function is_known(at)
+         !> Its place
+         integer, intent(in) :: at
+
+         is_known = allocated(self%known)
+         if (is_known) is_known = self%known(at)
+      end function is_known
 
    end subroutine check
 
