@@ -189,7 +189,7 @@ def constants() -> Constants:
 
 @functools.cache
 def properties(group: str) -> tuple[Property, ...]:
-    """The table of properties of a group of a case ('wall', 'solver' ...), or of the rows of a population ('member')."""
+    """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
     rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
     return tuple(
         Property(*row[:4], float(row[4]), float(row[5]), tuple(row[6].split()), tuple(row[7].split()), *row[8:])

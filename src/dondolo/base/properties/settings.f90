@@ -371,7 +371,7 @@ contains
             end if
             select case (property%kind)
             case (is_text)
-               call self%set(property%name, property%word)
+               call self%set(property%name, trim(property%word))
             case (is_list)
                call self%set(property%name, [real(wp) ::])
             case default
