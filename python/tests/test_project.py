@@ -156,7 +156,6 @@ def test_no_single_precision_at_the_boundary():
 
 #: Functions of `case` that are still to be rewritten; the list only becomes shorter.
 NOT_YET = {
-    "beside",
     "between",
     "bound",
     "counts_of",
@@ -165,14 +164,10 @@ NOT_YET = {
     "fragility_row",
     "given",
     "history_row",
-    "in_line",
     "integer_assignment",
     "list_assignment",
     "logical_assignment",
-    "not_a_number",
     "pack_counts",
-    "place",
-    "population_path",
     "quoted",
     "real_assignment",
     "some_names",
