@@ -298,7 +298,7 @@ contains
          fraction = 0.0_wp
          weight = 0.0_wp
          do i = 1, size(rows)
-            if (members(i)%wall%input%mechanism /= results%typologies(1, k)%mechanism) cycle
+            if (members(i)%wall%mechanism_name() /= results%typologies(1, k)%mechanism) cycle
             weight = weight + members(i)%weight*members(i)%p_occ
             reached = rows(i)%reached(shape_type(size(reached, 1), 2))
             fraction = fraction + members(i)%weight*members(i)%p_occ*real(reached(:, k), wp)/real(rows(i)%histories, wp)
@@ -336,7 +336,7 @@ contains
       end associate
       ! The first row can be run, no other can.
       members = members([1, (2, i=1, 7)])
-      members(2)%wall%input%name = 'the first'
+      call members(2)%wall%input%set('name', 'the first')
       do threads = 1, 4
          call run_some_rows(case, members, 1, rows, error, threads)
          call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')

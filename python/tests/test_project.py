@@ -56,7 +56,7 @@ def rooms_of(folder):
     ("folder", "rooms"),
     [
         (".", ["base", "record", "wall", "motion", "fragility", "population", "case"]),
-        ("base", ["numerics", "text", "system"]),
+        ("base", ["numerics", "text", "properties", "system"]),
     ],
 )
 def test_rooms(root, folder, rooms):
@@ -67,9 +67,6 @@ def test_rooms(root, folder, rooms):
         for name in re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M):
             # The build variants of a module are at home where it is.
             known = homes[re.sub("_(avx2|avx512)$", "", name)]
-            if name == "dondolo_wall_group":
-                # The columns of a population are still those of a namelist group.
-                continue
             assert rooms.index(known) <= rooms.index(room), f"{path.name} uses {name}"
 
 

@@ -93,11 +93,11 @@ contains
          if (.not. allocated(error) .and. .not. found) &
             & call raise_failure(error, case%population_path()//': has changed while it was read')
          if (allocated(error)) exit
-         associate (input => member%wall%input, curve => results%population%curve(size(case%stripes%thresholds), i))
-            call fits%look(curve, input%name)
+         associate (curve => results%population%curve(size(case%stripes%thresholds), i))
+            call fits%look(curve, member%wall%name())
             if (i > shown_rows) cycle
-            results%shown(i)%name = input%name
-            results%shown(i)%mechanism = input%mechanism
+            results%shown(i)%name = member%wall%name()
+            results%shown(i)%mechanism = member%wall%mechanism_name()
             results%shown(i)%curve = curve
          end associate
       end do

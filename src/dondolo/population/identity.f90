@@ -5,8 +5,12 @@ module dondolo_identity
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant
    use dondolo_row_result, only : shape_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_key, only : add_settings
+   use dondolo_solver, only : put_solver, solver_properties, solver_type
    use dondolo_store_format, only : identity_type
    use dondolo_study, only : study_type
+   use dondolo_study_key, only : study_key_type
    use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
    use dondolo_version, only : dondolo_version_text
@@ -25,34 +29,8 @@ contains
       !> The wall, with one mechanism
       type(wall_type), intent(in) :: wall
 
-      associate (input => wall%input)
-         call fingerprint%add_text(input%mechanism)
-         call fingerprint%add_text(input%restitution)
-         call add_number(input%height)
-         call add_number(input%thickness)
-         call add_number(input%density)
-         call add_number(input%hinge)
-         call add_number(input%restitution_value)
-         call add_number(input%restitution_factor)
-         call add_number(input%overburden)
-         call add_number(input%eccentricity)
-         call fingerprint%add_reals([wall%gravity])
-      end associate
-
-   contains
-
-      !> Add a number, or that it does not apply
-      subroutine add_number(number)
-         !> The number
-         real(wp), allocatable, intent(in) :: number
-
-         if (allocated(number)) then
-            call fingerprint%add_reals([number])
-         else
-            call fingerprint%add_integer(0)
-         end if
-      end subroutine add_number
-
+      call add_settings(fingerprint, wall%input)
+      call fingerprint%add_reals([wall%gravity])
    end subroutine add_wall
 
    !> Identity of some rows of a population under a study
@@ -79,10 +57,7 @@ contains
          call key%add('im', study%scaling%name)
          call key%add('levels', list_of(study%levels))
          call key%add('polarity', study%polarity)
-         call key%add('engine', trim(study%solver%engine))
-         call key%add('rtol', to_text(study%solver%rtol))
-         call key%add('atol', to_text(study%solver%atol))
-         call key%add('edp_limit', to_text(study%solver%edp_limit))
+         call add_solver(key, study%solver)
          call key%add('edp_thresholds', list_of(study%thresholds))
          call key%add('histories', trim(merge('kept    ', 'not kept', study%keeps_histories)))
       end associate
@@ -90,6 +65,30 @@ contains
       identity%first = first
       identity%last = last
    end subroutine study_identity
+
+   !> Add the settings of the computation that change results
+   subroutine add_solver(key, solver)
+      !> The identity
+      type(study_key_type), intent(inout) :: key
+      !> The settings
+      type(solver_type), intent(in) :: solver
+
+      type(group_settings_type) :: settings
+      integer :: i
+
+      call new_settings(settings, solver_properties)
+      call put_solver(solver, settings)
+      do i = 1, size(solver_properties)
+         associate (name => solver_properties(i)%name)
+            if (.not. (solver_properties(i)%changes_results .and. settings%has(name))) cycle
+            if (settings%has_word(name)) then
+               call key%add(trim(name), trim(settings%word(name)))
+            else
+               call key%add(trim(name), to_text(settings%number(name)))
+            end if
+         end associate
+      end do
+   end subroutine add_solver
 
    !> Fingerprint of accelerograms
    pure function records_fingerprint(suite) result(text)

@@ -58,7 +58,7 @@ contains
       self%count = self%count + 1
       if (len(member%group) > 0 .and. number_of_group(self%groups, member%group) == 0) call self%groups%add(member%group)
       self%row(self%count) = roster_row_type(member%continues, &
-         & findloc(mechanism_names == member%wall%input%mechanism, .true., dim=1), &
+         & findloc(mechanism_names == member%wall%mechanism_name(), .true., dim=1), &
          & number_of_group(self%groups, member%group), member%weight, member%p_occ)
    end subroutine add
 

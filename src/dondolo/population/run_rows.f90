@@ -101,7 +101,7 @@ contains
 
       call plan_stripes(stripes, wall, study, error)
       if (allocated(error)) then
-         call add_place(error, 'wall '''//wall%input%name//'''')
+         call add_place(error, 'wall '''//wall%name()//'''')
          return
       end if
       call run_histories(stripes, wall, study, threads)
