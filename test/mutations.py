@@ -191,12 +191,6 @@ EDITS = [
     ),
     # Populations
     Edit(
-        "probabilities of mechanisms in series are added",
-        "whole[walls] += (1.0 - whole[walls]) * rows[row]",
-        "whole[walls] += rows[row]",
-        "test_combination.py::test_mean_of_all_mechanisms",
-    ),
-    Edit(
         "the mean of one mechanism ignores its probabilities of occurrence",
         "weights = people.weights[rows] * people.p_occ[rows]",
         "weights = people.weights[rows]",

@@ -117,7 +117,7 @@ def test_complete(whole, tmp_path, monkeypatch):
     assert of(again, tmp_path / "out") == whole
     other = dd.typology(**study.arguments(checkpoint=path, population=dd.Population(people.walls)))
     assert np.array_equal(other.collapses, again.collapses)
-    assert not np.array_equal(other.mean_fraction, again.mean_fraction)
+    assert not np.array_equal(other["all"].mean_fraction, again["all"].mean_fraction)
 
 
 def test_ctrl_c(whole, tmp_path, monkeypatch):
