@@ -169,26 +169,13 @@ def test_no_single_precision_at_the_boundary():
 #: Functions of `case` that are still to be rewritten; the list only becomes shorter.
 NOT_YET = {
     "between",
-    "bound",
-    "counts_of",
     "counts_path",
-    "engine",
-    "fragility_row",
-    "given",
-    "history_row",
     "integer_assignment",
     "list_assignment",
     "logical_assignment",
     "pack_counts",
-    "quoted",
     "real_assignment",
-    "some_names",
-    "stripes_row",
     "text_assignment",
-    "typology_row",
-    "unit_of_levels",
-    "wall_cells",
-    "wall_row",
 }
 
 
