@@ -6,7 +6,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo.analysis.work import Work
-from dondolo.curves import members
 from dondolo.populations import plots
 from dondolo.populations.combination import combine
 from matplotlib.colors import to_rgba

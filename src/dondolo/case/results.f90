@@ -59,7 +59,7 @@ module dondolo_results
       type(lines_type) :: warnings
    contains
       !> The engines that have run, with the build variant
-      procedure :: engine
+      procedure :: name_engines => name_engines_that_ran
       !> Remove the stores
       procedure :: remove_stores
    end type results_type
@@ -67,18 +67,18 @@ module dondolo_results
 contains
 
    !> The engines that have run, with the build variant; counts that were merged may be of another than this one
-   function engine(self) result(text)
+   subroutine name_engines_that_ran(self, text)
       !> Results
       class(results_type), intent(in) :: self
       !> See name_engines
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       character(len=:), allocatable :: variant
 
       if (allocated(self%stores)) call self%stores(1)%identity%key%get('build variant', variant)
       ! A variant that is not allocated is an argument that is not present
       call name_engines(self%work, text, variant)
-   end function engine
+   end subroutine name_engines_that_ran
 
    !> Remove the stores
    subroutine remove_stores(self)
