@@ -243,9 +243,9 @@ def store_of(path):
     from dondolo.analysis.request import new_request
 
     given = study.arguments()
-    words = {"im": "pga", "polarity": given["polarity"], "engine": "auto"}
-    numbers = {"rtol": None, "atol": None, "edp_limit": None, "threads": 1}
-    request = new_request(given["population"].walls, given["records"], given["levels"], **words, **numbers)
+    request = new_request(
+        given["population"].walls, given["records"], given["levels"], "pga", given["polarity"], dd.Solver(), threads=1
+    )
     return Store(path, request, np.array([*given["edp_thresholds"], 1.0]))
 
 
