@@ -46,7 +46,9 @@ def test_fortran_sources(root):
 def rooms_of(folder):
     """The rooms in a folder: {file: room} and {module: room}."""
     files = {path: path.relative_to(folder).parts[0] for path in folder.glob("**/*.[fF]90")}
-    homes = {name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    homes = {
+        name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)
+    }
     return files, homes
 
 
@@ -98,7 +100,10 @@ def test_python_sources(root):
     text = (root / "python/meson.build").read_text()
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
     package = root / "python/dondolo"
-    there = {f"dondolo/{file.relative_to(package)}" for file in package.glob("**/*.py")} | {"dondolo/py.typed"}
+    there = {f"dondolo/{file.relative_to(package)}" for file in package.glob("**/*.py")} | {
+        "dondolo/py.typed",
+        "dondolo/_fortran/_core.pyi",
+    }
     assert listed == there
 
 
@@ -129,6 +134,14 @@ def test_python_rooms(root):
                     assert there in rooms, f"{path.name} imports {name}"
                     assert rooms.index(there) <= rooms.index(here), f"{path.name} imports {name}"
     assert seen == set(rooms)
+
+
+def test_types(root):
+    """Every annotation holds: mypy in its strict mode."""
+    pytest.importorskip("mypy", reason="mypy is not installed")
+    command = [sys.executable, "-m", "mypy", "--config-file", root / "pyproject.toml"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_no_single_precision_at_the_boundary():

@@ -21,9 +21,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, as_path, as_text
 from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
-_PACKAGE = Path(__file__).parents[1]
+_PACKAGE = str(Path(__file__).parents[1]) + os.sep
 
 WALL_NUMBERS = (
     "height",
@@ -157,8 +158,12 @@ class PopulationData(NamedTuple):
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     defaults, version, statuses = _core.constants()
+    rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
-        *(float(value) for value in defaults),
+        rtol,
+        atol,
+        edp_limit,
+        gravity,
         version=version.decode().strip(),
         statuses=tuple(statuses.decode().split()),
     )
@@ -180,7 +185,7 @@ def build_variant() -> str:
     """
     name, stat, message = _core.variant()
     check(stat, message)
-    return name.decode().strip()
+    return str(name.decode().strip())
 
 
 def check(stat: int, message: bytes) -> None:
@@ -219,7 +224,7 @@ def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Par
 def warn(sentences: Iterable[str]) -> None:
     """Warn of each sentence, where the user's own line is."""
     frame, depth = sys._getframe(), 1
-    while frame.f_back is not None and _PACKAGE in Path(frame.f_code.co_filename).parents:
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, depth = frame.f_back, depth + 1
     for sentence in sentences:
         warnings.warn(sentence, DondoloWarning, stacklevel=depth)
@@ -308,15 +313,16 @@ def describe_walls(
     return unpack_walls(parcel, count)
 
 
-def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
+def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     """J, C, G, L, Q and V of a wall, one row each, in the shape of the rotations."""
     try:
         values, shape = np.ravel(rotation), np.shape(rotation)
     except ValueError:
         raise InputError("rotation: must be numbers") from None
-    terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
+    terms, stat, message = _core.wall_terms(wall.number, as_array("rotation", values))
     check(stat, message)
-    return terms.T.reshape(6, *shape)
+    found: FloatArray = terms.T.reshape(6, *shape)
+    return found
 
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
@@ -326,7 +332,9 @@ def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, 
     masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
     return [
         WallData(
-            *parcel.lines[lines + 3 * i : lines + 3 * i + 3],
+            parcel.lines[lines + 3 * i],
+            parcel.lines[lines + 3 * i + 1],
+            parcel.lines[lines + 3 * i + 2],
             {
                 what: value if mask else None
                 for what, value, mask in zip(WALL_NUMBERS, row[:known], given[:known], strict=True)
@@ -435,7 +443,8 @@ def describe_measure(im: str, of_record: bool = False) -> MeasureData:
 @functools.cache
 def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
     parcel = receive(*_core.describe_measure(im, int(of_record)))
-    return MeasureData(*parcel.lines, power=int(parcel.integers[0]))
+    name, unit, title = parcel.lines
+    return MeasureData(name, unit, title, int(parcel.integers[0]))
 
 
 def unit_of(im: str) -> str:
@@ -444,20 +453,6 @@ def unit_of(im: str) -> str:
         return describe_measure(im).unit
     except InputError:
         return ""
-
-
-def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0) -> FloatArray:
-    """Intensities of records, in the unit of the levels."""
-    values, stat, message = _core.intensities(as_text("im", im), *records, gravity, threads)
-    check(stat, message)
-    return values
-
-
-def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
-    """The values that records are scaled by."""
-    values, stat, message = _core.scaling_values(as_text("im", im), *records, threads)
-    check(stat, message)
-    return values
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
@@ -497,9 +492,15 @@ def fit_walls(
         mean_fraction, mean_curve, fractiles, curve = np.split(row[6:], np.cumsum([m, m, 3 * m]))
         together.append(
             GroupData(
-                *parcel.lines[2 * i : 2 * i + 2],
+                parcel.lines[2 * i],
+                parcel.lines[2 * i + 1],
                 int(walls[i]),
-                *(float(number) for number in row[:6]),
+                float(row[0]),
+                float(row[1]),
+                float(row[2]),
+                float(row[3]),
+                float(row[4]),
+                float(row[5]),
                 mean_fraction,
                 mean_curve,
                 np.ascontiguousarray(fractiles.reshape(m, 3).T),
@@ -509,15 +510,15 @@ def fit_walls(
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, parcel.lines[2 * number :])
 
 
-def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:
+def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
-    return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+    return receive(*_core.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code)).lines
 
 
-def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[str]:
+def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[str]:
     """What the executable would warn of, of a wall and a record, before it runs one motion."""
-    handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
+    handle, *rest = _core.warn_of_motion(wall.number, record.encode(), pga)
     return receive(handle, *rest).lines if handle else []
 
 
@@ -533,4 +534,5 @@ def warnings_of_errors(
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
-    return _core.probability(theta, beta, x)
+    found: FloatArray = _core.probability(theta, beta, x)
+    return found

@@ -17,8 +17,9 @@ from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.errors import InputError, Interrupted
-from dondolo.records.record import Record, flatten
+from dondolo.records.record import Record, upload
 from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
 # A wall that overturns after its impact has had energy for the way over the top before it, and more by 1/e^2: with
 # x = e/sqrt(1 - e^2) the fall of a slender block from 5 alpha takes at most (asinh(x) + asinh(4 x))/p: 9/p for 0.999.
@@ -156,7 +157,7 @@ class OverturningSpectrum(Shown):
             "map": lambda: {
                 "frequency_hz": np.repeat(self.frequencies, count),
                 "amplitude_g": np.tile(self.amplitudes, len(self.frequencies)),
-                "state": [State(value).name.lower() for value in self.state.T.ravel()],
+                "state": [State(int(value)).name.lower() for value in self.state.T.ravel()],
                 "edp": self.edp.T.ravel(),
                 "impacts": self.impacts.T.ravel(),
             },
@@ -281,7 +282,8 @@ def overturning_spectrum(
     ]
     if not stopped:
         brackets, stopped = _bisect(runner, brackets, width, f"{wall.name}: boundaries")
-    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in outcome[:3])
+    flat: tuple[Any, ...] = tuple(outcome[:3])
+    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in flat)
     scanned = frequency[:complete].copy()
     for array in (scanned, amplitude, states, edp, impacts):
         array.flags.writeable = False
@@ -373,14 +375,12 @@ class _Runner(NamedTuple):
         return state, edp, impacts
 
     def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
-        used, record = np.unique(places, return_inverse=True)
-        pulses = tuple(self.pulses[i] for i in used)
-        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in pulses])[record]
+        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in self.pulses])[places]
         with _binding.stoppable():
             edp, collapsed, impacts, time, stat, message = _core.run_scaled(
-                *self.wall._flat,
-                *flatten(pulses),
-                (record + 1).astype(np.int32),
+                upload_walls((self.wall,)).number,
+                upload(self.pulses).number,
+                (np.asarray(places) + 1).astype(np.int32),
                 np.ascontiguousarray(scale),
                 self.engine,
                 self.settings,

@@ -14,8 +14,8 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.errors import DondoloError, InputError
-from dondolo.records.record import Record
-from dondolo.walls.wall import Wall
+from dondolo.records.record import Record, place_of
+from dondolo.walls.wall import Wall, upload
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,7 +86,7 @@ class Response(Shown):
         return facts
 
     def _table(self) -> tables.Table:
-        if self.time is None:
+        if self.time is None or self.rotation is None:
             raise DondoloError("this response has no time history: simulate with history=True")
         return history_table(self)
 
@@ -168,10 +168,8 @@ def simulate(
     settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
     with _binding.stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
-            *wall._flat,
-            record.acceleration,
-            record.dt,
-            record.name.encode(),
+            upload((wall,)).number,
+            *place_of(record),
             factor,
             as_text("engine", engine),
             settings,
@@ -198,7 +196,7 @@ def simulate(
 @functools.lru_cache
 def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return _binding.warnings_of_motion(wall._flat, record, pga)
+    return _binding.warnings_of_motion(upload((wall,)), record, pga)
 
 
 def history_table(response: Response) -> tables.Table:
@@ -208,7 +206,7 @@ def history_table(response: Response) -> tables.Table:
         "ground_acceleration_m_s2": response.ground_acceleration,
         "rotation_rad": response.rotation,
         "velocity_rad_s": response.velocity,
-        "edp": np.abs(response.rotation) / response.wall.capacity_angle,
+        "edp": np.abs(np.asarray(response.rotation)) / response.wall.capacity_angle,
         "side": np.asarray(response.side, dtype=int),
         "after_impact": np.asarray(response.after_impact, dtype=int),
     }

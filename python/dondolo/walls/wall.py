@@ -12,8 +12,12 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import html_of
-from dondolo._fortran import _binding
+from dondolo._fortran import _binding, _core
+from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
+
+# What is left out gets its value from Fortran; from then on it is there.
+_DEFAULT: Any = None
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
@@ -53,12 +57,12 @@ class Wall:
 
     height: float
     thickness: float
-    density: float | None = None
-    restitution: str | None = None
+    density: float = _DEFAULT
+    restitution: str = _DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
-    gravity: float | None = None
-    name: str | None = None
+    gravity: float = _DEFAULT
+    name: str = _DEFAULT
 
     def __post_init__(self, *bearing: Any) -> None:
         if not self.mechanism:
@@ -88,45 +92,56 @@ class Wall:
         object.__setattr__(other, "name", name)
         return other
 
+    def __getstate__(self) -> dict[str, Any]:
+        # What was uploaded stays in its process, and a copy may get another name.
+        return {what: value for what, value in self.__dict__.items() if what != "_handle"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
     @property
     def _flat(self) -> _binding.FlatWall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
         return _binding.flat_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity)
 
+    def _static(self, place: int) -> float:
+        """One of the static quantities, in the order of Fortran."""
+        return float(self.__dict__["_statics"][place])
+
     @property
     def radius(self) -> float:
         """Half diagonal R [m], of the lower block of a two-block wall."""
-        return self._statics[0]
+        return self._static(0)
 
     @property
     def slenderness_angle(self) -> float:
         """Slenderness angle alpha [rad], of the lower block of a two-block wall."""
-        return self._statics[1]
+        return self._static(1)
 
     @property
     def frequency_parameter(self) -> float:
         """Frequency parameter p [rad/s]; p^2 = 3 g/(4 R) for one block."""
-        return self._statics[2]
+        return self._static(2)
 
     @property
     def trigger_acceleration(self) -> float:
         """Ground acceleration at which the wall begins to rock [m/s2]."""
-        return self._statics[3]
+        return self._static(3)
 
     @property
     def capacity_angle(self) -> float:
         """Rotation at which the restoring moment vanishes [rad]."""
-        return self._statics[4]
+        return self._static(4)
 
     @property
     def restitution_coefficient(self) -> float:
         """Speed after an impact / speed before it, 0 <= e < 1."""
-        return self._statics[5]
+        return self._static(5)
 
     @property
     def two_sided(self) -> bool:
         """Does it rock to both sides?"""
-        return self._two_sided
+        return bool(self.__dict__["_two_sided"])
 
     def terms(self, rotation: ArrayLike) -> Terms:
         """Terms of the equation of motion at given rotations.
@@ -159,7 +174,7 @@ class Wall:
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
         """
-        return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
+        return Terms(*_binding.wall_terms(upload((self,)), rotation)[:5])
 
     def potential(self, rotation: ArrayLike) -> FloatArray:
         """Potential energy of gravity and of carried loads at given rotations.
@@ -183,7 +198,8 @@ class Wall:
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
         """
-        return _binding.wall_terms(self._flat, rotation)[5]
+        energy: FloatArray = _binding.wall_terms(upload((self,)), rotation)[5]
+        return energy
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
@@ -299,9 +315,9 @@ class TwoBlockWall(Wall):
 
     mechanism: ClassVar[str] = "two_block"
 
-    hinge: float | None = None
-    overburden: float | None = None
-    eccentricity: float | None = None
+    hinge: float = _DEFAULT
+    overburden: float = _DEFAULT
+    eccentricity: float = _DEFAULT
     bearing: InitVar[str | None] = None
     bearing_distance: InitVar[float | None] = None
 
@@ -314,6 +330,17 @@ def wall_from(data: _binding.WallData) -> Wall:
     wall = object.__new__(MECHANISMS[data.mechanism])
     wall._fill(data)
     return wall
+
+
+def upload(walls: tuple[Wall, ...]) -> Handle:
+    """The walls in Fortran; one alone is uploaded once."""
+    alone = walls[0].__dict__ if len(walls) == 1 else {}
+    if "_handle" in alone:
+        return alone["_handle"]  # type: ignore[no-any-return]
+    number, stat, message = _core.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
+    _binding.check(stat, message)
+    alone["_handle"] = handle = Handle(number)
+    return handle
 
 
 def walls_table(
