@@ -839,7 +839,7 @@ end subroutine scales
 ! numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names
 subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
       & stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_signed_char
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_interrupt, check_room, report
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type
@@ -854,8 +854,7 @@ subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impa
    integer(c_int64_t), intent(in) :: study, walls
    integer(c_int), intent(in) :: one, last, first, count
    real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
-   integer(c_signed_char), intent(inout) :: collapsed(count)
-   integer(c_int), intent(inout) :: impacts(count)
+   integer(c_int), intent(inout) :: collapsed(count), impacts(count)
    real(c_double), intent(out) :: work(7)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
@@ -896,7 +895,7 @@ subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impa
          call total%add(part(i)%work)
          associate (response => part(i)%response, to => k + size(part(i)%response))
             edp(k + 1:to) = response%edp
-            collapsed(k + 1:to) = merge(1_c_signed_char, 0_c_signed_char, response%collapsed)
+            collapsed(k + 1:to) = merge(1, 0, response%collapsed)
             impacts(k + 1:to) = response%impacts
             time_of_peak(k + 1:to) = response%time_of_peak
             edp_error(k + 1:to) = response%edp_error

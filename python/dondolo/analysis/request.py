@@ -104,6 +104,11 @@ class Request:
         # What was uploaded stays in its process.
         return {what: value for what, value in self.__dict__.items() if what not in ("_study", "_people")}
 
+    @property
+    def samples(self) -> float:
+        """Samples of a record, on average."""
+        return sum(map(len, self.records)) / len(self.records)
+
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
@@ -118,14 +123,14 @@ class Request:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
         with progress_bar(total, progress, label, "history") as bar:
-            return self.advance(histories, Pace(self.records), bar.update)
+            return self.advance(histories, Pace(self.samples), bar.update)
 
     def advance(self, histories: IntArray, pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, and with a report of how many histories were done in each call."""
         ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
         total = int(ends[-1])
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
-        collapsed, impacts = np.empty(total, dtype=np.int8), np.empty(total, dtype=np.int32)
+        collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
         study, people = self._study.number, self._people.number
         works: list[Work] = []
 
@@ -136,12 +141,12 @@ class Request:
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with _binding.stoppable():
-                counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows)
+                counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
             _binding.check(stat, message)
             works.append(Work(*map(int, counts)))
 
         done, interrupted = in_blocks(total, pace, block, report)
-        return Outcome(edp, collapsed.view(np.bool_), impacts, peak, error, Work.total(works), done), interrupted
+        return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted
 
 
 class Pace:
@@ -149,12 +154,11 @@ class Pace:
 
     Parameters
     ----------
-    records : sequence of Record
-        Those that the histories are of.
+    samples : float
+        Those of a record, on average.
     """
 
-    def __init__(self, records: Sequence[Record]) -> None:
-        samples = sum(map(len, records)) / len(records)
+    def __init__(self, samples: float) -> None:
         self._size = max(1.0, _FIRST_SAMPLES / samples)
 
     def count(self, left: int) -> int:
