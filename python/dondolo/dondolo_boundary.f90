@@ -141,20 +141,28 @@ contains
       end do
    end subroutine split_lines
 
-   !> Lines as one text
-   pure function pack_lines(lines) result(text)
+   !> Length of lines as one text
+   pure integer function packed_length(lines) result(length)
       !> Lines
       type(lines_type), intent(in) :: lines
-      !> The same, each ended by new_line
-      character(len=:), allocatable :: text
 
-      integer :: i, length, at
+      integer :: i
 
       length = 0
       do i = 1, lines%count
          length = length + len(lines%line(i)%text) + 1
       end do
-      allocate (character(len=length) :: text)
+   end function packed_length
+
+   !> Lines as one text
+   pure function pack_lines(lines) result(text)
+      !> Lines
+      type(lines_type), intent(in) :: lines
+      !> The same, each ended by new_line
+      character(len=packed_length(lines)) :: text
+
+      integer :: i, length, at
+
       at = 0
       do i = 1, lines%count
          length = len(lines%line(i)%text) + 1
