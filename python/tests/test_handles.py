@@ -7,12 +7,12 @@ import threading
 
 import numpy as np
 import pytest
-
-import dondolo as dd
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo.records.record import place_of, upload
 from dondolo.walls.wall import upload as upload_walls
+
+import dondolo as dd
 
 LEVELS = [0.2, 0.6]
 

@@ -9,8 +9,6 @@ import time
 import numpy as np
 import pytest
 from costs import growth
-from dondolo._fortran import _core
-from dondolo.analysis import request
 
 import dondolo as dd
 
