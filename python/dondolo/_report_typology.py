@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,8 @@ from dondolo._report_words import (
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
-from dondolo.populations.typology import Group, Typology
+from dondolo.populations.curve import Group
+from dondolo.populations.typology import Typology
 
 # Samples of the bootstrap
 _SAMPLES = 500
@@ -45,7 +45,7 @@ _SAMPLES = 500
 
 def typology_cards(people: Typology) -> Markup:
     """The main numbers of a population."""
-    curve = people.group()
+    curve = people["all"]
     entries: list[tuple[Any, Any, Any]] = []
     if curve.fit.has_fit:
         whose = "of collapse, whole population"
@@ -62,7 +62,7 @@ def typology_cards(people: Typology) -> Markup:
 
 def typology_sentences(people: Typology) -> Markup:
     """The result in words: what collapses at three of the levels."""
-    curve = people.group()
+    curve = people["all"]
     chosen = dict.fromkeys(int(i) for i in np.linspace(0, len(people.levels) - 1, 5)[1:-1])
     parts = [joined(percent(curve.mean_curve[i]), " at ", with_unit(people.levels[i], people.im)) for i in chosen] or [
         joined(percent(curve.mean_curve[0]), " at ", with_unit(people.levels[0], people.im))
@@ -124,7 +124,7 @@ def _typology_figures(people: Typology) -> Markup:
             )
         )
     if len(people.edp_thresholds) > 1:
-        states = [people.at(edp).group() for edp in people.edp_thresholds]
+        states = [people.at(edp)["all"] for edp in people.edp_thresholds]
         pieces.append(
             figure(
                 lambda: plot_damage_states(people),
@@ -142,7 +142,7 @@ def _crossings(people: Typology) -> Markup:
     limit = float(people.edp_thresholds[-1])
     curves = {
         f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
-            partial(people.at(edp).mean, mechanism=curve.mechanism, group=curve.group) for edp in people.edp_thresholds
+            people.at(edp)[curve.mechanism, curve.group].mean for edp in people.edp_thresholds
         ]
         for curve in people.groups
     }
@@ -205,9 +205,10 @@ def _typology_tables(people: Typology) -> Markup:
     for edp in people.edp_thresholds[::-1]:
         state = people.at(float(edp))
         text = f"Whole population, {state_name(edp, limit)}"
-        content = _levels_table(state, state.group(), text)
+        content = _levels_table(state, state["all"], text)
         pieces.append(content if edp == limit else details(text, content))
-    others = [curve for curve in people.groups if curve is not people.group()]
+    whole = people["all"]
+    others = [curve for curve in people.groups if (curve.group, curve.mechanism) != (whole.group, whole.mechanism)]
     rest = [
         _levels_table(
             people, curve, f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}, collapse"
@@ -253,7 +254,7 @@ def _levels_table(people: Typology, curve: Group, caption: str) -> Markup:
         "mean of fractions": [probability(p) for p in curve.mean_fraction],
         "mean of curves": [probability(p) for p in curve.mean_curve],
     }
-    for share, row in zip(("16 %", "50 %", "84 %"), curve.fractiles, strict=True):
+    for share, row in zip(("16 %", "50 %", "84 %"), curve.level_fractiles, strict=True):
         columns[f"{share} fractile"] = [probability(p) for p in row]
     if curve.fit.has_fit:
         columns["lognormal"] = [probability(p) for p in curve.fit(people.levels)]
@@ -261,11 +262,11 @@ def _levels_table(people: Typology, curve: Group, caption: str) -> Markup:
 
 
 def _typology_uncertainty(people: Typology) -> Markup:
-    curve = people.group()
+    curve = people["all"]
     stored = people.flags is None
     over = ("walls",) if stored else ("records", "walls")
     try:
-        samples = people.bootstrap(_SAMPLES, over=over)
+        samples = people["all"].bootstrap(_SAMPLES, over=over)
         parameters = samples.parameter_interval()
     except DondoloError as error:
         return paragraph(f"No intervals: {error}.")

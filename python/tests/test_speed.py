@@ -12,6 +12,8 @@ from costs import growth
 
 import dondolo as dd
 
+pytestmark = pytest.mark.slow
+
 LEVELS = np.linspace(0.1, 1.2, 12)
 
 

@@ -12,7 +12,8 @@ from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.errors import Interrupted
-from dondolo.populations.typology import Group, IntArray, Typology
+from dondolo.populations.curve import Group, IntArray
+from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population
 
 

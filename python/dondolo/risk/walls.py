@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo.populations.members import Members
+from dondolo.curves.members import Members
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import Contributions, of_function, of_lognormal
 
