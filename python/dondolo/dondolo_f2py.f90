@@ -1,9 +1,10 @@
 ! The one boundary between Fortran and Python: all that f2py reads.
 !
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
-! Records are uploaded once, as one array of samples with their lengths, time steps and names (one a line), walls as three
-! lines of text each (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity. They stay, and
-! every other procedure takes their handles (dondolo_handles). Status and message come last:
+! Records and walls are uploaded once and stay; every other procedure takes their handles (dondolo_handles). Records are
+! one array of samples with their lengths, time steps and names (one a line); a wall is its properties in the order of
+! their table (dondolo_wall_properties), a line for each text and q numbers with a mask of those given, and gravity.
+! Status and message come last:
 ! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that call
 ! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
 
@@ -29,6 +30,43 @@ subroutine constants(defaults, version, statuses)
       statuses = trim(statuses)//' '//status_names(i)
    end do
 end subroutine constants
+
+! The table of properties of a group, one of table_names; a line for each, its entries separated by tabs
+! (describe_property)
+subroutine properties(group, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_lines, only : lines_type
+   use dondolo_property, only : describe_property, property_type
+   use dondolo_property_tables, only : property_table, table_names
+   use dondolo_text, only : join
+   implicit none
+   character(len=*), intent(in) :: group
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(property_type), allocatable :: table(:)
+   type(lines_type) :: lines
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   character(len=:), allocatable :: line
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   table = property_table(group)
+   do i = 1, size(table)
+      call describe_property(table(i), line)
+      call lines%add(line)
+   end do
+   if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
+   if (.not. allocated(error)) then
+      parcel%text = pack_lines(lines)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine properties
 
 ! Build variant that the engine lanes runs; the environment may change it from call to call
 subroutine variant(name, stat, message)
@@ -128,15 +166,15 @@ subroutine new_suite(names, lengths, dt, r, acceleration, n, handle, stat, messa
 end subroutine new_suite
 
 ! Upload walls that Python has had described
-subroutine new_walls(texts, numbers, given, gravity, w, handle, stat, message)
+subroutine new_walls(texts, numbers, given, q, gravity, w, handle, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report, set_walls
    use dondolo_error, only : error_type
    use dondolo_handles, only : hold, walls_type
    implicit none
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: w, given(8, w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w)
+   integer(c_int), intent(in) :: q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w)
    integer(c_int64_t), intent(out) :: handle
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
@@ -225,17 +263,16 @@ subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, 
    call report(error, stat, message)
 end subroutine new_study
 
-! Walls with their defaults filled in and their static quantities, as pack_walls has them. Here alone a load can be given
-! by its bearing, a line a wall, and its distance, with a mask of those given: they become the eccentricity
-subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, measured, w, handle, sizes, stat, message)
+! Walls with their defaults filled in and their static quantities, as pack_walls has them
+subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_room, pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
-   character(len=*), intent(in) :: texts, bearings
-   integer(c_int), intent(in) :: w, given(8, w), measured(w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), distances(w)
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -248,7 +285,7 @@ subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, m
    call check_room(error, walls=w)
    if (.not. allocated(error)) then
       allocate (walls(w))
-      call set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
+      call set_walls(walls, texts, numbers, given, gravity, error)
    end if
    if (.not. allocated(error)) then
       call pack_walls(walls, parcel)
@@ -782,7 +819,7 @@ subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
          call check_limit(chosen%solver, people(i)%mechanism, error)
       end if
       if (allocated(error)) then
-         if (w > 1) call add_place(error, 'wall '''//people(i)%input%name//'''')
+         if (w > 1) call add_place(error, 'wall '''//people(i)%name()//'''')
          exit
       end if
       histories(i) = size(stripes%record)

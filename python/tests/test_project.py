@@ -56,7 +56,7 @@ def rooms_of(folder):
     ("folder", "rooms"),
     [
         (".", ["base", "record", "wall", "motion", "fragility", "case"]),
-        ("base", ["numerics", "text", "system"]),
+        ("base", ["numerics", "text", "properties", "system"]),
     ],
 )
 def test_rooms(root, folder, rooms):

@@ -4,43 +4,20 @@ module dondolo_plausibility
    use dondolo_lines, only : line_type, lines_type
    use dondolo_text, only : rounded, to_text
    use dondolo_wall, only : wall_type
+   use dondolo_wall_properties, only : wall_properties
    implicit none
    private
 
    public :: wall_warning_type
 
-   !> Values that masonry can have, and the question where a value lies outside
-   type :: range_type
-      !> Variable of a wall
-      character(len=10) :: name
-      !> Its unit
-      character(len=5) :: unit
-      !> Smallest and largest value
-      real(wp) :: low, high
-      !> What may have happened
-      character(len=32) :: question
-   end type range_type
-
-   !> A bound that is never reached
-   real(wp), parameter :: none = huge(1.0_wp)
-
-   !> The limits, in the order in which look() fills in the values
-   type(range_type), parameter :: ranges(6) = [ &
-      & range_type('height', 'm', 0.0_wp, 60.0_wp, 'is it in centimetres?'), &
-      & range_type('thickness', 'm', 0.0_wp, 3.0_wp, 'is it in centimetres?'), &
-      & range_type('density', 'kg/m3', 500.0_wp, none, 'is it in kN/m3 or t/m3?'), &
-      & range_type('density', 'kg/m3', 0.0_wp, 4000.0_wp, 'is it in N/m3?'), &
-      & range_type('overburden', 'N/m', 200.0_wp, none, 'is it in kN/m?'), &
-      & range_type('overburden', 'N/m', 0.0_wp, 1.0e6_wp, 'is it per metre of wall?')]
-
-   !> What there is to say of the values of walls
+   !> What there is to say of the values of walls: of those that are less than usual (1), and more (2)
    type :: wall_warning_type
       !> Walls looked at
       integer :: walls = 0
-      !> Walls outside each of the ranges
-      integer :: number(size(ranges)) = 0
+      !> Walls outside the usual range of each property
+      integer :: number(2, size(wall_properties)) = 0
       !> Name and value of the first of them
-      type(line_type) :: first(size(ranges))
+      type(line_type) :: first(2, size(wall_properties))
    contains
       !> Look at a wall
       procedure :: look
@@ -57,20 +34,23 @@ contains
       !> The wall
       type(wall_type), intent(in) :: wall
 
-      real(wp) :: value(size(ranges))
-      integer :: i
+      real(wp) :: value
+      logical :: outside(2)
+      integer :: i, k
 
-      associate (input => wall%input)
-         value = [input%height, input%thickness, input%density, input%density, 0.0_wp, 0.0_wp]
-         if (allocated(input%overburden)) value(5:) = input%overburden
-      end associate
       self%walls = self%walls + 1
-      do i = 1, size(ranges)
-         ! No overburden is no mistake
-         if (.not. value(i) > 0.0_wp .or. (value(i) >= ranges(i)%low .and. value(i) <= ranges(i)%high)) cycle
-         self%number(i) = self%number(i) + 1
-         if (self%number(i) == 1) self%first(i)%text = 'wall '''//wall%input%name//''': '// &
-            & trim(ranges(i)%name)//' = '//rounded(value(i))//' '//trim(ranges(i)%unit)
+      do i = 1, size(wall_properties)
+         associate (property => wall_properties(i))
+            value = wall%input%number(property%name)
+            ! No overburden is no mistake
+            outside = value > 0.0_wp .and. [value < property%usual_least, value > property%usual_most]
+            do k = 1, 2
+               if (.not. outside(k)) cycle
+               self%number(k, i) = self%number(k, i) + 1
+               if (self%number(k, i) == 1) self%first(k, i)%text = 'wall '''//wall%name()//''': '// &
+                  & trim(property%name)//' = '//rounded(value)//' '//trim(property%unit)
+            end do
+         end associate
       end do
    end subroutine look
 
@@ -82,15 +62,23 @@ contains
       type(lines_type), intent(inout) :: warnings
 
       character(len=:), allocatable :: limit, which
-      integer :: i
+      integer :: i, k
 
-      do i = 1, size(ranges)
-         if (self%number(i) == 0) cycle
-         limit = ' is more than '//to_text(ranges(i)%high)
-         if (ranges(i)%low > 0.0_wp) limit = ' is less than '//to_text(ranges(i)%low)
-         which = ''
-         if (self%walls > 1) which = ' ('//to_text(self%number(i))//' of '//to_text(self%walls)//' in all)'
-         call warnings%add(self%first(i)%text//limit//' '//trim(ranges(i)%unit)//': '//trim(ranges(i)%question)//which)
+      do i = 1, size(wall_properties)
+         associate (property => wall_properties(i))
+            do k = 1, 2
+               if (self%number(k, i) == 0) cycle
+               if (k == 1) then
+                  limit = ' is less than '//to_text(property%usual_least)
+               else
+                  limit = ' is more than '//to_text(property%usual_most)
+               end if
+               which = ''
+               if (self%walls > 1) which = ' ('//to_text(self%number(k, i))//' of '//to_text(self%walls)//' in all)'
+               call warnings%add(self%first(k, i)%text//limit//' '//trim(property%unit)//': '// &
+                  & trim(merge(property%if_less, property%if_more, k == 1))//which)
+            end do
+         end associate
       end do
    end subroutine warn
 
