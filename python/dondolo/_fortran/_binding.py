@@ -193,8 +193,19 @@ def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
     rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
     return tuple(
-        Property(*row[:4], float(row[4]), float(row[5]), tuple(row[6].split()), tuple(row[7].split()), *row[8:])
-        for row in rows
+        Property(
+            name,
+            kind,
+            unit,
+            default,
+            float(smallest),
+            float(largest),
+            tuple(choices.split()),
+            tuple(owners.split()),
+            column,
+            meaning,
+        )
+        for name, kind, unit, default, smallest, largest, choices, owners, column, meaning in rows
     )
 
 
