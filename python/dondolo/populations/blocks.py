@@ -17,7 +17,7 @@ from dondolo._fortran import _binding, _core
 from dondolo.analysis.request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.store import Contents, Store
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, upload_walls
 
 # Loaded where they are used: sockets and futures would make every import of dondolo slower.
 if TYPE_CHECKING:
@@ -68,9 +68,9 @@ class Shared(NamedTuple):
     def run(self, walls: tuple[Wall, ...], first: int) -> Part:
         """Run consecutive rows of the population, the first of which has a number, from 0."""
         start = time.perf_counter()
-        flat = _binding.join_walls([wall._flat for wall in walls])
+        study, people = self.request._study, upload_walls(walls)
         with _binding.stoppable():
-            sent = _core.run_rows(*flat, *self.request._arguments(), self.states, first + 1)
+            sent = _core.run_rows(study.number, people.number, len(walls), self.states, first + 1)
         return Part(_binding.receive(*sent).integers, time.perf_counter() - start)
 
 

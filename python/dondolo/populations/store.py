@@ -65,8 +65,8 @@ class Store:
     def __init__(self, path: str | os.PathLike[str] | None, request: Request, states: FloatArray) -> None:
         self._request, self._states = request, states
         file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
-        walls = _binding.join_walls([wall._flat for wall in request.walls])
-        handle, stat, message = _core.open_store(file, *walls, *request._arguments(), states)
+        study, people = request._study.number, request._people.number
+        handle, stat, message = _core.open_store(file, study, people, states)
         _binding.check(stat, message)
         self._handle = handle
         self._close = weakref.finalize(self, _core.close_store, handle)
@@ -94,7 +94,7 @@ class Store:
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
-        flags = Flags(histories[complete], levels, states, len(request.records.lengths), packed)
+        flags = Flags(histories[complete], levels, states, len(request.records), packed)
         return Contents(complete, exceedances, flags, Work(*map(int, counts)))
 
     def __enter__(self) -> Store:
