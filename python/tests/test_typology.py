@@ -153,7 +153,7 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     def stop(*arguments):
         if sum(done) > 2:
             raise KeyboardInterrupt
-        done.append(len(arguments[3]))
+        done.append(arguments[2])
         return run_rows(*arguments)
 
     monkeypatch.setattr(_core, "run_rows", stop)

@@ -17,7 +17,8 @@ from dondolo._fortran import _binding, _core
 from dondolo.analysis.request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.store import Contents, Store
-from dondolo.walls.wall import Wall, upload_walls
+from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
 # Loaded where they are used: sockets and futures would make every import of dondolo slower.
 if TYPE_CHECKING:
