@@ -340,7 +340,7 @@ contains
       end associate
       ! The first row can be run, no other can.
       members = members([1, (2, i=1, 7)])
-      members(2)%wall%name() = 'the first'
+      call members(2)%wall%input%set('name', 'the first')
       do threads = 1, 4
          call run_some_rows(case, members, 1, rows, work, error, threads)
          call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')

@@ -52,6 +52,8 @@ class Property(NamedTuple):
         As in a namelist; 'required', or 'optional' where there is none.
     smallest, largest : float
         Range of a number.
+    bounds : str
+        'positive' for a number greater than 0, 'less' for one less than the largest.
     choices, owners : tuple of str
         What a text can be; the mechanisms that have it, () for all.
     column : str
@@ -66,6 +68,7 @@ class Property(NamedTuple):
     default: str
     smallest: float
     largest: float
+    bounds: str
     choices: tuple[str, ...]
     owners: tuple[str, ...]
     column: str
@@ -192,7 +195,7 @@ def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
     rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
     return tuple(
-        Property(*row[:4], float(row[4]), float(row[5]), tuple(row[6].split()), tuple(row[7].split()), *row[8:])
+        Property(*row[:4], float(row[4]), float(row[5]), row[6], tuple(row[7].split()), tuple(row[8].split()), *row[9:])
         for row in rows
     )
 
