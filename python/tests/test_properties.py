@@ -21,7 +21,9 @@ def entries(kind):
     for owner in (dd.OneSidedWall, kind):
         text = inspect.getdoc(owner)
         section = re.search(r"Parameters\n-+\n(.*?)(?:\n\n[A-Z]\w+\n-+\n|\Z)", text, re.S)
-        for name, what, body in re.findall(r"^(\w+) : (.*)\n((?:    .*\n?)+)", section[1] + "\n" if section else "", re.M):
+        for name, what, body in re.findall(
+            r"^(\w+) : (.*)\n((?:    .*\n?)+)", section[1] + "\n" if section else "", re.M
+        ):
             found[name] = what, " ".join(body.split())
     return found
 
@@ -78,7 +80,7 @@ def test_defaults_of_walls(kind):
             assert value == float(row.default)
 
 
-@pytest.mark.parametrize("function", [dd.multiple_stripe, dd.simulate, dd.incremental, dd.typology, dd.cloud])
+@pytest.mark.parametrize("function", [dd.multiple_stripe, dd.simulate, dd.typology])
 def test_solver(function):
     rows = {row.name: row for row in _binding.properties("solver")}
     parameters = {name: one for name, one in inspect.signature(function).parameters.items() if name in rows}

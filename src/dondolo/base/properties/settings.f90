@@ -2,9 +2,8 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_logical, &
-      & is_number_or_name, is_real, is_text, name_length, number_of_choices, &
-      & property_type
+   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
+      & is_text, name_length, number_of_choices, property_type
    use dondolo_text, only : join, lower, must_be_plain, plain, to_text
    implicit none
    private
