@@ -1,4 +1,4 @@
-"""Write docs/variables.md, the variables of a case, from the library's tables of properties: python docs/variables.py."""
+"""Write docs/variables.md, the variables of a case, from the tables of the library: python docs/variables.py."""
 
 from pathlib import Path
 

@@ -6,10 +6,10 @@ import inspect
 import re
 
 import pytest
-
-import dondolo as dd
 from dondolo._fortran import _binding
 from dondolo.walls.wall import MECHANISMS
+
+import dondolo as dd
 
 WALL = _binding.properties("wall")
 (GRAVITY,) = (row for row in _binding.properties("solver") if row.name == "gravity")
