@@ -293,7 +293,7 @@ def test_warning_filters_do_not_import_the_package(root, tmp_path):
 
 def test_defaults_are_those_of_fortran(wall, sine):
     default = dd.simulate(wall, sine, 3.0)
-    said = dd.simulate(wall, sine, 3.0, rtol=1e-8, atol=1e-10, edp_limit=1.0)
+    said = dd.simulate(wall, sine, 3.0, solver=dd.Solver(rtol=1e-8, atol=1e-10, edp_limit=1.0))
     assert np.array_equal(default.rotation, said.rotation)
 
 

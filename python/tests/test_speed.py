@@ -22,7 +22,7 @@ LEVELS = np.linspace(0.1, 1.2, 12)
 def timed(wall, records, engine):
     """CPU time of the stripes of a wall on one thread [s]."""
     start = time.process_time()
-    dd.multiple_stripe(wall, records, LEVELS, engine=engine, threads=1, progress=False)
+    dd.multiple_stripe(wall, records, LEVELS, solver=dd.Solver(engine=engine), threads=1, progress=False)
     return time.process_time() - start
 
 

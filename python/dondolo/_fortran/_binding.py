@@ -195,8 +195,20 @@ def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
     rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
     return tuple(
-        Property(*row[:4], float(row[4]), float(row[5]), row[6], tuple(row[7].split()), tuple(row[8].split()), *row[9:])
-        for row in rows
+        Property(
+            name,
+            kind,
+            unit,
+            default,
+            float(smallest),
+            float(largest),
+            bounds,
+            tuple(choices.split()),
+            tuple(owners.split()),
+            column,
+            meaning,
+        )
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
     )
 
 

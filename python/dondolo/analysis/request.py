@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_text
 from dondolo._fortran import _binding, _core
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.records.record import Record, flatten
 from dondolo.walls.wall import Wall
@@ -173,10 +174,7 @@ def new_request(
     levels: ArrayLike,
     im: str,
     polarity: str,
-    engine: str,
-    rtol: float | None,
-    atol: float | None,
-    edp_limit: float | None,
+    solver: Solver | None,
     threads: int,
     estimate_error: bool = False,
     collapses_only: bool = False,
@@ -185,12 +183,13 @@ def new_request(
     team = check_threads(threads)
     levels = as_array("levels", levels).copy()
     levels.flags.writeable = False
-    settings = _binding.settings(rtol, atol, edp_limit, estimate_error, collapses_only)
+    how = as_solver(solver)
+    settings = how._settings(estimate_error, collapses_only)
     flat = flatten(tuple(records))
     # What the records are scaled by does not depend on walls or levels: it is computed once.
     values = _binding.scaling_values(im, flat, team)
     name = _binding.describe_measure(im).name
-    return Request(tuple(walls), flat, values, levels, name, polarity, engine, settings, team)
+    return Request(tuple(walls), flat, values, levels, name, polarity, how.engine, settings, team)
 
 
 def check_threads(threads: int) -> int:
