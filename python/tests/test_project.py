@@ -211,7 +211,7 @@ def test_procedures_that_compute_release_the_lock(root):
     procedures = re.split(r"(?m)^subroutine ", text)[1:]
     free = {re.match(r"\w+", procedure)[0] for procedure in procedures if "!f2py threadsafe" in procedure}
     assert free == {
-        "take_parcel", "wall_terms", "check_record", "intensities", "scaling_values", "spectrum", "ground_velocity",
+        "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_scaled", "fit_curves", "probability",
     }  # fmt: skip
 

@@ -62,7 +62,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.records.record import Record, as_records, flatten
+from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
@@ -340,15 +340,14 @@ def cloud(
     if not 0.0 < factor < np.inf:
         raise InputError(f"scale = {factor:g}: must be positive")
     intensity, name = _intensities(wall, several, im, factor, threads)
-    # One stripe of a measure in SI units whose value is 1 for every record: its level is the factor.
+    # Without a measure, one stripe whose level is the factor.
     how = as_solver(solver)
     settings = how._settings()
     request = Request(
         (wall,),
-        flatten(several),
-        np.ones(len(several)),
+        several,
         np.array([factor]),
-        "pgv",
+        "",
         polarity,
         how.engine,
         settings,

@@ -18,8 +18,9 @@ from dondolo._storage import tables
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import InputError, Interrupted
-from dondolo.records.record import Record, flatten
+from dondolo.records.record import Record, upload
 from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
 # Rotation / capacity from which a wall counts as overturned
 _EDP_LIMIT = 5.0
@@ -375,14 +376,12 @@ class _Runner(NamedTuple):
         return state, edp, impacts
 
     def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
-        used, record = np.unique(places, return_inverse=True)
-        pulses = tuple(self.pulses[i] for i in used)
-        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in pulses])[record]
+        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in self.pulses])[places]
         with _binding.stoppable():
             edp, collapsed, impacts, time, stat, message = _core.run_scaled(
-                *self.wall._flat,
-                *flatten(pulses),
-                (record + 1).astype(np.int32),
+                upload_walls((self.wall,)).number,
+                upload(self.pulses).number,
+                (np.asarray(places) + 1).astype(np.int32),
                 np.ascontiguousarray(scale),
                 self.engine,
                 self.settings,

@@ -15,8 +15,8 @@ from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, InputError
-from dondolo.records.record import Record
-from dondolo.walls.wall import Wall
+from dondolo.records.record import Record, place_of
+from dondolo.walls.wall import Wall, upload
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -164,10 +164,8 @@ def simulate(
     settings = how._settings(estimate_error)
     with _binding.stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
-            *wall._flat,
-            record.acceleration,
-            record.dt,
-            record.name.encode(),
+            upload((wall,)).number,
+            *place_of(record),
             factor,
             as_text("engine", how.engine),
             settings,
@@ -194,7 +192,7 @@ def simulate(
 @functools.lru_cache
 def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return _binding.warnings_of_motion(wall._flat, record, pga)
+    return _binding.warnings_of_motion(upload((wall,)), record, pga)
 
 
 def history_table(response: Response) -> tables.Table:

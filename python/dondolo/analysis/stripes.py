@@ -22,7 +22,7 @@ from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample
 from dondolo.errors import InputError, Interrupted
 from dondolo.records.record import Record, as_records
-from dondolo.walls.wall import Wall, walls_table
+from dondolo.walls.wall import Wall, upload, walls_table
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -156,7 +156,7 @@ class Stripes(Shown):
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = _binding.CurveData(curve.status, numbers)
-        sentences = _binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data)
+        sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
         where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
         _binding.warn(where + sentence for sentence in sentences)
         return curve
@@ -270,7 +270,10 @@ def multiple_stripe(
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     several = as_records(records)
     request = new_request((wall,), several, levels, im, polarity, solver, threads, estimate_error)
-    plan = request.plan()
+    try:
+        plan = request.plan()
+    except KeyboardInterrupt:
+        raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
     _binding.warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
