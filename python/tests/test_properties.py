@@ -4,6 +4,7 @@ import dataclasses
 import importlib.util
 import inspect
 import re
+import typing
 
 import pytest
 from dondolo._fortran import _binding
@@ -80,13 +81,18 @@ def test_defaults_of_walls(kind):
             assert value == float(row.default)
 
 
-@pytest.mark.parametrize("function", [dd.multiple_stripe, dd.simulate, dd.typology])
-def test_solver(function):
+def test_solver():
+    """`dd.Solver` has what the table of the solver has, but for what analyses and walls have themselves."""
     rows = {row.name: row for row in _binding.properties("solver")}
-    parameters = {name: one for name, one in inspect.signature(function).parameters.items() if name in rows}
-    assert {"rtol", "atol"} <= set(parameters) or "solver" in inspect.signature(function).parameters
-    for name, one in parameters.items():
-        assert one.default in (None, False, rows[name].default), name
+    fields = {field.name: field for field in dataclasses.fields(dd.Solver)}
+    assert set(fields) | {"estimate_error", "gravity"} == set(rows)
+    assert "estimate_error" in inspect.signature(dd.multiple_stripe).parameters
+    assert set(typing.get_args(typing.get_type_hints(dd.Solver)["engine"])) == set(rows["engine"].choices)
+    assert fields["engine"].default == rows["engine"].default
+    text = inspect.getdoc(dd.Solver)
+    for name in ("rtol", "atol", "edp_limit"):
+        assert fields[name].default is None
+        assert re.search(rf"\b{float(rows[name].default):g}\b".replace("e-0", "e-"), text), name
 
 
 def test_columns():
