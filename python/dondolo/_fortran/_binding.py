@@ -53,6 +53,8 @@ class Property(NamedTuple):
         As in a namelist; 'required', or 'optional' where there is none.
     smallest, largest : float
         Range of a number.
+    bounds : str
+        'positive' for a number greater than 0, 'less' for one less than the largest.
     choices, owners : tuple of str
         What a text can be; the mechanisms that have it, () for all.
     column : str
@@ -67,6 +69,7 @@ class Property(NamedTuple):
     default: str
     smallest: float
     largest: float
+    bounds: str
     choices: tuple[str, ...]
     owners: tuple[str, ...]
     column: str
@@ -224,12 +227,13 @@ def properties(group: str) -> tuple[Property, ...]:
             default,
             float(smallest),
             float(largest),
+            bounds,
             tuple(choices.split()),
             tuple(owners.split()),
             column,
             meaning,
         )
-        for name, kind, unit, default, smallest, largest, choices, owners, column, meaning in rows
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
     )
 
 
