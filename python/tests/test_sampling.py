@@ -59,7 +59,7 @@ DISTRIBUTIONS = [
 ]
 
 
-@pytest.mark.parametrize(("distribution", "function"), DISTRIBUTIONS, ids=lambda one: repr(one)[:40])
+@pytest.mark.parametrize(("distribution", "function"), DISTRIBUTIONS, ids=[repr(one) for one, _ in DISTRIBUTIONS])
 def test_quantiles(distribution, function):
     """Also where a distribution is cut off: no samples gather at the ends."""
     p = np.linspace(0.0005, 0.9995, 1000)
