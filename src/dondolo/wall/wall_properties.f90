@@ -30,7 +30,7 @@ module dondolo_wall_properties
 
    !> The rows, in the order in which a user thinks of them
    type(property_type), parameter :: rows(*) = [ &
-      & property_type('name', is_text, word='wall', column='wall', meaning='name in the results'), &
+      & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
