@@ -150,7 +150,7 @@ class PopulationData(NamedTuple):
     walls: list[CurveData]
     fractions: FloatArray
     groups: list[GroupData]
-    warnings: list[str]
+    warnings: list[DondoloWarning]
 
 
 @functools.cache
@@ -216,13 +216,23 @@ def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Par
     return Parcel(integers, reals, text.split("\n")[:-1])
 
 
-def warn(sentences: Iterable[str]) -> None:
-    """Warn of each sentence, where the user's own line is."""
+def unpack_warning(data: dict[str, Any]) -> DondoloWarning:
+    """A warning of Fortran, from its JSON object."""
+    return DondoloWarning(str(data["sentence"]), str(data["code"]), data["subject"], data["numbers"])
+
+
+def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
+    """Warnings of Fortran, a JSON object on each line."""
+    return [unpack_warning(json.loads(line)) for line in lines]
+
+
+def warn(found: Iterable[str | DondoloWarning]) -> None:
+    """Warn of each, where the user's own line is."""
     frame, depth = sys._getframe(), 1
     while frame.f_back is not None and Path(frame.f_code.co_filename).parent == _PACKAGE:
         frame, depth = frame.f_back, depth + 1
-    for sentence in sentences:
-        warnings.warn(sentence, DondoloWarning, stacklevel=depth)
+    for one in found:
+        warnings.warn(one if isinstance(one, DondoloWarning) else DondoloWarning(one), stacklevel=depth)
 
 
 def settings(
@@ -506,29 +516,33 @@ def fit_walls(
                 CurveData(status[r + w + i], curve),
             )
         )
-    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, parcel.lines[2 * number :])
+    found = unpack_warnings(parcel.lines[2 * number :])
+    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 
 
-def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:
+def warnings_of_curve(
+    wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData
+) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
-    return receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines
+    return unpack_warnings(receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines)
 
 
-def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[str]:
+def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[DondoloWarning]:
     """What the executable would warn of, of a wall and a record, before it runs one motion."""
     handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
-    return receive(handle, *rest).lines if handle else []
+    return unpack_warnings(receive(handle, *rest).lines) if handle else []
 
 
 def warnings_of_errors(
     edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
-) -> list[str]:
+) -> list[DondoloWarning]:
     """What the executable would warn of, of estimated errors; record and level are those of the largest.
 
     Without a record it is one history.
     """
-    return receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)).lines
+    parcel = receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    return unpack_warnings(parcel.lines)
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

@@ -17,12 +17,14 @@ module dondolo_boundary
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
    implicit none
    private
 
    public :: parcel_type, send, take
-   public :: report, split_lines, pack_lines, as_solver, check_threads, check_rotations, check_spectrum, check_room, &
-      & check_parcel, check_trace, check_interrupt
+   public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_threads, check_rotations, &
+      & check_spectrum, check_room, check_parcel, check_trace, check_interrupt
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> Numbers of a wall, in this order in all flat arrays
@@ -162,6 +164,19 @@ contains
          at = at + length
       end do
    end function pack_lines
+
+   !> Warnings as one text: JSON objects, each on its line
+   function pack_warnings(warnings) result(text)
+      !> Warnings
+      type(warnings_type), intent(in) :: warnings
+      !> The same, each ended by new_line
+      character(len=:), allocatable :: text
+
+      type(lines_type) :: lines
+
+      call warning_objects(warnings, lines)
+      text = pack_lines(lines)
+   end function pack_warnings
 
    !> Append a note to the text of a parcel
    subroutine pack_note(note, parcel)

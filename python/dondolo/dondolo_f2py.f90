@@ -513,12 +513,12 @@ end subroutine read_walls
 ! What the executable would warn of, of a wall and a record, before it runs one motion
 subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send, set_walls
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, record
@@ -530,7 +530,7 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
    type(wall_type) :: walls(1)
    type(record_type) :: records(1)
    type(wall_warning_type) :: oddities
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -545,7 +545,7 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
       records(1)%acceleration = [pga]
       call warn_of_records(records, gravity, warnings)
       if (warnings%count > 0) then
-         parcel%text = pack_lines(warnings)
+         parcel%text = pack_warnings(warnings)
          call send(parcel, handle, sizes)
       end if
    end if
@@ -621,16 +621,16 @@ end subroutine simulate
 subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_room, check_threads, pack_lines, parcel_type, report, send, set_records, &
+   use dondolo_boundary, only : as_solver, check_room, check_threads, pack_warnings, parcel_type, report, send, set_records, &
       & set_walls
    use dondolo_error, only : add_place, error_type
-   use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, names, im, polarity, engine
@@ -646,7 +646,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
    type(wall_warning_type) :: oddities
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
    integer, allocatable :: histories(:)
@@ -691,7 +691,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
-      parcel%text = pack_lines(warnings)
+      parcel%text = pack_warnings(warnings)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -933,12 +933,14 @@ end subroutine fit_curves
 ! text: group and mechanism of the population's curves, then warnings
 subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_room, pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
+   use dondolo_boundary, only : check_room, pack_curve, pack_lines, pack_warnings, parcel_type, report, send, split_lines, &
+      & status_code
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : fit_warning_type
    implicit none
    character(len=*), intent(in) :: texts
@@ -952,6 +954,7 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    type(typology_type), allocatable :: groups(:)
    type(fit_warning_type) :: fits
    type(lines_type) :: words, lines
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
    character(len=mechanism_length), allocatable :: mechanisms(:)
@@ -995,8 +998,8 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
          call lines%add(groups(i)%group)
          call lines%add(groups(i)%mechanism)
       end do
-      call fits%warn(groups, lines)
-      parcel%text = pack_lines(lines)
+      call fits%warn(groups, warnings)
+      parcel%text = pack_lines(lines)//pack_warnings(warnings)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1006,12 +1009,12 @@ end subroutine fit_walls
 subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp, curve, status, handle, sizes, stat, &
       & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send, set_walls
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fragility_type, status_names
-   use dondolo_lines, only : lines_type
    use dondolo_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_fit
    implicit none
    character(len=*), intent(in) :: texts
@@ -1023,7 +1026,7 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
    type(wall_type) :: walls(1)
    type(stripes_type) :: stripes
    type(fragility_type) :: fragility
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -1039,7 +1042,7 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
       allocate (stripes%response(1, 1))
       stripes%response%edp = largest_edp
       call warn_of_fit(walls(1), stripes, fragility, warnings)
-      parcel%text = pack_lines(warnings)
+      parcel%text = pack_warnings(warnings)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1049,11 +1052,11 @@ end subroutine warn_of_curve
 ! it is one history
 subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_room, pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : check_room, pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    implicit none
    integer(c_int), intent(in) :: n
@@ -1064,7 +1067,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    character(len=2048), intent(out) :: message
    type(record_type) :: records(1)
    type(stripes_type) :: stripes
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -1084,7 +1087,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    else
       call sentences(stripes, records, edp_limit, warnings)
    end if
-   parcel%text = pack_lines(warnings)
+   parcel%text = pack_warnings(warnings)
    call send(parcel, handle, sizes)
    call report(error, stat, message)
 end subroutine warn_of_errors

@@ -195,6 +195,6 @@ def simulate(
 
 
 @functools.lru_cache
-def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
+def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
     return _binding.warnings_of_motion(wall._flat, record, pga)

@@ -153,7 +153,7 @@ class Stripes(Shown):
         data = _binding.CurveData(curve.status, numbers)
         sentences = _binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data)
         where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
-        _binding.warn(where + sentence for sentence in sentences)
+        _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
 
     def _state(self, edp: float) -> Stripes:
@@ -303,7 +303,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     )
 
 
-def _warnings(stripes: Stripes) -> list[str]:
+def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     """What the executable would warn of, of estimated errors."""
     if stripes.edp_error is None:
         return []

@@ -252,7 +252,7 @@ class Typology(Shown):
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             flags = None if self.flags is None else self.flags.at(int(place[0]))
             self._states[value] = dataclasses.replace(state, flags=flags)
-            _binding.warn(f"damage state {value:g}: {sentence}" for sentence in state.warnings)
+            _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
     def probabilities(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> FloatArray:

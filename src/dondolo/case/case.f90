@@ -16,6 +16,7 @@ module dondolo_case
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
    use dondolo_simulate, only : check_history
+   use dondolo_settings, only : settings_type
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
    use dondolo_stripes, only : measure_records
@@ -75,7 +76,7 @@ module dondolo_case
       procedure :: history_scale
       !> Path of the population
       procedure :: population_path
-      !> The case as namelist text
+      !> All settings in force
       procedure :: echo
       !> Paths of the files it is made of
       procedure :: inputs
@@ -393,23 +394,23 @@ contains
       path = beside(self%population_file, self%file)
    end function population_path
 
-   !> The case as namelist text: every value in force, and no group that the task does not use
-   subroutine echo(self, lines)
+   !> Every value in force, and no group that the task does not use
+   subroutine echo(self, settings)
       !> The case
       class(case_type), intent(in) :: self
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings
+      type(settings_type), intent(out) :: settings
 
-      call echo_job(self%job, lines)
+      call echo_job(self%job, settings)
       if (allocated(self%population_file)) then
-         call echo_population(self%population_file, lines)
+         call echo_population(self%population_file, settings)
       else
-         call echo_wall(self%wall%input, lines)
+         call echo_wall(self%wall%input, settings)
       end if
-      call echo_records(self%records_input, lines)
-      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, lines)
-      call echo_solver(self%solver, lines)
-      if (self%job%task == 'history') call echo_history(self%history, lines)
+      call echo_records(self%records_input, settings)
+      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, settings)
+      call echo_solver(self%solver, settings)
+      if (self%job%task == 'history') call echo_history(self%history, settings)
    end subroutine echo
 
    !> Paths of the files it is made of

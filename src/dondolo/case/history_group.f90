@@ -1,11 +1,10 @@
 !> The group &history: which record, and how strong, for one time history.
 module dondolo_history_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_record, only : record_type
+   use dondolo_settings, only : settings_type
    use dondolo_text, only : to_text
    implicit none
    private
@@ -120,21 +119,21 @@ contains
    end function some_names
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_history(history, lines)
+   subroutine echo_history(history, settings)
       !> What is said of the time history
       type(history_input_type), intent(in) :: history
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
       if (allocated(history%record_name)) then
-         call lines%add('&history '//assignment_text('record', history%record_name))
+         call settings%add('history', 'record', history%record_name)
       else
-         call lines%add('&history '//assignment_text('record', history%record))
+         call settings%add('history', 'record', history%record)
       end if
       if (allocated(history%im_level)) then
-         call lines%add('         '//assignment_text('im_level', history%im_level)//' /')
+         call settings%add('history', 'im_level', history%im_level)
       else
-         call lines%add('         '//assignment_text('scale', history%scale)//' /')
+         call settings%add('history', 'scale', history%scale)
       end if
    end subroutine echo_history
 

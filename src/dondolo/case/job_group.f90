@@ -1,9 +1,8 @@
 !> The group &job: what is to be done and where the results go.
 module dondolo_job_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_settings, only : settings_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_ensemble, only : largest_threads
    implicit none
@@ -73,17 +72,17 @@ contains
    end subroutine read_job
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_job(job, lines)
+   subroutine echo_job(job, settings)
       !> What is to be done
       type(job_type), intent(in) :: job
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      call lines%add('&job '//assignment_text('task', job%task))
-      call lines%add('     '//assignment_text('title', job%title))
-      call lines%add('     '//assignment_text('output', job%output))
-      if (job%task == 'typology') call lines%add('     '//assignment_text('histories', job%histories))
-      call lines%add('     '//assignment_text('threads', job%threads)//' /')
+      call settings%add('job', 'task', job%task)
+      call settings%add('job', 'title', job%title)
+      call settings%add('job', 'output', job%output)
+      if (job%task == 'typology') call settings%add('job', 'histories', job%histories)
+      call settings%add('job', 'threads', job%threads)
    end subroutine echo_job
 
 end module dondolo_job_group

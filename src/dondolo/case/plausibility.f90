@@ -1,24 +1,24 @@
 !> Values of walls that no masonry has: correct input, but most likely typed in another unit.
 module dondolo_plausibility
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type, lines_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_lines, only : line_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
    public :: wall_warning_type
 
-   !> Values that masonry can have, and the question where a value lies outside
+   !> Values that masonry can have, and the warning where a value lies outside
    type :: range_type
+      !> Code of the warning
+      character(len=16) :: code
       !> Variable of a wall
       character(len=10) :: name
       !> Its unit
       character(len=5) :: unit
       !> Smallest and largest value
       real(wp) :: low, high
-      !> What may have happened
-      character(len=32) :: question
    end type range_type
 
    !> A bound that is never reached
@@ -26,12 +26,12 @@ module dondolo_plausibility
 
    !> The limits, in the order in which look() fills in the values
    type(range_type), parameter :: ranges(6) = [ &
-      & range_type('height', 'm', 0.0_wp, 60.0_wp, 'is it in centimetres?'), &
-      & range_type('thickness', 'm', 0.0_wp, 3.0_wp, 'is it in centimetres?'), &
-      & range_type('density', 'kg/m3', 500.0_wp, none, 'is it in kN/m3 or t/m3?'), &
-      & range_type('density', 'kg/m3', 0.0_wp, 4000.0_wp, 'is it in N/m3?'), &
-      & range_type('overburden', 'N/m', 200.0_wp, none, 'is it in kN/m?'), &
-      & range_type('overburden', 'N/m', 0.0_wp, 1.0e6_wp, 'is it per metre of wall?')]
+      & range_type('height_large', 'height', 'm', 0.0_wp, 60.0_wp), &
+      & range_type('thickness_large', 'thickness', 'm', 0.0_wp, 3.0_wp), &
+      & range_type('density_small', 'density', 'kg/m3', 500.0_wp, none), &
+      & range_type('density_large', 'density', 'kg/m3', 0.0_wp, 4000.0_wp), &
+      & range_type('overburden_small', 'overburden', 'N/m', 200.0_wp, none), &
+      & range_type('overburden_large', 'overburden', 'N/m', 0.0_wp, 1.0e6_wp)]
 
    !> What there is to say of the values of walls
    type :: wall_warning_type
@@ -41,6 +41,7 @@ module dondolo_plausibility
       integer :: number(size(ranges)) = 0
       !> Name and value of the first of them
       type(line_type) :: first(size(ranges))
+      real(wp) :: value(size(ranges)) = 0.0_wp
    contains
       !> Look at a wall
       procedure :: look
@@ -69,8 +70,9 @@ contains
          ! No overburden is no mistake
          if (.not. value(i) > 0.0_wp .or. (value(i) >= ranges(i)%low .and. value(i) <= ranges(i)%high)) cycle
          self%number(i) = self%number(i) + 1
-         if (self%number(i) == 1) self%first(i)%text = 'wall '''//wall%input%name//''': '// &
-            & trim(ranges(i)%name)//' = '//rounded(value(i))//' '//trim(ranges(i)%unit)
+         if (self%number(i) > 1) cycle
+         self%first(i)%text = wall%input%name
+         self%value(i) = value(i)
       end do
    end subroutine look
 
@@ -79,18 +81,22 @@ contains
       !> What there is to say
       class(wall_warning_type), intent(in) :: self
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: limit, which
+      type(warning_type) :: warning
       integer :: i
 
       do i = 1, size(ranges)
          if (self%number(i) == 0) cycle
-         limit = ' is more than '//to_text(ranges(i)%high)
-         if (ranges(i)%low > 0.0_wp) limit = ' is less than '//to_text(ranges(i)%low)
-         which = ''
-         if (self%walls > 1) which = ' ('//to_text(self%number(i))//' of '//to_text(self%walls)//' in all)'
-         call warnings%add(self%first(i)%text//limit//' '//trim(ranges(i)%unit)//': '//trim(ranges(i)%question)//which)
+         warning = warning_type(ranges(i)%code)
+         call warning%about('wall', self%first(i)%text)
+         call warning%about('variable', trim(ranges(i)%name))
+         call warning%about('unit', trim(ranges(i)%unit))
+         call warning%with('value', self%value(i))
+         call warning%with('limit', merge(ranges(i)%low, ranges(i)%high, self%value(i) < ranges(i)%low))
+         call warning%with('walls_beyond', self%number(i))
+         call warning%with('walls', self%walls)
+         call warnings%add(warning)
       end do
    end subroutine warn
 

@@ -1,9 +1,8 @@
 !> The group &population: the file of a population of walls.
 module dondolo_population_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type, raise_input
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_settings, only : settings_type
    implicit none
    private
 
@@ -37,13 +36,13 @@ contains
    end subroutine read_population_group
 
    !> Write the group as namelist text
-   subroutine echo_population(file, lines)
+   subroutine echo_population(file, settings)
       !> Path of the table of walls as it was given
       character(len=*), intent(in) :: file
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      call lines%add('&population '//assignment_text('file', file)//' /')
+      call settings%add('population', 'file', file)
    end subroutine echo_population
 
 end module dondolo_population_group

@@ -1,9 +1,8 @@
 !> The group &records: the accelerograms and their polarity.
 module dondolo_records_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type, raise_input
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_settings, only : settings_type
    use dondolo_stripes, only : polarity_names
    use dondolo_text, only : join, lower
    implicit none
@@ -52,14 +51,14 @@ contains
    end subroutine read_records_group
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_records(records, lines)
+   subroutine echo_records(records, settings)
       !> What is said of the accelerograms
       type(records_input_type), intent(in) :: records
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      call lines%add('&records '//assignment_text('catalogue', records%catalogue))
-      call lines%add('         '//assignment_text('polarity', records%polarity)//' /')
+      call settings%add('records', 'catalogue', records%catalogue)
+      call settings%add('records', 'polarity', records%polarity)
    end subroutine echo_records
 
 end module dondolo_records_group

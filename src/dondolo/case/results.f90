@@ -4,9 +4,9 @@ module dondolo_results
    use dondolo_counts_stream, only : counts_stream_type
    use dondolo_ensemble, only : engine_text
    use dondolo_fragility, only : fragility_type
-   use dondolo_lines, only : lines_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_typology, only : typology_type
+   use dondolo_warning, only : warnings_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -47,7 +47,7 @@ module dondolo_results
       !> What was computed, of all walls: tasks 'stripes' and 'typology'
       type(work_type) :: work
       !> What the user should know
-      type(lines_type) :: warnings
+      type(warnings_type) :: warnings
    contains
       !> The engines that have run, with the build variant
       procedure :: engine

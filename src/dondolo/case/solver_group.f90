@@ -1,10 +1,9 @@
 !> The group &solver: how the motions are computed.
 module dondolo_solver_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_settings, only : settings_type
    use dondolo_solver, only : check_solver, engine_names, solver_type
    use dondolo_text, only : join, lower
    use dondolo_wall, only : standard_gravity
@@ -64,18 +63,18 @@ contains
    end subroutine read_solver_group
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_solver(input, lines)
+   subroutine echo_solver(input, settings)
       !> What is said of the computation
       type(solver_input_type), intent(in) :: input
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      call lines%add('&solver '//assignment_text('engine', trim(input%solver%engine)))
-      call lines%add('        '//assignment_text('rtol', input%solver%rtol)//', '// &
-         & assignment_text('atol', input%solver%atol))
-      call lines%add('        '//assignment_text('edp_limit', input%solver%edp_limit))
-      call lines%add('        '//assignment_text('estimate_error', input%solver%estimate_error))
-      call lines%add('        '//assignment_text('gravity', input%gravity)//' /')
+      call settings%add('solver', 'engine', trim(input%solver%engine))
+      call settings%add('solver', 'rtol', input%solver%rtol)
+      call settings%add('solver', 'atol', input%solver%atol, joins=.true.)
+      call settings%add('solver', 'edp_limit', input%solver%edp_limit)
+      call settings%add('solver', 'estimate_error', input%solver%estimate_error)
+      call settings%add('solver', 'gravity', input%gravity)
    end subroutine echo_solver
 
 end module dondolo_solver_group

@@ -1,11 +1,10 @@
 !> The group &stripes: the intensity measure and its levels.
 module dondolo_stripes_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_scaling, only : new_scaling, scaling_type
+   use dondolo_settings, only : settings_type
    use dondolo_stripes, only : check_levels, check_thresholds
    use dondolo_text, only : to_text
    implicit none
@@ -151,19 +150,16 @@ contains
    end function decimal
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_stripes(stripes, lines)
+   subroutine echo_stripes(stripes, settings)
       !> What is said of the stripes
       type(stripes_input_type), intent(in) :: stripes
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      if (allocated(stripes%levels)) then
-         call lines%add('&stripes '//assignment_text('im', stripes%scaling%name))
-         call lines%add('         '//assignment_text('levels', stripes%levels))
-         call lines%add('         '//assignment_text('edp_thresholds', stripes%thresholds)//' /')
-      else
-         call lines%add('&stripes '//assignment_text('im', stripes%scaling%name)//' /')
-      end if
+      call settings%add('stripes', 'im', stripes%scaling%name)
+      if (.not. allocated(stripes%levels)) return
+      call settings%add('stripes', 'levels', stripes%levels)
+      call settings%add('stripes', 'edp_thresholds', stripes%thresholds)
    end subroutine echo_stripes
 
 end module dondolo_stripes_group

@@ -2,11 +2,10 @@
 !>
 !> Ranges are checked where the wall is made (dondolo_wall), so that they hold for every user of it.
 module dondolo_wall_group
-   use dondolo_assignment, only : assignment_text
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_settings, only : settings_type
    use dondolo_text, only : lower
    use dondolo_wall, only : wall_input_type
    implicit none
@@ -112,23 +111,23 @@ contains
    end subroutine set_wall_number
 
    !> Write the group as namelist text with every value in force
-   subroutine echo_wall(input, lines)
+   subroutine echo_wall(input, settings)
       !> What is said of the wall, defaults filled in
       type(wall_input_type), intent(in) :: input
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Settings to add to
+      type(settings_type), intent(inout) :: settings
 
-      call lines%add('&wall '//assignment_text('name', input%name))
-      call lines%add('      '//assignment_text('mechanism', input%mechanism))
-      call lines%add('      '//assignment_text('height', input%height))
-      call lines%add('      '//assignment_text('thickness', input%thickness))
-      call lines%add('      '//assignment_text('density', input%density))
+      call settings%add('wall', 'name', input%name)
+      call settings%add('wall', 'mechanism', input%mechanism)
+      call settings%add('wall', 'height', input%height)
+      call settings%add('wall', 'thickness', input%thickness)
+      call settings%add('wall', 'density', input%density)
       call echo_number('hinge', input%hinge)
-      call lines%add('      '//assignment_text('restitution', input%restitution))
+      call settings%add('wall', 'restitution', input%restitution)
       call echo_number('restitution_value', input%restitution_value)
       call echo_number('overburden', input%overburden)
       call echo_number('eccentricity', input%eccentricity)
-      call lines%add('      '//assignment_text('restitution_factor', input%restitution_factor)//' /')
+      call settings%add('wall', 'restitution_factor', input%restitution_factor)
 
    contains
 
@@ -139,7 +138,7 @@ contains
          !> Its value
          real(wp), allocatable, intent(in) :: value
 
-         if (allocated(value)) call lines%add('      '//assignment_text(name, value))
+         if (allocated(value)) call settings%add('wall', name, value)
       end subroutine echo_number
 
    end subroutine echo_wall

@@ -1,0 +1,140 @@
+"""The file of a run: what ran, on which inputs, and what to beware of, as data beside the tables."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from datetime import datetime
+from typing import Any
+
+from dondolo import _binding
+from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo.work import Work
+
+FORMAT = "dondolo run 1"
+
+
+@dataclass(frozen=True)
+class RunFile:
+    """Contents of a file ``PREFIX_run.json``; docs/files.md describes its keys.
+
+    Attributes
+    ----------
+    version : str
+        Of the dondolo that ran.
+    compiler, engine : str
+        Compiler of the executable; engines that ran, with the build variant. Empty if unknown.
+    settings : mapping
+        Group -> variable -> value, all in force.
+    inputs : tuple of mapping
+        Files of the case: role, path, bytes, sha256.
+    work : Work or None
+        Counts; None for a time history.
+    history : mapping
+        Result of a time history, empty for other tasks.
+    notes : tuple of str
+        How tables were read.
+    warnings : tuple of DondoloWarning
+    written : datetime or None
+        When the file was written.
+    """
+
+    version: str
+    compiler: str = ""
+    engine: str = ""
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    inputs: tuple[Mapping[str, Any], ...] = ()
+    work: Work | None = None
+    history: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    warnings: tuple[DondoloWarning, ...] = ()
+    written: datetime | None = None
+
+    def setting(self, group: str, name: str, default: Any) -> Any:
+        """A variable of a group; `default`, which has the type it must have, if it is not there."""
+        value = self.settings.get(group, {}).get(name, default)
+        if isinstance(default, float) and type(value) is int:
+            value = float(value)
+        if type(value) is not type(default):
+            raise InputError(f"settings: {group}: {name} = {value!r}: must be of type {type(default).__name__}")
+        return value
+
+    def to_json(self) -> str:
+        """The text of the file."""
+        content: dict[str, Any] = {"format": FORMAT, "version": self.version}
+        content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
+        content |= {"settings": self.settings, "inputs": self.inputs}
+        if self.history:
+            content["history"] = self.history
+        if self.work is not None:
+            content["work"] = asdict(self.work)
+        content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
+        return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def read_run_file(path: str) -> RunFile:
+    """Read a file of a run.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+
+    Returns
+    -------
+    RunFile
+
+    Raises
+    ------
+    InputError
+        It is no file of a run; the key that is wrong is named.
+    MissingFileError
+        There is none.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = json.load(file)
+            written = datetime.fromtimestamp(os.fstat(file.fileno()).st_mtime).astimezone()
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: no JSON: {error}") from error
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise InputError(f"{path}: no file of a run: format must be '{FORMAT}'")
+    try:
+        work = _member(content, "work", dict, {})
+        return RunFile(
+            _member(content, "version", str),
+            _member(content, "compiler", str, ""),
+            _member(content, "engine", str, ""),
+            {group: _member(content["settings"], group, dict) for group in _member(content, "settings", dict)},
+            tuple(_all(content, "inputs", dict)),
+            Work(**{name: _member(work, name, int) for name in asdict(Work())}) if work else None,
+            _member(content, "history", dict, {}),
+            tuple(_all(content, "notes", str)),
+            tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
+            written,
+        )
+    except (LookupError, TypeError, ValueError) as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = None) -> Any:
+    """A member of an object, which must be of a type."""
+    value = content.get(name, default)
+    if type(value) is not kind:
+        raise ValueError(f"{name} = {value!r}: must be of type {kind.__name__}")
+    return value
+
+
+def _all(content: Mapping[str, Any], name: str, kind: type) -> list[Any]:
+    """A list whose elements must be of a type."""
+    values = _member(content, name, list, [])
+    for value in values:
+        if type(value) is not kind:
+            raise ValueError(f"{name}: {value!r}: must be of type {kind.__name__}")
+    return values
