@@ -13,6 +13,7 @@ program test_case
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
+   use dondolo_settings, only : settings_type
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
@@ -215,6 +216,7 @@ contains
    subroutine check_echo(content, what)
       character(len=*), intent(in) :: content, what
       type(case_type) :: case
+      type(settings_type) :: settings
       type(lines_type) :: first, second
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
@@ -224,7 +226,8 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_ok(error, what)
       if (allocated(error)) return
-      call case%echo(first)
+      call case%echo(settings)
+      call settings%to_namelist(first)
       text = ''
       do i = 1, first%count
          text = text//first%line(i)%text//lf
@@ -233,7 +236,8 @@ contains
       call read_case(scratch//'/b.nml', case, error)
       call check_ok(error, what//': the echo')
       if (allocated(error)) return
-      call case%echo(second)
+      call case%echo(settings)
+      call settings%to_namelist(second)
       call check(first%count == second%count, what//': lines of the echo')
       do i = 1, min(first%count, second%count)
          call check_text(second%line(i)%text, first%line(i)%text, what//': line '//to_text(i))

@@ -42,16 +42,28 @@ def test_fortran_sources(root):
     assert set(app) == {f"../app/{file.name}" for file in root.glob("app/*.f90")} - other_programs
 
 
-def test_rooms(root):
+def rooms_of(folder):
+    """The rooms in a folder: {file: room} and {module: room}."""
+    files = {path: path.relative_to(folder).parts[0] for path in folder.glob("**/*.[fF]90")}
+    homes = {name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    return files, homes
+
+
+@pytest.mark.parametrize(
+    ("folder", "rooms"),
+    [
+        (".", ["base", "record", "wall", "motion", "fragility", "case"]),
+        ("base", ["numerics", "text", "system"]),
+    ],
+)
+def test_rooms(root, folder, rooms):
     """Each room of the library knows only those before it."""
-    rooms = ["base", "record", "wall", "motion", "fragility", "case"]
-    files = {path: path.relative_to(root / "src/dondolo").parts[0] for path in root.glob("src/dondolo/**/*.[fF]90")}
-    home = {name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    files, homes = rooms_of(root / "src/dondolo" / folder)
     assert set(files.values()) == set(rooms)
     for path, room in files.items():
         for name in re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M):
             # The build variants of a module are at home where it is.
-            known = home[re.sub("_(avx2|avx512)$", "", name)]
+            known = homes[re.sub("_(avx2|avx512)$", "", name)]
             assert rooms.index(known) <= rooms.index(room), f"{path.name} uses {name}"
 
 
