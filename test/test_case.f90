@@ -360,7 +360,7 @@ contains
       call run_case(case, results, error, threads=1)
       call write_reports(case, results, paths, error)
       call check_ok(error, 'reports')
-      call check(paths%count == 4, 'four files')
+      call check(paths%count == 5, 'five files')
       inquire (file=scratch//'/out/x_fragility.csv', exist=exists)
       call check(exists, 'the last one is there')
       inquire (file=scratch//'/out/x_fragility.csv.part', exist=exists)

@@ -7,6 +7,7 @@ float64 before they cross.
 from __future__ import annotations
 
 import functools
+import json
 import os
 import sys
 import threading
@@ -520,9 +521,7 @@ def fit_walls(
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 
 
-def warnings_of_curve(
-    wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData
-) -> list[DondoloWarning]:
+def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
     return unpack_warnings(receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines)

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from dondolo import _binding, _core
 from dondolo._arguments import FloatArray, as_array, as_count, as_text
+from dondolo.errors import DondoloWarning
 from dondolo.records import Record, flatten
 from dondolo.walls import Wall
 from dondolo.work import Work
@@ -38,7 +39,7 @@ class Plan(NamedTuple):
         Of the last wall: index of each history's record, and +1 or -1.
     scale : ndarray, shape (levels, histories)
         Of the last wall: factors on the records, without the sign of the polarity.
-    warnings : list of str
+    warnings : list of DondoloWarning
         What the user should know.
     """
 
@@ -46,7 +47,7 @@ class Plan(NamedTuple):
     record: Any
     polarity: Any
     scale: FloatArray
-    warnings: list[str]
+    warnings: list[DondoloWarning]
 
 
 class Outcome(NamedTuple):
@@ -86,7 +87,7 @@ class Request:
         walls, count = len(self.walls), int(parcel.integers[len(self.walls) - 1])
         record, polarity = parcel.integers[walls:].reshape(2, count)
         scale = parcel.reals.reshape(len(self.levels), count)
-        return Plan(parcel.integers[:walls], record - 1, polarity, scale, parcel.lines)
+        return Plan(parcel.integers[:walls], record - 1, polarity, scale, _binding.unpack_warnings(parcel.lines))
 
     def run(self, histories: Sequence[int], progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""

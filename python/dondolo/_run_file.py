@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from datetime import datetime
 from typing import Any
 
@@ -14,6 +14,30 @@ from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.work import Work
 
 FORMAT = "dondolo run 1"
+
+
+@dataclass(frozen=True)
+class HistoryResult:
+    """Result of a time history: what its table of rows does not hold.
+
+    Attributes
+    ----------
+    record : str
+    scale, edp : float
+    collapsed : bool
+    impacts : int
+    time_of_peak_s : float
+    edp_error : float or None
+        None if it was not estimated.
+    """
+
+    record: str
+    scale: float
+    edp: float
+    collapsed: bool
+    impacts: int
+    time_of_peak_s: float
+    edp_error: float | None = None
 
 
 @dataclass(frozen=True)
@@ -32,13 +56,15 @@ class RunFile:
         Files of the case: role, path, bytes, sha256.
     work : Work or None
         Counts; None for a time history.
-    history : mapping
-        Result of a time history, empty for other tasks.
+    history : HistoryResult or None
+        None for other tasks.
     notes : tuple of str
         How tables were read.
     warnings : tuple of DondoloWarning
     written : datetime or None
         When the file was written.
+    path : str
+        The file, for messages.
     """
 
     version: str
@@ -47,27 +73,24 @@ class RunFile:
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     inputs: tuple[Mapping[str, Any], ...] = ()
     work: Work | None = None
-    history: Mapping[str, Any] = field(default_factory=dict)
+    history: HistoryResult | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[DondoloWarning, ...] = ()
     written: datetime | None = None
+    path: str = ""
 
     def setting(self, group: str, name: str, default: Any) -> Any:
         """A variable of a group; `default`, which has the type it must have, if it is not there."""
-        value = self.settings.get(group, {}).get(name, default)
-        if isinstance(default, float) and type(value) is int:
-            value = float(value)
-        if type(value) is not type(default):
-            raise InputError(f"settings: {group}: {name} = {value!r}: must be of type {type(default).__name__}")
-        return value
+        try:
+            return _member(self.settings.get(group, {}), name, type(default), default)
+        except ValueError as error:
+            raise InputError(f"{self.path}: settings: {group}: {error}") from error
 
     def to_json(self) -> str:
         """The text of the file."""
         content: dict[str, Any] = {"format": FORMAT, "version": self.version}
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
         content |= {"settings": self.settings, "inputs": self.inputs}
-        if self.history:
-            content["history"] = self.history
         if self.work is not None:
             content["work"] = asdict(self.work)
         content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
@@ -106,7 +129,7 @@ def read_run_file(path: str) -> RunFile:
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"{path}: no file of a run: format must be '{FORMAT}'")
     try:
-        work = _member(content, "work", dict, {})
+        work, history = _member(content, "work", dict, {}), _member(content, "history", dict, {})
         return RunFile(
             _member(content, "version", str),
             _member(content, "compiler", str, ""),
@@ -114,18 +137,29 @@ def read_run_file(path: str) -> RunFile:
             {group: _member(content["settings"], group, dict) for group in _member(content, "settings", dict)},
             tuple(_all(content, "inputs", dict)),
             Work(**{name: _member(work, name, int) for name in asdict(Work())}) if work else None,
-            _member(content, "history", dict, {}),
+            _history(history) if history else None,
             tuple(_all(content, "notes", str)),
             tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
             written,
+            path,
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error
 
 
+def _history(content: Mapping[str, Any]) -> HistoryResult:
+    """Result of a time history."""
+    kinds = {"record": str, "collapsed": bool, "impacts": int}
+    values = {one.name: _member(content, one.name, kinds.get(one.name, float)) for one in fields(HistoryResult)[:-1]}
+    error = _member(content, "edp_error", float) if "edp_error" in content else None
+    return HistoryResult(**values, edp_error=error)
+
+
 def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = None) -> Any:
     """A member of an object, which must be of a type."""
     value = content.get(name, default)
+    if kind is float and type(value) is int:
+        value = float(value)
     if type(value) is not kind:
         raise ValueError(f"{name} = {value!r}: must be of type {kind.__name__}")
     return value

@@ -12,7 +12,7 @@ import numpy as np
 from dondolo import _binding, _core, tables
 from dondolo._arguments import FloatArray, as_number, as_text
 from dondolo._shown import Shown
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.records import Record
 from dondolo.walls import Wall
 

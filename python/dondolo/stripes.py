@@ -15,7 +15,7 @@ from dondolo import _binding, tables
 from dondolo._arguments import FloatArray, as_number
 from dondolo._request import Outcome, Plan, Request, new_request
 from dondolo._shown import Shown
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.fragility import Fragility, fit
 from dondolo.records import Record, as_records
 from dondolo.walls import Wall

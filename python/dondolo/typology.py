@@ -18,8 +18,9 @@ from dondolo._arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._files import as_file, remove_old, whole_file
 from dondolo._flags import Flags
 from dondolo._members import Members
+from dondolo._run_file import RunFile
 from dondolo._shown import Shown
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.fragility import Fragility
 from dondolo.population import Population
 from dondolo.typology_bootstrap import TypologyBootstrap, resample_population
@@ -115,7 +116,7 @@ class Typology(Shown):
     flags : Flags
         The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
         read back.
-    warnings : tuple of str
+    warnings : tuple of DondoloWarning
         What was warned of: by the run, and of the curves of this state.
     """
 
@@ -130,7 +131,7 @@ class Typology(Shown):
     groups: tuple[Group, ...]
     work: Work
     flags: Flags | None = None
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[DondoloWarning, ...] = ()
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -483,8 +484,17 @@ class Typology(Shown):
             for table in self._tables():
                 part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
                 self.to_csv(part, table)
+            # Last, since its name is what makes the others a run
+            part = files.enter_context(whole_file(start.with_name(f"{start.name}_run.json")))
+            tables.write_lines(part, [self._run_file(pulls.pop()).to_json()])
         for table in ("histories", "history"):
             remove_old(start.with_name(f"{start.name}_{table}.csv"), "# dondolo ")
+
+    def _run_file(self, gravity: float) -> RunFile:
+        stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
+        solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
+        settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
+        return RunFile(_binding.constants().version, settings=settings, work=self.work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())

@@ -3,13 +3,13 @@
 module dondolo_run_file
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
+   use dondolo_checksum, only : crc32_length, crc32_of_file
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_paths, only : beside
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type
    use dondolo_settings, only : settings_type
-   use dondolo_sha256, only : sha256_length, sha256_of_file
    use dondolo_version, only : dondolo_version_text
    use dondolo_warning_sentence, only : put_warnings
    use dondolo_work, only : work_names
@@ -79,21 +79,21 @@ contains
       subroutine put_input(role, path)
          character(len=*), intent(in) :: role, path
 
-         character(len=sha256_length) :: checksum
+         character(len=crc32_length) :: checksum
          integer(int64) :: bytes
          logical :: ok
 
-         call sha256_of_file(path, checksum, bytes, ok)
+         call crc32_of_file(path, checksum, bytes, ok)
          call json%open_object()
          call json%put('role', role)
          call json%put('path', path)
          if (ok) then
             call json%put('bytes', bytes)
-            call json%put('sha256', checksum)
+            call json%put('crc32', checksum)
          else
             ! Removed during the run: that must not cost the results
             call json%put_raw('bytes', 'null')
-            call json%put_raw('sha256', 'null')
+            call json%put_raw('crc32', 'null')
          end if
          call json%close_object()
       end subroutine put_input
