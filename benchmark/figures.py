@@ -6,7 +6,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.style import BLACK, BLUE, GREY, RC, RED
+from dondolo.figures.style import BLACK, BLUE, GREY, RC, RED
 from matplotlib.ticker import NullFormatter
 from problem import ROOT
 

@@ -17,9 +17,9 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from dondolo.figures import style
 
 import dondolo as dd
-from dondolo import style
 
 root = Path(__file__).resolve().parents[1]
 figures = root / "docs/figures"

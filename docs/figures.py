@@ -14,11 +14,11 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.drawing import shape
-from dondolo.processing import velocity
+from dondolo.analysis.drawing import shape
+from dondolo.figures import style
+from dondolo.records.processing import velocity
 
 import dondolo as dd
-from dondolo import style
 
 root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")

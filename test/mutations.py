@@ -135,8 +135,8 @@ EDITS = [
     ),
     Edit(
         "resampled dispersions of an energy are not halved",
-        "resample_stripes(stripes, times).beta for stripes in analyses]) / power[:, None]",
-        "resample_stripes(stripes, times).beta for stripes in analyses])",
+        "resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]",
+        "resample(stripes._sample(), times).beta for stripes in analyses])",
         "test_intensity.py::test_comparison",
     ),
     # Regressions

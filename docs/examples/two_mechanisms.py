@@ -4,9 +4,9 @@
 from pathlib import Path
 
 import numpy as np
+from dondolo.figures import style
 
 import dondolo as dd
-from dondolo import style
 
 data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")

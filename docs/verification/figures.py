@@ -7,7 +7,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from cases import ROOT
-from dondolo.style import BLACK, BLUE, GREY, RC, RED
+from dondolo.figures.style import BLACK, BLUE, GREY, RC, RED
 from study import DEFAULT, TOLERANCES
 
 FOLDER = ROOT / "docs" / "figures"

@@ -11,50 +11,50 @@
 `dondolo.read_catalogue` reads recorded accelerograms.
 """
 
-from dondolo._binding import build_variant
-from dondolo._binding import constants as _constants
-from dondolo.bootstrap import Bootstrap
-from dondolo.cases import Case, Results, read_case, run_case
-from dondolo.cloud import Cloud, cloud
-from dondolo.comparison import Comparison, compare
-from dondolo.distributions import Choice, Lognormal, Normal, Triangular, Uniform
-from dondolo.drawing import animate_history, plot_wall
-from dondolo.efficiency import IntensityComparison, compare_intensities
-from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
-from dondolo.fragility import Fragility, fit_fragility
-from dondolo.hazard import HazardCurve
-from dondolo.incremental import FirstCollapseFragility, Incremental, incremental
-from dondolo.intensity import Spectrum, intensity_table, response_spectrum
-from dondolo.mean_functions import nrml_functions
-from dondolo.motion import Response, simulate
-from dondolo.nrml import DiscreteFragility, write_nrml
-from dondolo.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
-from dondolo.plots import (
+from dondolo._fortran._binding import build_variant
+from dondolo._fortran._binding import constants as _constants
+from dondolo.analysis.cloud import Cloud, cloud
+from dondolo.analysis.drawing import animate_history, plot_wall
+from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
+from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
+from dondolo.analysis.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
+from dondolo.analysis.plots import (
     plot_fragility,
     plot_history,
     plot_intensities,
     plot_overturning_spectrum,
     plot_stripes,
 )
-from dondolo.plots_population import plot_population
-from dondolo.plots_typology import plot_combination, plot_damage_states, plot_groups, plot_typology
-from dondolo.population import Population, read_population
-from dondolo.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
-from dondolo.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
-from dondolo.records import Record, read_catalogue, read_record, read_records
-from dondolo.regression import Logistic, Regression
-from dondolo.report import report
-from dondolo.results import StoredResults, read_results
-from dondolo.risk import Risk, mean_annual_frequency
-from dondolo.risk_plots import plot_cloud, plot_incremental, plot_risk
-from dondolo.sampling import sample_population
-from dondolo.stripes import Stripes, multiple_stripe
-from dondolo.study import typology
-from dondolo.synthetic import synthetic_records
-from dondolo.typology import Group, Typology
-from dondolo.typology_bootstrap import TypologyBootstrap
-from dondolo.walls import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
-from dondolo.work import Work
+from dondolo.analysis.response import Response, simulate
+from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.analysis.work import Work
+from dondolo.curves.bootstrap import Bootstrap
+from dondolo.curves.comparison import Comparison, compare
+from dondolo.curves.fragility import Fragility, fit_fragility
+from dondolo.curves.regression import Logistic, Regression
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
+from dondolo.exchange.cases import Case, Results, read_case, run_case
+from dondolo.exchange.mean_functions import nrml_functions
+from dondolo.exchange.nrml import DiscreteFragility, write_nrml
+from dondolo.exchange.results import StoredResults, read_results
+from dondolo.populations.bootstrap import TypologyBootstrap
+from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
+from dondolo.populations.study import typology
+from dondolo.populations.typology import Group, Typology
+from dondolo.records.intensity import Spectrum, intensity_table, response_spectrum
+from dondolo.records.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
+from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
+from dondolo.records.record import Record, read_catalogue, read_record, read_records
+from dondolo.records.synthetic import synthetic_records
+from dondolo.reporting.page import report
+from dondolo.risk.frequency import Risk, mean_annual_frequency
+from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.plots import plot_cloud, plot_incremental, plot_risk
+from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
+from dondolo.walls.plots import plot_population
+from dondolo.walls.population import Population, read_population
+from dondolo.walls.sampling import sample_population
+from dondolo.walls.wall import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
 
 __version__ = _constants().version
 

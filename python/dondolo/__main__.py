@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import dondolo as dd
-from dondolo import _binding
-from dondolo._files import whole_file
-from dondolo.catalogues import build_catalogue
-from dondolo.mean_functions import taxonomy_of
-from dondolo.nrml import Curve
+from dondolo._base.files import whole_file
+from dondolo._fortran import _binding
+from dondolo.exchange.mean_functions import taxonomy_of
+from dondolo.exchange.nrml import Curve
+from dondolo.records.catalogues import build_catalogue
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -13,11 +13,12 @@ from contextlib import closing, suppress
 import numpy as np
 import pytest
 import study
-from dondolo._checkpoint import Checkpoint
-from dondolo.work import Work
+from dondolo._fortran import _binding, _core
+from dondolo.analysis.work import Work
+from dondolo.populations import blocks
+from dondolo.populations.checkpoint import Checkpoint
 
 import dondolo as dd
-from dondolo import _binding, _blocks, _core
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -26,14 +27,14 @@ RUN = """
 import sys, warnings
 from pathlib import Path
 import dondolo as dd, study
-from dondolo import _checkpoint
+from dondolo.populations import checkpoint
 warnings.simplefilter("ignore")
-keep = _checkpoint.Checkpoint.keep
+keep = checkpoint.Checkpoint.keep
 def tell(self, first, walls, work, flags):
     print("run", first, walls, flush=True)
     keep(self, first, walls, work, flags)
     print("kept", first, walls, flush=True)
-_checkpoint.Checkpoint.keep = tell
+checkpoint.Checkpoint.keep = tell
 path, folder, block = sys.argv[1:]
 typology = dd.typology(**study.arguments(checkpoint=path, block=int(block), threads=1))
 study.write(typology, Path(folder))
@@ -232,13 +233,13 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
 
 def test_two_runs(tmp_path, monkeypatch):
     path = tmp_path / "study.sqlite"
-    monkeypatch.setattr(_blocks.Run, "add", interrupt)
+    monkeypatch.setattr(blocks.Run, "add", interrupt)
     with pytest.raises(dd.Interrupted):
         dd.typology(**study.arguments(checkpoint=path, block=5))
     monkeypatch.undo()
     with Checkpoint(path, of_study(path)) as first:
         assert len(list(first.blocks())) == 1
-        monkeypatch.setattr(_blocks.Shared, "run", None)
+        monkeypatch.setattr(blocks.Shared, "run", None)
         with pytest.raises(dd.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))
     monkeypatch.undo()
@@ -277,7 +278,7 @@ def claimed(file):
 @pytest.mark.parametrize("first", [0, 1])
 def test_of_two_runs_that_begin_together_one_goes_on(tmp_path, monkeypatch, first):
     path = tmp_path / "study.sqlite"
-    monkeypatch.setattr(_blocks.Run, "add", interrupt)
+    monkeypatch.setattr(blocks.Run, "add", interrupt)
     with pytest.raises(dd.Interrupted):
         dd.typology(**study.arguments(checkpoint=path, block=5))
     given = of_study(path)

@@ -10,11 +10,11 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.cloud import fit
+from dondolo._fortran import _core
+from dondolo.analysis.cloud import fit
 from scipy import stats
 
 import dondolo as dd
-from dondolo import _core
 
 FACTOR = 2.5
 

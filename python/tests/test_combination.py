@@ -5,12 +5,12 @@ import pickle
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.combination import combine
-from dondolo.work import Work
+from dondolo.analysis.work import Work
+from dondolo.populations import members, plots
+from dondolo.populations.combination import combine
 from matplotlib.colors import to_rgba
 
 import dondolo as dd
-from dondolo import _members
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -247,7 +247,7 @@ def test_which_curves_there_are(people):
 def test_memory_in_parts(people, monkeypatch):
     x = np.linspace(0.0, 2.0, 50)
     mean, fractiles = people.mean(x), people.fractiles(x)
-    monkeypatch.setattr(_members, "_NUMBERS", 30)
+    monkeypatch.setattr(members, "_NUMBERS", 30)
     assert people.mean(x) == pytest.approx(mean, rel=1e-14, abs=0.0)
     assert np.array_equal(people.fractiles(x), fractiles)
     assert people.mean([]).shape == (0,)
@@ -374,11 +374,10 @@ def test_warnings_name_the_state(states, edp):
 
 
 def test_figures(people, states, monkeypatch):
-    from dondolo import plots_typology
 
     ax = dd.plot_typology(people, mechanism="one_sided", group="facades")
     assert ax.get_title(loc="left") == "one-sided, group facades"
-    monkeypatch.setattr(plots_typology, "_THIN", 2)
+    monkeypatch.setattr(plots, "_THIN", 2)
     labels = dd.plot_typology(people).get_legend_handles_labels()[1]
     assert labels[0] == "2 of 5 walls"
     assert dd.plot_typology(typology_of(WALLS[3:4])).get_legend_handles_labels()[1][0] == "1 wall"

@@ -17,9 +17,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import study
+from dondolo._fortran import _binding
+from dondolo.populations import blocks, crew
 
 import dondolo as dd
-from dondolo import _binding, _blocks, _crew
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -39,12 +40,12 @@ def crews(monkeypatch):
     """The crews that were at work, for how often they sent the records."""
     there = []
 
-    class Watched(_crew.Crew):
+    class Watched(crew.Crew):
         def __init__(self, *given):
             super().__init__(*given)
             there.append(self)
 
-    monkeypatch.setattr(_crew, "Crew", Watched)
+    monkeypatch.setattr(crew, "Crew", Watched)
     return there
 
 
@@ -87,7 +88,7 @@ class Memories(threading.local):
 
 @pytest.mark.parametrize("workers", [1, 2, 5, 12])
 def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch, workers):
-    run, gone, seen, sizes = _blocks.Shared.run, [], set(), []
+    run, gone, seen, sizes = blocks.Shared.run, [], set(), []
     pause = 0.02 * workers
 
     def slow(*given):
@@ -97,9 +98,9 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
         part = run(*given)
         return part._replace(seconds=part.seconds + pause)
 
-    monkeypatch.setattr(_blocks.Shared, "run", slow)
+    monkeypatch.setattr(blocks.Shared, "run", slow)
     monkeypatch.setattr(socket, "gethostname", lambda: threading.current_thread().name)
-    monkeypatch.setattr(_crew, "_shared", Memories())
+    monkeypatch.setattr(crew, "_shared", Memories())
 
     class Listening(ThreadPoolExecutor):
         def submit(self, work, head, block, parcel):
@@ -109,7 +110,7 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
     def forget(*given):
         gone.append(1)
         if len(gone) == 20:
-            _crew._shared.own.clear()
+            crew._shared.own.clear()
         return perform(*given)
 
     with Listening(workers) as executor:
@@ -120,8 +121,8 @@ def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch,
         assert max(sizes) < 2000
         late = workers - len(seen)
         # A worker that has begun anew gets them again, and those that had no work until now.
-        perform = _crew.perform
-        monkeypatch.setattr(_crew, "perform", forget)
+        perform = crew.perform
+        monkeypatch.setattr(crew, "perform", forget)
         assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "again") == whole
         assert 1 <= crews[1].sends <= late + 4
 
@@ -135,7 +136,7 @@ def test_no_two_tasks_are_the_same(monkeypatch):
             asked.append(given)
             return super().submit(*given)
 
-    monkeypatch.setattr(_crew, "_shared", Memories())
+    monkeypatch.setattr(crew, "_shared", Memories())
     with Listening(1) as executor:
         dd.typology(**study.arguments(executor=executor, block=1))
     # Some were missed and sent again.
@@ -212,7 +213,7 @@ def test_errors(pool, monkeypatch):
     with pytest.raises(dd.InputError, match=r"executor: str is no executor of concurrent\.futures"):
         dd.typology(**study.arguments(executor="dask"))
     # Workers whose results would differ
-    build = _crew._build()
+    build = crew._build()
     monkeypatch.setattr(_binding, "build_variant", lambda: "z80")
     with pytest.raises(dd.InputError, match=rf"worker \S+: has {build} and not dondolo .*, z80; .*DONDOLO_VARIANT"):
         dd.typology(**study.arguments(executor=pool))
@@ -264,12 +265,12 @@ import os, signal, sys, warnings
 from pathlib import Path
 from mpi4py.futures import MPIPoolExecutor
 import dondolo as dd, study
-from dondolo import _blocks, _crew
+from dondolo.populations import blocks, crew
 warnings.simplefilter("ignore")
-class Watched(_crew.Crew):
+class Watched(crew.Crew):
     def __exit__(self, *given):
         print("sends", self.sends, flush=True)
-_crew.Crew = Watched
+crew.Crew = Watched
 if __name__ == "__main__":
     folder, checkpoint, after = Path(sys.argv[1]), sys.argv[2], int(sys.argv[3])
     with MPIPoolExecutor() as executor:
@@ -318,9 +319,9 @@ def test_a_process_of_mpi_is_killed(whole, tmp_path, mpiexec):
     assert not (tmp_path / "out").exists()
     assert path.exists()
     calls = []
-    run = _blocks.Shared.run
+    run = blocks.Shared.run
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(_blocks.Shared, "run", lambda *given: calls.append(given[1]) or run(*given))
+        patch.setattr(blocks.Shared, "run", lambda *given: calls.append(given[1]) or run(*given))
         result = dd.typology(**study.arguments(checkpoint=path, block=1))
     assert 30 < len(calls) < 60
     assert of(result, tmp_path / "out") == whole

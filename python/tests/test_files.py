@@ -10,10 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo._files import whole_file
+from dondolo._base.files import whole_file
+from dondolo._fortran import _binding
+from dondolo._storage import tables
 
 import dondolo as dd
-from dondolo import _binding, tables
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 

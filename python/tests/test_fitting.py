@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from dondolo.bootstrap import draw_records
+from dondolo.curves.bootstrap import draw_records
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import optimize, stats

@@ -12,7 +12,7 @@ import warnings
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.incremental import SHARES, fractiles
+from dondolo.analysis.incremental import SHARES, fractiles
 from scipy import optimize, stats
 
 import dondolo as dd

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo.combination import combine
+from dondolo.populations.combination import combine
 from test_nrml import check
 
 import dondolo as dd

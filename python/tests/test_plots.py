@@ -11,7 +11,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.drawing import peak_rotation, shape
+from dondolo.analysis.drawing import peak_rotation, shape
 from matplotlib.image import imread
 from scipy import stats
 

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from dondolo.processing import significant_times, velocity
+from dondolo.records.processing import significant_times, velocity
 
 import dondolo as dd
 

@@ -1,5 +1,6 @@
 """What holds the project together: lists and versions in step, the boundary's kinds, costs of import and call."""
 
+import ast
 import doctest
 import importlib
 import importlib.util
@@ -13,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from dondolo._fortran import _core
 
 import dondolo as dd
-from dondolo import _core
 
 
 def test_versions(root):
@@ -99,6 +100,35 @@ def test_python_sources(root):
     package = root / "python/dondolo"
     there = {f"dondolo/{file.relative_to(package)}" for file in package.glob("**/*.py")} | {"dondolo/py.typed"}
     assert listed == there
+
+
+def test_python_rooms(root):
+    """Each room of the package imports only itself and those before it, for its types too."""
+    rooms = [
+        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "analysis", "populations",
+        "risk", "exchange", "reporting", "__init__", "__main__",
+    ]  # fmt: skip
+    package = root / "python/dondolo"
+
+    def room(name):
+        return "reporting" if re.match("_page|_?report", name) else name
+
+    seen = set()
+    for path in package.glob("**/*.py"):
+        here = room(path.relative_to(package).parts[0].removesuffix(".py"))
+        seen.add(here)
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ImportFrom):
+                assert node.level == 0, f"{path.name}: relative import"
+                names = [f"{node.module}.{alias.name}" for alias in node.names]
+            else:
+                names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            for name in names:
+                if name.split(".")[0] == "dondolo":
+                    there = room(f"{name}.__init__".split(".")[1])
+                    assert there in rooms, f"{path.name} imports {name}"
+                    assert rooms.index(there) <= rooms.index(here), f"{path.name} imports {name}"
+    assert seen == set(rooms)
 
 
 def test_no_single_precision_at_the_boundary():

@@ -11,11 +11,11 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.processing import velocity
+from dondolo._fortran import _core
+from dondolo.records.processing import velocity
 from matplotlib.collections import PolyCollection
 
 import dondolo as dd
-from dondolo import _core
 
 PULSES = (dd.one_sine, dd.one_cosine, dd.ricker, dd.mavroeidis_papageorgiou)
 
@@ -258,7 +258,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
         return run_scaled(*arguments)
 
     monkeypatch.setattr(_core, "run_scaled", stop)
-    monkeypatch.setattr("dondolo._request._FIRST_SAMPLES", 60_000)
+    monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
     with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
         dd.overturning_spectrum(spectrum.wall, dd.one_sine, spectrum.frequencies, spectrum.amplitudes, progress=False)
     partial = caught.value.partial

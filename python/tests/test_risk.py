@@ -12,11 +12,11 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo._risk_walls import WallFrequencies
+from dondolo.risk import integrals as integrals_module
+from dondolo.risk.walls import WallFrequencies
 from scipy import integrate, stats
 
 import dondolo as dd
-from dondolo import _risk_integrals as integrals_module
 
 LEVELS = [0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
 FREQUENCY = [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6, 2e-7, 5e-9]

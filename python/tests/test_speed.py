@@ -9,9 +9,10 @@ import time
 import numpy as np
 import pytest
 from costs import growth
+from dondolo._fortran import _core
+from dondolo.analysis import request
 
 import dondolo as dd
-from dondolo import _core, _request
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 
@@ -105,7 +106,7 @@ def test_blocks_plan_the_levels_that_they_run(wall, sine, monkeypatch):
         return run_block(*arguments)
 
     monkeypatch.setattr(_core, "run_block", count)
-    monkeypatch.setattr(_request, "_SECONDS", 1e-9)
+    monkeypatch.setattr(request, "_SECONDS", 1e-9)
     stripes = dd.multiple_stripe(wall, [sine, sine], np.linspace(0.01, 1.0, 500), progress=False)
     assert len(planned) > 100
     assert sum(planned) <= 500 + len(planned)

@@ -8,9 +8,10 @@ import time
 
 import numpy as np
 import pytest
+from dondolo._fortran import _core
+from dondolo.analysis import request
 
 import dondolo as dd
-from dondolo import _core, _request
 
 LEVELS = [0.2, 0.5, 0.9]
 
@@ -83,8 +84,8 @@ def test_threads_change_nothing(analysis, wall, few, threads):
 
 @pytest.mark.parametrize("samples", [1, 20_000])
 def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch):
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", samples)
-    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", samples)
+    monkeypatch.setattr(request, "_SECONDS", 0.0)
     sizes = []
     run_block = _core.run_block
 
@@ -189,8 +190,8 @@ def test_values_in_other_units_warn(sine):
 
 
 def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1)
-    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
+    monkeypatch.setattr(request, "_SECONDS", 0.0)
     done = []
     run_block = _core.run_block
 

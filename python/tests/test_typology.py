@@ -9,10 +9,11 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from dondolo.combination import combine
+from dondolo.analysis import request
+from dondolo.populations import blocks
+from dondolo.populations.combination import combine
 
 import dondolo as dd
-from dondolo import _request
 
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
@@ -119,7 +120,7 @@ def test_executors(typology, population, few, kind):
 @pytest.mark.parametrize("samples", [20_000, 10_000_000])
 def test_threads_change_nothing(typology, population, few, threads, samples, monkeypatch):
     """Blocks of parts of a wall, and one of all walls: some shared out among the threads, the others run by all."""
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", samples)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", samples)
     other = dd.typology(population, few, LEVELS, polarity="both", threads=threads, progress=False)
     assert np.array_equal(other.collapses, typology.collapses)
     assert other.work == typology.work
@@ -144,10 +145,10 @@ def test_errors(population, few):
 
 
 def test_interruption_keeps_complete_walls(population, few, monkeypatch):
-    from dondolo import _core, _request
+    from dondolo._fortran import _core
 
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 100_000)
-    monkeypatch.setattr(_request, "_SECONDS", 0.0)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 100_000)
+    monkeypatch.setattr(request, "_SECONDS", 0.0)
     done = []
     run_block = _core.run_block
 
@@ -176,7 +177,7 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
 
 
 def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
-    from dondolo import _core
+    from dondolo._fortran import _core
 
     kinds = (dd.OneSidedWall, dd.TwoBlockWall)
     rows = [kind(2.0 + 0.1 * i, 0.25, name=f"wall {i}") for i in range(4) for kind in kinds]
@@ -188,7 +189,7 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
             raise KeyboardInterrupt
         return run_block(*arguments)
 
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1e9)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1e9)
     monkeypatch.setattr(_core, "run_block", stop)
     with pytest.raises(dd.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
         dd.typology(rows, few, LEVELS, block=1, progress=False)
@@ -196,7 +197,7 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
     assert [wall.name for wall in partial.walls] == ["wall 0", "wall 0", "wall 1", "wall 1"]
     assert len(partial.flags.histories) == 4
     calls.clear()
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1)
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
     calls += [1] * 4
     with pytest.raises(dd.Interrupted, match="interrupted: no wall is complete"):
         dd.typology(rows, few, LEVELS, block=1, progress=False)
@@ -204,7 +205,6 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
 
 def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
     """Between the last history of a block and the report of it."""
-    from dondolo import _blocks
 
     class Bar:
         done = 0
@@ -214,8 +214,8 @@ def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
             if self.done >= 3 * len(few) * len(LEVELS):
                 raise KeyboardInterrupt
 
-    monkeypatch.setattr(_blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
-    monkeypatch.setattr(_request, "_FIRST_SAMPLES", 1e9)
+    monkeypatch.setattr(blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1e9)
     with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     assert len(caught.value.partial.walls) == 3

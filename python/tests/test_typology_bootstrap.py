@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 import study
 from costs import growth
-from dondolo._flags import Flags
-from dondolo.typology_bootstrap import resample_population
+from dondolo.populations import bootstrap
+from dondolo.populations.bootstrap import resample_population
+from dondolo.populations.flags import Flags
 from scipy import stats
 
 import dondolo as dd
@@ -101,12 +102,11 @@ def test_brute_force(mixed, mechanism, group, over):
 
 
 def test_chunks_change_nothing(mixed, monkeypatch):
-    from dondolo import typology_bootstrap
 
     population, flags, _ = mixed
     whole = resample_population(population, flags, LEVELS, n=50)
-    monkeypatch.setattr(typology_bootstrap, "_DRAWS", 30)
-    monkeypatch.setattr(typology_bootstrap, "_FRACTIONS", 100)
+    monkeypatch.setattr(bootstrap, "_DRAWS", 30)
+    monkeypatch.setattr(bootstrap, "_FRACTIONS", 100)
     parts = resample_population(population, flags, LEVELS, n=50)
     assert parts.mean_fraction == pytest.approx(whole.mean_fraction, rel=1e-12)
 

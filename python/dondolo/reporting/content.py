@@ -1,4 +1,4 @@
-"""What the templates of a report set: symbols, tables, figures. All are data; escaping and layout are the templates'."""
+"""What the templates of a report set: symbols, tables, figures. All are data; templates escape and lay out."""
 
 from __future__ import annotations
 

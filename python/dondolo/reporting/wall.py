@@ -55,7 +55,9 @@ def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> d
     unit = blank_unit(stripes.im)
     counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
     levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
-    fit = f"median {curve.theta:.3g}{unit}, dispersion {curve.beta:.3g}" if curve.has_fit else f"no fit ({curve.status})"
+    fit = f"no fit ({curve.status})"
+    if curve.has_fit:
+        fit = f"median {curve.theta:.3g}{unit}, dispersion {curve.beta:.3g}"
     return {
         "stripes": figure(
             lambda: plot_stripes(stripes),

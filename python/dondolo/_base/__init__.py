@@ -1,0 +1,1 @@
+"""Arguments, files and how objects show themselves: what every other room needs."""

@@ -1,0 +1,549 @@
+"""The only module that touches the Fortran extension.
+
+Statuses become exceptions with the sentence of the executable, parcels become arrays, and arrays become contiguous
+float64 before they cross.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import sys
+import threading
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_path, as_text
+from dondolo._fortran import _core
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
+
+_PACKAGE = Path(__file__).parents[1]
+
+WALL_NUMBERS = (
+    "height",
+    "thickness",
+    "density",
+    "hinge",
+    "restitution_value",
+    "restitution_factor",
+    "overburden",
+    "eccentricity",
+)
+_WALL_REALS = len(WALL_NUMBERS) + 7
+_WALL_INTEGERS = len(WALL_NUMBERS) + 1
+
+
+class Constants(NamedTuple):
+    """What Fortran says of itself."""
+
+    rtol: float
+    atol: float
+    edp_limit: float
+    gravity: float
+    version: str
+    statuses: tuple[str, ...]
+
+
+class FlatWall(NamedTuple):
+    """A wall, or several, as Fortran takes them."""
+
+    texts: bytes
+    numbers: FloatArray
+    given: NDArray[np.int32]
+    gravity: Any
+
+
+class FlatRecords(NamedTuple):
+    """Records as Fortran takes them."""
+
+    names: bytes
+    lengths: NDArray[np.int32]
+    dt: FloatArray
+    acceleration: FloatArray
+
+
+class WallData(NamedTuple):
+    """A wall as Fortran has understood it."""
+
+    name: str
+    mechanism: str
+    restitution: str
+    numbers: dict[str, float | None]
+    gravity: float
+    statics: tuple[float, ...]
+    two_sided: bool
+
+
+class RecordData(NamedTuple):
+    """A record as Fortran has read it."""
+
+    name: str
+    dt: float
+    acceleration: FloatArray
+    metadata: dict[str, str]
+
+
+class MeasureData(NamedTuple):
+    """An intensity measure.
+
+    Attributes
+    ----------
+    name : str
+        As dondolo writes it.
+    unit : str
+        Of its levels; '' for a number.
+    title : str
+        What it is, in words.
+    power : int
+        Power of a record's scale that it grows by.
+    """
+
+    name: str
+    unit: str
+    title: str
+    power: int
+
+
+class CurveData(NamedTuple):
+    """A fitted curve, or why there is none."""
+
+    status: str
+    numbers: FloatArray
+
+
+class Parcel(NamedTuple):
+    """Contents that came from Fortran."""
+
+    integers: NDArray[np.int32]
+    reals: FloatArray
+    lines: list[str]
+
+
+class GroupData(NamedTuple):
+    """A curve of a population, or of one of its groups."""
+
+    group: str
+    mechanism: str
+    walls: int
+    weight: float
+    beta_walls: float
+    beta_records: float
+    fitted: float
+    saturation: float
+    histories: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    fractiles: FloatArray
+    curve: CurveData
+
+
+class PopulationData(NamedTuple):
+    """Curves of mechanisms, of walls and of their population; fractions are those of the walls (walls, levels)."""
+
+    rows: list[CurveData]
+    walls: list[CurveData]
+    fractions: FloatArray
+    groups: list[GroupData]
+    warnings: list[DondoloWarning]
+
+
+@functools.cache
+def constants() -> Constants:
+    """Ask Fortran for its version, defaults and the names of its statuses."""
+    defaults, version, statuses = _core.constants()
+    return Constants(
+        *(float(value) for value in defaults),
+        version=version.decode().strip(),
+        statuses=tuple(statuses.decode().split()),
+    )
+
+
+def build_variant() -> str:
+    """The build variant that the engine lanes runs here.
+
+    Returns
+    -------
+    str
+        "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
+        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+    Raises
+    ------
+    InputError
+        DONDOLO_VARIANT names none that this build and this processor have.
+    """
+    name, stat, message = _core.variant()
+    check(stat, message)
+    return name.decode().strip()
+
+
+def check(stat: int, message: bytes) -> None:
+    """Raise what a status says."""
+    if stat == 0:
+        return
+    sentence = message.decode("utf-8", "replace").strip()
+    raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _core.listen()
+    try:
+        yield
+    finally:
+        _core.end_listening()
+
+
+# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
+os.register_at_fork(after_in_child=_core.work_alone)
+
+
+def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:
+    """Take the parcel that a procedure has sent."""
+    check(stat, message)
+    integers, reals, characters = _core.take_parcel(handle, *sizes)
+    text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
+    return Parcel(integers, reals, text.split("\n")[:-1])
+
+
+def unpack_warning(data: dict[str, Any]) -> DondoloWarning:
+    """A warning of Fortran, from its JSON object."""
+    return DondoloWarning(str(data["sentence"]), str(data["code"]), data["subject"], data["numbers"])
+
+
+def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
+    """Warnings of Fortran, a JSON object on each line."""
+    return [unpack_warning(json.loads(line)) for line in lines]
+
+
+def warn(found: Iterable[str | DondoloWarning]) -> None:
+    """Warn of each, where the user's own line is."""
+    frame, depth = sys._getframe(), 1
+    while frame.f_back is not None and _PACKAGE in Path(frame.f_code.co_filename).parents:
+        frame, depth = frame.f_back, depth + 1
+    for one in found:
+        warnings.warn(one if isinstance(one, DondoloWarning) else DondoloWarning(one), stacklevel=depth)
+
+
+def settings(
+    rtol: float | None,
+    atol: float | None,
+    edp_limit: float | None,
+    estimate_error: bool = False,
+    collapses_only: bool = False,
+) -> FloatArray:
+    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for each of the others."""
+    if rtol is None and atol is None and edp_limit is None and not estimate_error and not collapses_only:
+        return _default_settings()
+    default = constants()
+    return np.array(
+        [
+            default.rtol if rtol is None else as_number("rtol", rtol),
+            default.atol if atol is None else as_number("atol", atol),
+            default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
+            float(bool(estimate_error)),
+            float(bool(collapses_only)),
+        ]
+    )
+
+
+@functools.cache
+def _default_settings() -> FloatArray:
+    default = constants()
+    return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
+
+
+def flat_wall(name: str, mechanism: str, restitution: str, numbers: Sequence[float | None], gravity: float) -> FlatWall:
+    """A wall as Fortran takes it, of values that it has checked."""
+    return FlatWall(
+        "\n".join((name, mechanism, restitution)).encode(),
+        np.array([0.0 if value is None else value for value in numbers]),
+        np.array([value is not None for value in numbers], dtype=np.int32),
+        gravity,
+    )
+
+
+def describe_wall(
+    name: str | None,
+    mechanism: str,
+    restitution: str | None,
+    numbers: Mapping[str, Any],
+    gravity: Any,
+    bearing: str | None = None,
+) -> WallData:
+    """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
+    values = {what: [as_number(what, value)] for what, value in numbers.items() if value is not None}
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
+    return describe_walls([name], [mechanism], [restitution], values, [pull], [bearing])[0]
+
+
+def describe_walls(
+    names: Sequence[str | None],
+    mechanisms: Sequence[str],
+    restitutions: Sequence[str | None],
+    numbers: Mapping[str, ArrayLike],
+    gravity: ArrayLike,
+    bearings: Sequence[str | None],
+) -> list[WallData]:
+    """The same for many walls; numbers that are not there get their defaults.
+
+    A bearing and the number bearing_distance become the eccentricity.
+    """
+    count = len(names)
+    distances, measured = np.zeros(count), np.zeros(count, dtype=np.int32)
+    values, given = np.zeros((count, len(WALL_NUMBERS))), np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
+    for what, column in numbers.items():
+        if what == "bearing_distance":
+            distances[:], measured[:] = column, 1
+            continue
+        values[:, WALL_NUMBERS.index(what)] = column
+        given[:, WALL_NUMBERS.index(what)] = 1
+    texts = b"\n".join(
+        b"" if text is None else as_text(what, text)
+        for wall in zip(names, mechanisms, restitutions, strict=True)
+        for what, text in zip(("name", "mechanism", "restitution"), wall, strict=True)
+    )
+    places = b"\n".join(b"" if text is None else as_text("bearing", text) for text in bearings)
+    parcel = receive(*_core.describe_walls(texts, values.T, given.T, gravity, places, distances, measured))
+    return unpack_walls(parcel, count)
+
+
+def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
+    """J, C, G, L, Q and V of a wall, one row each, in the shape of the rotations."""
+    try:
+        values, shape = np.ravel(rotation), np.shape(rotation)
+    except ValueError:
+        raise InputError("rotation: must be numbers") from None
+    terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
+    check(stat, message)
+    return terms.T.reshape(6, *shape)
+
+
+def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
+    """Walls out of a parcel, from given places on."""
+    known = len(WALL_NUMBERS)
+    rows = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
+    masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
+    return [
+        WallData(
+            *parcel.lines[lines + 3 * i : lines + 3 * i + 3],
+            {
+                what: value if mask else None
+                for what, value, mask in zip(WALL_NUMBERS, row[:known], given[:known], strict=True)
+            },
+            row[known],
+            tuple(row[known + 1 :]),
+            bool(given[known]),
+        )
+        for i, (row, given) in enumerate(zip(rows, masks, strict=True))
+    ]
+
+
+def walls_end(count: int) -> tuple[int, int, int]:
+    """How many reals, integers and lines of a parcel so many walls take."""
+    return count * _WALL_REALS, count * _WALL_INTEGERS, 3 * count
+
+
+def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
+    """Records out of a parcel, from given places on."""
+    lengths = parcel.integers[integers : integers + count]
+    entries = parcel.integers[integers + count : integers + 2 * count]
+    ends = reals + count + np.cumsum(lengths)
+    ends_of_metadata = lines + count + 2 * np.cumsum(entries)
+    records = []
+    for i in range(count):
+        words = parcel.lines[ends_of_metadata[i] - 2 * entries[i] : ends_of_metadata[i]]
+        records.append(
+            RecordData(
+                parcel.lines[lines + i],
+                float(parcel.reals[reals + i]),
+                parcel.reals[ends[i] - lengths[i] : ends[i]],
+                dict(zip(words[::2], words[1::2], strict=True)),
+            )
+        )
+    return records
+
+
+def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:
+    """Line of a parcel after its records."""
+    return lines + count + 2 * int(parcel.integers[integers + count : integers + 2 * count].sum())
+
+
+def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
+    """Several walls, one after the other."""
+    return FlatWall(
+        b"\n".join(wall.texts for wall in walls),
+        np.stack([wall.numbers for wall in walls]).T,
+        np.stack([wall.given for wall in walls]).T,
+        np.array([wall.gravity for wall in walls]),
+    )
+
+
+def read_records(
+    path: str | os.PathLike[str],
+    what: int,
+    dt: float | None = None,
+    units: str | None = None,
+    channel: str | None = None,
+    layout: str | None = None,
+) -> list[RecordData]:
+    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2)."""
+    step = 0.0 if dt is None else as_number("dt", dt)
+    texts = (
+        b"" if text is None else as_text(name, text)
+        for name, text in (("units", units), ("channel", channel), ("format", layout))
+    )
+    parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
+    count = len(parcel.integers) // 2
+    warn(parcel.lines[records_end(parcel, count) :])
+    return unpack_records(parcel, count)
+
+
+def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
+    """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
+    parcel = receive(*_core.read_number_table(as_path(path)))
+    columns, rows = (int(count) for count in parcel.integers)
+    warn(parcel.lines[columns:])
+    return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
+
+
+def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
+    """The table of the records of a catalogue, as the executable prints it."""
+    parcel = receive(*_core.catalogue_table(as_path(path), constants().gravity))
+    lines = int(parcel.integers[0])
+    warn(parcel.lines[lines:])
+    return parcel.lines[:lines]
+
+
+def read_walls(
+    path: str | os.PathLike[str], gravity: float | None
+) -> tuple[list[WallData], FloatArray, list[str], FloatArray]:
+    """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
+    parcel = receive(*_core.read_walls(as_path(path), pull))
+    count = len(parcel.integers) // _WALL_INTEGERS
+    weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
+    warn(parcel.lines[4 * count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[3 * count : 4 * count], p_occ
+
+
+def describe_measure(im: str, of_record: bool = False) -> MeasureData:
+    """A measure that records can be scaled by, or one that they have of themselves."""
+    return _describe_measure(as_text("im", im), of_record)
+
+
+@functools.cache
+def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
+    parcel = receive(*_core.describe_measure(im, int(of_record)))
+    return MeasureData(*parcel.lines, power=int(parcel.integers[0]))
+
+
+def unit_of(im: str) -> str:
+    """The unit of the levels of a measure; '' for a number, and for a name that dondolo does not know."""
+    try:
+        return describe_measure(im).unit
+    except InputError:
+        return ""
+
+
+def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0) -> FloatArray:
+    """Intensities of records, in the unit of the levels."""
+    values, stat, message = _core.intensities(as_text("im", im), *records, gravity, threads)
+    check(stat, message)
+    return values
+
+
+def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
+    """The values that records are scaled by."""
+    values, stat, message = _core.scaling_values(as_text("im", im), *records, threads)
+    check(stat, message)
+    return values
+
+
+def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
+    """Fit many curves in one call: collapses and histories are (curves, levels)."""
+    z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
+    curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
+    check(stat, message)
+    names = constants().statuses
+    return curves.T, [names[code - 1] for code in codes]
+
+
+def fit_walls(
+    texts: bytes,
+    levels: FloatArray,
+    collapses: NDArray[np.int32],
+    histories: NDArray[np.int32],
+    weights: FloatArray,
+    p_occ: FloatArray,
+    rows: NDArray[np.int32],
+) -> PopulationData:
+    """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
+
+    Texts are name, mechanism and group of each mechanism of a wall, collapses (mechanisms, levels); rows tell how many
+    mechanisms each wall has.
+    """
+    parcel = receive(
+        *_core.fit_walls(texts, levels, np.ascontiguousarray(collapses).T, histories, weights, p_occ, rows)
+    )
+    m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
+    names = ("", *constants().statuses)
+    status = [names[code] for code in parcel.integers[1 : 1 + r + w + number]]
+    walls = parcel.integers[1 + r + w + number :]
+    numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
+    curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
+    together = []
+    for i, row in enumerate(groups.reshape(number, 6 + 5 * m + 8)):
+        mean_fraction, mean_curve, fractiles, curve = np.split(row[6:], np.cumsum([m, m, 3 * m]))
+        together.append(
+            GroupData(
+                *parcel.lines[2 * i : 2 * i + 2],
+                int(walls[i]),
+                *(float(number) for number in row[:6]),
+                mean_fraction,
+                mean_curve,
+                np.ascontiguousarray(fractiles.reshape(m, 3).T),
+                CurveData(status[r + w + i], curve),
+            )
+        )
+    found = unpack_warnings(parcel.lines[2 * number :])
+    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
+
+
+def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
+    """What the executable would warn of, of the curve of one wall."""
+    code = constants().statuses.index(curve.status) + 1
+    return unpack_warnings(receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines)
+
+
+def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[DondoloWarning]:
+    """What the executable would warn of, of a wall and a record, before it runs one motion."""
+    handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
+    return unpack_warnings(receive(handle, *rest).lines) if handle else []
+
+
+def warnings_of_errors(
+    edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
+) -> list[DondoloWarning]:
+    """What the executable would warn of, of estimated errors; record and level are those of the largest.
+
+    Without a record it is one history.
+    """
+    parcel = receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    return unpack_warnings(parcel.lines)
+
+
+def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
+    """Probabilities of collapse of a lognormal curve."""
+    return _core.probability(theta, beta, x)

@@ -1,0 +1,88 @@
+"""Tables: the executable's CSV files, column by column and digit by digit, and pandas where it is installed."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.files import whole_file
+from dondolo._fortran import _binding
+from dondolo.errors import DondoloError, InputError
+
+Table = dict[str, Sequence[Any]]
+
+
+def digits(value: float) -> str:
+    """A number with 17 significant digits, as the executable writes it."""
+    return f"{value:.16E}"
+
+
+def shortest(value: float) -> str:
+    """A number with as few digits as tell it from all others: for tables that people read and change."""
+    return repr(float(value)).removesuffix(".0")
+
+
+def cell(value: Any, number: Callable[[float], str] = digits) -> str:
+    """A value as it stands in a table: flags 0/1, empty where there is none."""
+    if value is None:
+        return ""
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, (bool, np.bool_)):
+        return str(int(value))
+    if isinstance(value, (int, np.integer)):
+        return str(value)
+    return "" if np.isnan(value) else number(value)
+
+
+def quoted(text: str) -> str:
+    """A text as a cell: in quotes where RFC 4180 asks for them, or where a # or blanks would be lost."""
+    if any(character in text for character in ',"#\n\r') or text != text.strip():
+        return '"' + text.replace('"', '""') + '"'
+    return text
+
+
+def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str] = ()) -> None:
+    """Write a table; it appears whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The file; its folder must exist.
+    table : dict
+        Columns of equal length.
+    comments : iterable of str
+        Lines for the head of the file.
+    """
+    write_lines(path, csv_lines(table, [f"dondolo {_binding.constants().version}", *comments]))
+
+
+def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], str] = digits) -> list[str]:
+    """Lines of a table: comments, names of the columns, rows."""
+    lines = [*(f"# {comment}" for comment in comments), ",".join(table)]
+    return lines + [",".join(cell(value, number) for value in row) for row in zip(*table.values(), strict=True)]
+
+
+def write_lines(path: str | os.PathLike[str], lines: Sequence[str]) -> None:
+    """Write a text file; it appears whole or not at all."""
+    with whole_file(path) as part:
+        part.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def frame(table: Table) -> Any:
+    """A table as a pandas DataFrame."""
+    try:
+        import pandas as pd
+    except ImportError:
+        raise DondoloError("pandas is not installed: pip install 'dondolo[tables]'; CSV files need no pandas") from None
+    return pd.DataFrame(table)
+
+
+def choose(tables: Mapping[str, Any], name: str) -> Table:
+    """One of several tables of an object, made when it is asked for."""
+    if name not in tables:
+        raise InputError(f"table = {name!r}: must be one of {', '.join(map(repr, tables))}")
+    return tables[name]()

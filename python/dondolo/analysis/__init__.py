@@ -1,0 +1,1 @@
+"""Analyses of one wall: a single motion, stripes, incremental, clouds, overturning spectra."""

@@ -1,0 +1,404 @@
+"""Cloud analysis: fragility from records as they are, without scaling them to levels.
+
+Every record runs once and is a point (IM, EDP). Three models are fitted to the cloud of points, each to the histories
+that it is about (Jalayer and others 2017, who have the first and the third):
+
+EDP of the histories that rock and do not collapse
+    ln EDP = a + b ln IM + sigma epsilon, epsilon standard normal, by least squares; sigma^2 is the sum of the squared
+    residuals / (n - 2).
+Rocking
+    A wall does not move unless the ground acceleration reaches its trigger. Its EDP is then 0 and has no logarithm:
+    such histories are left out of the regression, and P_R(x) = P(rocks | IM = x, no collapse) is fitted to them and to
+    those that rock.
+Collapse
+    P_C(x) = P(collapse | IM = x), fitted to all histories.
+
+P_R and P_C are logistic regressions on ln IM, 1/(1 + exp(-(b0 + b1 ln x))), by maximum likelihood. Together, by total
+probability,
+
+    P(EDP > y | IM = x) = P_C + (1 - P_C) P_R Phi((a + b ln x - ln y)/sigma).
+
+Where all histories of a kind lie on one side of all others, any steep enough logistic curve fits (Albert and Anderson
+1984): the probability is 0 below and 1 above, and NaN in the gap between them, of which the data say nothing. Rocking
+is often of this kind, for the PGA against the trigger.
+
+Without collapses P_C is 0, and the regression alone tells how likely a rotation of the capacity is: an extrapolation,
+as in any cloud analysis. Rotations grow faster than by a power law towards the capacity, where the restoring moment
+vanishes; a cloud without collapses says little about them, and stripes say more.
+
+The line is a rough model of a rocking wall. A wall that barely lifts has a tiny EDP, to which logarithms give weight:
+under 44 components recorded in Italy as they are, a two-block wall of 3 m by 0.25 m (hinge 0.6, factor 0.87) has
+b = 13.6, sigma = 2.9 and R2 = 0.60 for the PGA. Look at the points before the curve is used; where enough records
+collapse, P_C does most of the work.
+
+Without collapses, and where all histories rock, P(EDP > y) is the lognormal curve
+
+    theta = exp((ln y - a)/b),    beta = sigma/b.
+
+Otherwise the equivalent lognormal has the median of the curve, P(EDP > y | theta) = 1/2, and half of the logarithmic
+distance between its 16 % and 84 % as dispersion (Jalayer and others 2017).
+
+References: Jalayer, Ebrahimian, Miano, Manfredi and Sezen (2017), Analytical fragility assessment using unscaled ground
+motion records, Earthquake Engineering and Structural Dynamics 46, 2639-2663; Albert and Anderson (1984), Biometrika 71,
+1-10.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+from dondolo.analysis.request import Request, check_threads, new_request
+from dondolo.analysis.work import Work
+from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
+from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.records.record import Record, as_records, flatten
+from dondolo.walls.wall import Wall
+
+BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
+
+# A level of any measure that takes no record beyond all bounds
+_SMALL_LEVEL = 1e-6
+# Probabilities one dispersion below and above the median, with the digits of the source
+_LOW, _HIGH = 0.16, 0.84
+# The equivalent lognormal is sought so far beyond the points, in ln IM
+_REACH = 10.0
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Cloud(Shown):
+    """Points (IM, EDP) of records as they are, and what is fitted to them.
+
+    Attributes
+    ----------
+    wall : Wall
+    records : tuple of Record
+    im : str
+        Intensity measure.
+    scale : float
+        Factor on all records.
+    intensity : ndarray, shape (histories,)
+        Of each history: accelerations in g, all else in SI units.
+    edp : ndarray, shape (histories,)
+        Largest rotation / capacity; 0 where the wall does not move, edp_limit for a collapse.
+    collapsed : ndarray of bool, shape (histories,)
+    record_index : ndarray of int, shape (histories,)
+        Record of each history, from 0.
+    polarity : ndarray of int, shape (histories,)
+        +1 as recorded, -1 reversed.
+    regression : Regression
+        Of ln EDP on ln IM, of histories that rock and do not collapse.
+    rocking : Logistic
+        P(rocks | IM, no collapse).
+    collapse : Logistic
+        P(collapse | IM).
+    edp_limit : float
+        Rotation / capacity that counts as collapse.
+    work : Work
+        What was computed, and what was not.
+    """
+
+    # Its facts have commas.
+    _separator = "; "
+
+    wall: Wall
+    records: tuple[Record, ...]
+    im: str
+    scale: float
+    intensity: FloatArray
+    edp: FloatArray
+    collapsed: BoolArray
+    record_index: np.ndarray[Any, np.dtype[np.int32]]
+    polarity: np.ndarray[Any, np.dtype[np.int32]]
+    regression: Regression
+    rocking: Logistic
+    collapse: Logistic
+    edp_limit: float
+    work: Work
+
+    @property
+    def slope(self) -> float:
+        """Slope b of the regression."""
+        return self.regression.slope
+
+    @property
+    def intercept(self) -> float:
+        """Intercept a of the regression: ln EDP at IM = 1."""
+        return self.regression.intercept
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of ln EDP about the line."""
+        return self.regression.sigma
+
+    @property
+    def r2(self) -> float:
+        """Share of the variance of ln EDP that the line explains."""
+        return self.regression.r2
+
+    def against(self, im: str) -> Cloud:
+        """The same histories against another intensity measure; nothing is run again.
+
+        Parameters
+        ----------
+        im : str
+            Intensity measure, as for `multiple_stripe`.
+
+        Returns
+        -------
+        Cloud
+        """
+        intensity, name = _intensities(self.wall, self.records, im, self.scale, 0)
+        intensity = intensity[self.record_index]
+        intensity.flags.writeable = False
+        return replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed))
+
+    def probability(self, x: ArrayLike, edp: float | None = None) -> Any:
+        """P(EDP > edp | IM = x) by total probability.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, not negative.
+        edp : float, optional
+            Threshold, positive and at most `edp_limit`, which is meant if it is left out.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+            NaN where the data do not say: see `Logistic`.
+
+        Raises
+        ------
+        DondoloError
+            Too few histories rock without collapse, so that there is no regression.
+        """
+        values = as_levels(x)
+        return shaped(self._curve(values.ravel(), self._threshold(edp)), values)
+
+    def lognormal(self, edp: float | None = None) -> tuple[float, float]:
+        """Median and dispersion of the lognormal curve that is equivalent to P(EDP > edp | IM).
+
+        Parameters
+        ----------
+        edp : float, optional
+            As for `probability`.
+
+        Returns
+        -------
+        theta, beta : float
+            In the unit of the intensity, and of its logarithm. NaN where they are not defined: there is no line or it
+            falls, or one of 16, 50 and 84 % lies in a gap of the data.
+        """
+        threshold = self._threshold(edp)
+        if not self.slope > 0.0 or "decreasing" in (self.rocking.status, self.collapse.status):
+            return np.nan, np.nan
+        if self.collapse.status == "none" and self.rocking.status == "all":
+            return float(np.exp((np.log(threshold) - self.intercept) / self.slope)), self.sigma / self.slope
+        low, median, high = (self._crossing(p, threshold) for p in (_LOW, 0.5, _HIGH))
+        return median, 0.5 * float(np.log(high / low))
+
+    def _threshold(self, edp: float | None) -> float:
+        threshold = self.edp_limit if edp is None else as_number("edp", edp)
+        if not 0.0 < threshold <= self.edp_limit:
+            raise InputError(f"edp = {threshold:g}: must be positive and at most {self.edp_limit:g}, the edp_limit")
+        return threshold
+
+    def _curve(self, x: FloatArray, threshold: float, gap: float = np.nan) -> FloatArray:
+        from scipy.special import ndtr
+
+        line = self.regression
+        if line.status != "ok":
+            raise DondoloError(
+                f"no line was fitted (status '{line.status}'): {line.n} histories rock without collapse, three of"
+                " different intensity are needed"
+            )
+        with np.errstate(divide="ignore", invalid="ignore"):
+            exceeds = ndtr((line.intercept + line.slope * np.log(x) - np.log(threshold)) / line.sigma)
+        collapse = self.collapse.at(x, gap)
+        return np.where(collapse == 1.0, 1.0, collapse + (1.0 - collapse) * self.rocking.at(x, gap) * exceeds)
+
+    def _crossing(self, p: float, threshold: float) -> float:
+        """Intensity at which the curve, which rises, passes a probability; NaN where that is in a gap."""
+        from scipy.optimize import brentq
+
+        ends = np.log(self.intensity.min()) - _REACH, np.log(self.intensity.max()) + _REACH
+
+        def sought(gap: float) -> float:
+            def off(u: float) -> float:
+                return float(self._curve(np.exp([u]), threshold, gap)[0]) - p
+
+            return brentq(off, *ends, xtol=1e-12) if off(ends[0]) < 0.0 < off(ends[1]) else np.nan
+
+        # The latest and the earliest that the gaps of separated samples allow
+        late, early = sought(0.0), sought(1.0)
+        return float(np.exp(late)) if late - early < 1e-9 else np.nan
+
+    def _table(self) -> tables.Table:
+        return {
+            "wall": [self.wall.name] * len(self.edp),
+            "mechanism": [self.wall.mechanism] * len(self.edp),
+            "record": [self.records[i].name for i in self.record_index],
+            "polarity": ["reversed" if sign < 0 else "as_recorded" for sign in self.polarity],
+            "im": [self.im] * len(self.edp),
+            "intensity": self.intensity,
+            "scale": [self.scale] * len(self.edp),
+            "edp": self.edp,
+            "collapsed": self.collapsed.astype(int),
+        }
+
+    def to_frame(self) -> Any:
+        """The points as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the points, with the fitted models in the head of the file."""
+        comments = [repr(self.wall), *(f"{what}: {text}" for what, text in self._facts()[1:])]
+        tables.write_csv(path, self._table(), [*comments, f"unit of intensity: {_binding.unit_of(self.im) or '1'}"])
+
+    def _facts(self) -> list[tuple[str, str]]:
+        line = self.regression
+        fitted = (
+            f"ln EDP = {line.intercept:.4g} + {line.slope:.4g} ln {self.im}, sigma {line.sigma:.4g}, R2 {line.r2:.3g}"
+        )
+        models = ((self.rocking, "rock, of those without collapse"), (self.collapse, "collapse"))
+        return [
+            ("wall", self.wall.name),
+            ("line", f"{fitted}, {line.n} histories" if line.status == "ok" else line.status),
+            *(
+                (
+                    what,
+                    f"{model.count} of {model.n}, "
+                    + (
+                        f"logistic {model.b0:.4g} + {model.b1:.4g} ln {self.im}"
+                        if model.status == "ok"
+                        else model.status
+                    ),
+                )
+                for model, what in models
+            ),
+        ]
+
+
+def cloud(
+    wall: Wall,
+    records: Record | Iterable[Record],
+    im: str = "pga",
+    scale: float = 1.0,
+    polarity: str = "as_recorded",
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    threads: int = 0,
+    progress: bool = True,
+) -> Cloud:
+    """Cloud analysis: run records as they are, and fit EDP and collapse to the intensity.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+    records : Record or iterable of Record
+        Many accelerograms, of a wide range of intensity.
+    im : str
+        Intensity measure, as for `multiple_stripe`; `Cloud.against` gives others without running again.
+    scale : float
+        One factor for all records.
+    polarity : {'as_recorded', 'reversed', 'both'}
+        As for `multiple_stripe`.
+    engine, rtol, atol, edp_limit, threads, progress
+        As for `multiple_stripe`.
+
+    Returns
+    -------
+    Cloud
+
+    Raises
+    ------
+    InputError
+        What cannot be run; a record without motion, whose intensity has no logarithm.
+    Interrupted
+        Ctrl-C.
+
+    Notes
+    -----
+    Jalayer and others (2017). The docstring of the module dondolo.cloud has the formulas.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    several = as_records(records)
+    factor = as_number("scale", scale)
+    if not 0.0 < factor < np.inf:
+        raise InputError(f"scale = {factor:g}: must be positive")
+    intensity, name = _intensities(wall, several, im, factor, threads)
+    # One stripe of a measure in SI units whose value is 1 for every record: its level is the factor.
+    settings = _binding.settings(rtol, atol, edp_limit)
+    request = Request(
+        (wall,),
+        flatten(several),
+        np.ones(len(several)),
+        np.array([factor]),
+        "pgv",
+        polarity,
+        engine,
+        settings,
+        check_threads(threads),
+    )
+    plan = request.plan()
+    _binding.warn(plan.warnings)
+    outcome, interrupted = request.run(plan.histories, progress, wall.name)
+    if interrupted:
+        raise Interrupted(f"interrupted: {outcome.done} of {len(plan.record)} histories are complete")
+    points = intensity[plan.record]
+    for array in (points, outcome.edp, outcome.collapsed, plan.record, plan.polarity):
+        array.flags.writeable = False
+    return Cloud(
+        wall,
+        several,
+        name,
+        factor,
+        points,
+        outcome.edp,
+        outcome.collapsed,
+        plan.record,
+        plan.polarity,
+        **fit(points, outcome.edp, outcome.collapsed),
+        edp_limit=float(settings[2]),
+        work=outcome.work,
+    )
+
+
+def _intensities(
+    wall: Wall, records: tuple[Record, ...], im: str, factor: float, threads: int
+) -> tuple[FloatArray, str]:
+    """Intensities of the records times a factor, in the unit of the levels; and the name of the measure.
+
+    Measures that the wall makes dimensionless come with the others: the plan of a stripe says by what each record is
+    scaled to its level, and measures grow with a power of the scale.
+    """
+    request = new_request((wall,), records, [_SMALL_LEVEL], im, "as_recorded", "auto", None, None, None, threads)
+    scale = request.plan().scale[0]
+    if not scale.all():
+        raise InputError(f"records: '{records[int(np.argmin(scale))].name}' is without motion")
+    return _SMALL_LEVEL * (factor / scale) ** _binding.describe_measure(request.im).power, request.im
+
+
+def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray) -> dict[str, Any]:
+    """Fit the three models to points: regression, rocking and collapse, by name."""
+    x = np.log(intensity)
+    stands = ~collapsed
+    return {
+        "regression": regress(x[stands & (edp > 0.0)], np.log(edp[stands & (edp > 0.0)])),
+        "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0),
+        "collapse": logistic_regression(intensity, collapsed),
+    }

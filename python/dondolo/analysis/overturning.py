@@ -1,0 +1,429 @@
+"""Overturning spectra: which amplitudes of a pulse overturn a wall, at every frequency of the pulse."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_text
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding, _core
+from dondolo._storage import tables
+from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
+from dondolo.errors import InputError, Interrupted
+from dondolo.records.record import Record, flatten
+from dondolo.walls.wall import Wall
+
+# A wall that overturns after its impact has had energy for the way over the top before it, and more by 1/e^2: with
+# x = e/sqrt(1 - e^2) the fall of a slender block from 5 alpha takes at most (asinh(x) + asinh(4 x))/p: 9/p for 0.999.
+_LONGEST_FALL = 10.0
+
+
+class State(IntEnum):
+    """What a pulse does to a wall; ordered as amplitudes often are."""
+
+    AT_REST = 0
+    SAFE = 1
+    SAFE_AFTER_IMPACTS = 2
+    OVERTURNED_AFTER_IMPACTS = 3
+    OVERTURNED = 4
+
+
+class Boundary(NamedTuple):
+    """A change of state between two amplitudes of one frequency.
+
+    Attributes
+    ----------
+    frequency : float
+        Of the pulse [Hz].
+    lower, upper : float
+        Amplitudes that enclose the change [g].
+    below, above : State
+        States at these two amplitudes.
+    """
+
+    frequency: float
+    lower: float
+    upper: float
+    below: State
+    above: State
+
+
+class Window(NamedTuple):
+    """Amplitudes of one frequency between two changes of state.
+
+    Attributes
+    ----------
+    lower, upper : float
+        From and to, each the middle of a boundary's bracket or the end of the scan [g].
+    state : State
+        What the pulse does.
+    """
+
+    lower: float
+    upper: float
+    state: State
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OverturningSpectrum(Shown):
+    """What pulses of many frequencies and amplitudes do to a wall.
+
+    Attributes
+    ----------
+    wall : Wall
+        The wall.
+    pulse : str
+        Name of the pulse's records, without the frequency.
+    frequencies : ndarray, shape (frequencies,)
+        Of the pulse [Hz].
+    amplitudes : ndarray, shape (amplitudes,)
+        Peak ground accelerations [g].
+    state : ndarray of int, shape (amplitudes, frequencies)
+        A `State` for every point of the grid.
+    edp : ndarray, shape (amplitudes, frequencies)
+        Largest rotation / capacity; edp_limit where the wall overturns.
+    impacts : ndarray of int, shape (amplitudes, frequencies)
+        Impacts while the pulse lasts.
+    boundaries : tuple of Boundary
+        Changes of state between neighbouring amplitudes, by frequency and amplitude.
+    edp_limit, polarity
+        How it was computed.
+    """
+
+    wall: Wall
+    pulse: str
+    frequencies: FloatArray
+    amplitudes: FloatArray
+    state: np.ndarray[Any, np.dtype[np.int8]]
+    edp: FloatArray
+    impacts: np.ndarray[Any, np.dtype[np.int32]]
+    boundaries: tuple[Boundary, ...]
+    edp_limit: float
+    polarity: str
+
+    @property
+    def overturned(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Where the wall overturns, with or without impacts before, shape (amplitudes, frequencies)."""
+        return self.state >= State.OVERTURNED_AFTER_IMPACTS
+
+    @property
+    def frequency_ratio(self) -> FloatArray:
+        """omega_p/p, the frequencies as parts of the wall's frequency parameter."""
+        return 2.0 * np.pi * self.frequencies / self.wall.frequency_parameter
+
+    @property
+    def amplitude_unit(self) -> float:
+        """Trigger acceleration of the wall [g], tan alpha for one block: the unit of `amplitude_ratio`."""
+        return self.wall.trigger_acceleration / self.wall.gravity
+
+    @property
+    def amplitude_ratio(self) -> FloatArray:
+        """a_p/(g tan alpha), the amplitudes as parts of the trigger acceleration."""
+        return self.amplitudes / self.amplitude_unit
+
+    def windows(self, frequency: int) -> list[Window]:
+        """All amplitudes of one frequency, cut where the state changes.
+
+        Parameters
+        ----------
+        frequency : int
+            Its place among the frequencies, from 0.
+
+        Returns
+        -------
+        list of Window
+            From the lowest amplitude to the highest.
+        """
+        chosen = float(self.frequencies[frequency])
+        states, ends = [State(self.state[0, frequency])], [float(self.amplitudes[0])]
+        for boundary in self.boundaries:
+            if boundary.frequency == chosen:
+                states.append(boundary.above)
+                ends.append(0.5 * (boundary.lower + boundary.upper))
+        ends.append(float(self.amplitudes[-1]))
+        return [Window(*window) for window in zip(ends, ends[1:], states, strict=False)]
+
+    def _tables(self) -> dict[str, Any]:
+        count = len(self.amplitudes)
+        return {
+            "map": lambda: {
+                "frequency_hz": np.repeat(self.frequencies, count),
+                "amplitude_g": np.tile(self.amplitudes, len(self.frequencies)),
+                "state": [State(value).name.lower() for value in self.state.T.ravel()],
+                "edp": self.edp.T.ravel(),
+                "impacts": self.impacts.T.ravel(),
+            },
+            "boundaries": lambda: {
+                "frequency_hz": [boundary.frequency for boundary in self.boundaries],
+                "lower_g": [boundary.lower for boundary in self.boundaries],
+                "upper_g": [boundary.upper for boundary in self.boundaries],
+                "below": [boundary.below.name.lower() for boundary in self.boundaries],
+                "above": [boundary.above.name.lower() for boundary in self.boundaries],
+            },
+        }
+
+    def to_frame(self, table: str = "map") -> Any:
+        """One of the tables 'map' and 'boundaries' as a pandas DataFrame."""
+        return tables.frame(tables.choose(self._tables(), table))
+
+    def to_csv(self, path: str | os.PathLike[str], table: str = "map") -> None:
+        """Write one of the tables 'map' and 'boundaries'."""
+        comments = [repr(self.wall), f"pulse: {self.pulse}, {self.polarity}", f"edp_limit = {self.edp_limit!r}"]
+        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("wall", self.wall.name),
+            ("pulse", self.pulse),
+            ("frequencies", f"{len(self.frequencies)}, {self.frequencies[0]:g} to {self.frequencies[-1]:g} Hz"),
+            ("amplitudes", f"{len(self.amplitudes)}, {self.amplitudes[0]:g} to {self.amplitudes[-1]:g} g"),
+            ("overturned", f"{self.overturned.sum()} of {self.state.size}"),
+            ("changes of state", str(len(self.boundaries))),
+        ]
+
+
+def overturning_spectrum(
+    wall: Wall,
+    pulse: Callable[[float, float], Record],
+    frequencies: ArrayLike,
+    amplitudes: ArrayLike,
+    polarity: str = "as_recorded",
+    tolerance: float = 1e-4,
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float = 5.0,
+    threads: int = 0,
+    progress: bool = True,
+) -> OverturningSpectrum:
+    """Scan amplitudes and frequencies of a pulse for those that overturn a wall.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+    pulse : callable
+        A record for an amplitude [m/s2] and a frequency [Hz], such as `ricker` or `one_sine`; the record of amplitude 1
+        is scaled to the peak ground accelerations of the scan.
+    frequencies : array_like, shape (frequencies,)
+        Frequencies of the pulse [Hz], positive and increasing.
+    amplitudes : array_like, shape (amplitudes,)
+        Peak ground accelerations in g, not in m/s2 as the amplitude of a pulse is; positive and increasing: the scan.
+    polarity : {'as_recorded', 'reversed'}
+        Which way round a one-sided wall feels the pulse.
+    tolerance : float
+        Every change of state between two neighbouring amplitudes is bisected until its bracket is shorter than this
+        part of the amplitude.
+    engine, rtol, atol
+        As for `simulate`.
+    edp_limit : float
+        Rotation / capacity that counts as overturned. A block passes its capacity and may come back while the pulse
+        lasts, so that 1, which is right for fragility, is too low for an overturning spectrum; docs/processing.md
+        shows how limits compare. Squat walls need less than 5, since the limit must lie within the geometry.
+    threads : int
+        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
+    progress : bool
+        Show progress bars in a terminal or notebook.
+
+    Returns
+    -------
+    OverturningSpectrum
+
+    Raises
+    ------
+    InputError
+        What cannot be run.
+    Interrupted
+        Ctrl-C; its `partial` has the frequencies whose scan is complete, with the brackets that were reached.
+
+    Notes
+    -----
+    Overturning is not monotone in the amplitude: safe amplitudes lie above some that overturn (Zhang and Makris 2001).
+    So the whole range is scanned, and a window narrower than the steps of the scan can be missed. Impacts before
+    overturning are counted to the end, also after the pulse; a wall that survives always falls back on its base, and
+    its impacts are those while the pulse lasts. docs/processing.md compares with published values.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    if polarity not in ("as_recorded", "reversed"):
+        raise InputError(f"polarity = {polarity!r}: must be one of 'as_recorded', 'reversed'")
+    frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
+    if not callable(pulse):
+        raise InputError(f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.one_sine")
+    width = as_number("tolerance", tolerance)
+    if not 1e-12 <= width <= 1.0:
+        raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")
+    settings = _binding.settings(rtol, atol, edp_limit)
+    runner = _Runner(
+        wall,
+        tuple(_pulse(pulse, value) for value in frequency),
+        -1.0 if polarity == "reversed" else 1.0,
+        as_text("engine", engine),
+        settings,
+        check_threads(threads),
+        progress,
+    )
+    columns, rows = len(frequency), len(amplitude)
+    places = np.repeat(np.arange(columns), rows)
+    outcome, stopped = runner.run(places, np.tile(amplitude, columns), f"{wall.name}: scan")
+    complete = outcome.done // rows if stopped else columns
+    state = outcome.state.reshape(columns, rows)[:complete]
+    brackets = [
+        _Bracket(i, amplitude[j], amplitude[j + 1], state[i, j], state[i, j + 1])
+        for i, j in np.argwhere(state[:, 1:] != state[:, :-1])
+    ]
+    if not stopped:
+        brackets, stopped = _bisect(runner, brackets, width, f"{wall.name}: boundaries")
+    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in outcome[:3])
+    scanned = frequency[:complete].copy()
+    for array in (scanned, amplitude, states, edp, impacts):
+        array.flags.writeable = False
+    spectrum = OverturningSpectrum(
+        wall,
+        runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
+        scanned,
+        amplitude,
+        states,
+        edp,
+        impacts,
+        tuple(
+            Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
+            for b in sorted(brackets)
+        ),
+        float(settings[2]),
+        polarity,
+    )
+    if stopped:
+        sentence = f"interrupted: the scans of {complete} of {columns} frequencies are complete"
+        raise Interrupted(sentence, spectrum if complete else None)
+    return spectrum
+
+
+class _Bracket(NamedTuple):
+    """Two amplitudes of different states at one frequency."""
+
+    place: int
+    lower: float
+    upper: float
+    below: int
+    above: int
+
+
+class _Outcome(NamedTuple):
+    """States and responses of some histories."""
+
+    state: np.ndarray[Any, np.dtype[np.int8]]
+    edp: FloatArray
+    impacts: np.ndarray[Any, np.dtype[np.int32]]
+    done: int
+
+
+class _Runner(NamedTuple):
+    """Histories of one wall under pulses, each of its own amplitude."""
+
+    wall: Wall
+    pulses: tuple[Record, ...]
+    sign: float
+    engine: bytes
+    settings: FloatArray
+    threads: int
+    progress: bool
+
+    def run(self, places: Any, amplitudes: FloatArray, label: str) -> tuple[_Outcome, bool]:
+        """Run pulse places[i] with amplitudes[i]; the second result says whether Ctrl-C stopped it."""
+        total = len(places)
+        edp, impacts = np.zeros(total), np.zeros(total, dtype=np.int32)
+        state = np.zeros(total, dtype=np.int8)
+
+        def block(done: int, count: int) -> None:
+            here = slice(done, done + count)
+            state[here], edp[here], impacts[here] = self._states(places[here], amplitudes[here])
+
+        samples = float(np.mean([len(pulse) for pulse in self.pulses]))
+        with progress_bar(total, self.progress, label, "history") as bar:
+            done, stopped = in_blocks(total, Pace(samples), block, bar.update)
+        return _Outcome(state, edp, impacts, done), stopped
+
+    def _states(self, places: Any, amplitudes: FloatArray) -> tuple[Any, FloatArray, Any]:
+        edp, collapsed, impacts, time = self._histories(places, amplitudes)
+        hit = impacts > 0
+        # Impacts are counted while the pulse lasts only: a wall that falls later may have had one in between.
+        ends = np.array([pulse.duration for pulse in self.pulses])
+        unsure = collapsed & ~hit & (time > ends[places])
+        if unsure.any():
+            pulses = list(self.pulses)
+            for place in np.unique(places[unsure]):
+                wait = (time - ends[places])[unsure & (places == place)].max()
+                wait = min(wait, _LONGEST_FALL / self.wall.frequency_parameter)
+                pulse = pulses[place]
+                still = np.zeros(int(np.ceil(wait / pulse.dt)) + 1)
+                pulses[place] = Record(np.concatenate([pulse.acceleration, still]), pulse.dt, pulse.name)
+            later = self._replace(pulses=tuple(pulses))
+            hit[unsure] = later._histories(places[unsure], amplitudes[unsure])[2] > 0
+        state = np.where(hit, State.SAFE_AFTER_IMPACTS, State.SAFE)
+        state[edp == 0.0] = State.AT_REST
+        state[collapsed] = np.where(hit, State.OVERTURNED_AFTER_IMPACTS, State.OVERTURNED)[collapsed]
+        return state, edp, impacts
+
+    def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
+        used, record = np.unique(places, return_inverse=True)
+        pulses = tuple(self.pulses[i] for i in used)
+        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in pulses])[record]
+        with _binding.stoppable():
+            edp, collapsed, impacts, time, stat, message = _core.run_scaled(
+                *self.wall._flat,
+                *flatten(pulses),
+                (record + 1).astype(np.int32),
+                np.ascontiguousarray(scale),
+                self.engine,
+                self.settings,
+                self.threads,
+            )
+        _binding.check(stat, message)
+        return edp, collapsed == 1, impacts, time
+
+
+def _bisect(runner: _Runner, brackets: Sequence[_Bracket], tolerance: float, label: str) -> tuple[list[_Bracket], bool]:
+    """Halve every bracket until all are short; a third state in a bracket makes two of it."""
+    wide, short = list(brackets), []
+    while True:
+        short += [bracket for bracket in wide if bracket.upper - bracket.lower <= tolerance * bracket.upper]
+        wide = [bracket for bracket in wide if bracket.upper - bracket.lower > tolerance * bracket.upper]
+        if not wide:
+            return short, False
+        middle = np.array([0.5 * (bracket.lower + bracket.upper) for bracket in wide])
+        outcome, stopped = runner.run(np.array([bracket.place for bracket in wide]), middle, label)
+        if stopped:
+            return short + wide, True
+        halves = []
+        for bracket, amplitude, state in zip(wide, middle, outcome.state, strict=True):
+            halves.append(bracket._replace(upper=amplitude, above=state))
+            halves.append(bracket._replace(lower=amplitude, below=state))
+        wide = [half for half in halves if half.below != half.above]
+
+
+def _pulse(pulse: Callable[[float, float], Record], frequency: float) -> Record:
+    """The pulse of amplitude 1 at a frequency."""
+    record = pulse(1.0, float(frequency))
+    if not isinstance(record, Record):
+        raise InputError(f"pulse: must return a Record, not {type(record).__name__}")
+    if not record.pga > 0.0:
+        raise InputError(f"pulse: is zero at {frequency:g} Hz")
+    return record
+
+
+def _increasing(name: str, values: ArrayLike) -> FloatArray:
+    """Positive, increasing numbers."""
+    array = as_array(name, values).copy()
+    if not np.all((array > 0.0) & (array < np.inf)):
+        raise InputError(f"{name}: must be positive")
+    if not np.all(np.diff(array) > 0.0):
+        raise InputError(f"{name}: must increase")
+    return array

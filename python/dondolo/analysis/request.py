@@ -1,0 +1,223 @@
+"""Long work in blocks: many histories of one wall or of many, each block one call of Fortran.
+
+A block takes less than half a second, so that little is lost when Ctrl-C breaks it off and what is finished is kept.
+"""
+
+from __future__ import annotations
+
+import builtins
+import functools
+import time
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_text
+from dondolo._fortran import _binding, _core
+from dondolo.analysis.work import Work
+from dondolo.errors import DondoloWarning
+from dondolo.records.record import Record, flatten
+from dondolo.walls.wall import Wall
+
+_SECONDS = 0.4
+# A guess for the first block: samples that are surely gone through within a block's time
+_FIRST_SAMPLES = 200_000
+
+
+class Plan(NamedTuple):
+    """What will be run, checked.
+
+    Attributes
+    ----------
+    histories : ndarray of int, shape (walls,)
+        Histories of a stripe of each wall.
+    record, polarity : ndarray of int, shape (histories,)
+        Of the last wall: index of each history's record, and +1 or -1.
+    scale : ndarray, shape (levels, histories)
+        Of the last wall: factors on the records, without the sign of the polarity.
+    warnings : list of DondoloWarning
+        What the user should know.
+    """
+
+    histories: Any
+    record: Any
+    polarity: Any
+    scale: FloatArray
+    warnings: list[DondoloWarning]
+
+
+class Outcome(NamedTuple):
+    """Flat results, wall by wall and level by level."""
+
+    edp: FloatArray
+    collapsed: Any
+    impacts: Any
+    time_of_peak: FloatArray
+    edp_error: FloatArray
+    work: Work
+    done: int
+
+
+@dataclass(frozen=True)
+class Request:
+    """Stripes of some walls, as asked for; it can be sent to another process."""
+
+    walls: tuple[Wall, ...]
+    records: _binding.FlatRecords
+    values: FloatArray
+    levels: FloatArray
+    im: str
+    polarity: str
+    engine: str
+    settings: FloatArray
+    threads: int
+
+    def _arguments(self, levels: slice = slice(None)) -> tuple[Any, ...]:
+        words = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
+        return (*self.records, self.values, self.levels[levels], *words, self.settings, self.threads)
+
+    def plan(self) -> Plan:
+        """Check everything; nothing is run."""
+        flat = _binding.join_walls([wall._flat for wall in self.walls])
+        parcel = _binding.receive(*_core.plan(*flat, *self._arguments()))
+        walls, count = len(self.walls), int(parcel.integers[len(self.walls) - 1])
+        record, polarity = parcel.integers[walls:].reshape(2, count)
+        scale = parcel.reals.reshape(len(self.levels), count)
+        return Plan(parcel.integers[:walls], record - 1, polarity, scale, _binding.unpack_warnings(parcel.lines))
+
+    def run(self, histories: Sequence[int], progress: bool, label: str) -> tuple[Outcome, bool]:
+        """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
+        total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
+        with progress_bar(total, progress, label, "history") as bar:
+            return self.advance(histories, Pace(float(self.records.lengths.mean())), bar.update)
+
+    def advance(self, histories: Sequence[int], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
+        """The same at a pace, and with a report of how many histories were done in each call."""
+        ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
+        total = int(ends[-1])
+        edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
+        collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
+        flats = [wall._flat for wall in self.walls]
+        works: list[Work] = []
+
+        def block(done: int, count: int) -> None:
+            # The walls that the block touches
+            one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
+            first = done - (int(ends[one - 1]) if one else 0)
+            # Of one wall only the levels that it touches: each block plans all that it is given.
+            low = first // int(histories[one]) if one == last else 0
+            high = (first + count - 1) // int(histories[one]) + 1 if one == last else None
+            first -= low * int(histories[one])
+            arguments = (*_binding.join_walls(flats[one : last + 1]), *self._arguments(slice(low, high)))
+            with _binding.stoppable():
+                *rows, counts, stat, message = _core.run_block(*arguments, first + 1, count)
+            _binding.check(stat, message)
+            here = slice(done, done + count)
+            edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
+            works.append(Work(*map(int, counts)))
+
+        done, interrupted = in_blocks(total, pace, block, report)
+        return Outcome(edp, collapsed, impacts, peak, error, Work.total(works), done), interrupted
+
+
+class Pace:
+    """How many histories take the time of a block, learnt from block to block.
+
+    Parameters
+    ----------
+    samples : float
+        Those of a record, on average.
+    """
+
+    def __init__(self, samples: float) -> None:
+        self._size = max(1.0, _FIRST_SAMPLES / samples)
+
+    def count(self, left: int) -> int:
+        """Histories of the next block."""
+        return min(int(self._size), left)
+
+    def learn(self, count: int, seconds: float) -> None:
+        """What a block took."""
+        self._size = max(1.0, count * min(max(_SECONDS / max(seconds, 1e-6), 0.25), 4.0))
+
+
+def in_blocks(
+    total: int, pace: Pace, block: Callable[[int, int], None], report: Callable[[int], object]
+) -> tuple[int, bool]:
+    """Run histories block by block: how many are done, and whether Ctrl-C stopped it before the end.
+
+    `block(done, count)` runs the next `count` histories.
+    """
+    done = 0
+    try:
+        while done < total:
+            count = pace.count(total - done)
+            start = time.perf_counter()
+            block(done, count)
+            pace.learn(count, time.perf_counter() - start)
+            done += count
+            report(count)
+    except KeyboardInterrupt:
+        return done, True
+    return done, False
+
+
+def new_request(
+    walls: Sequence[Wall],
+    records: Sequence[Record],
+    levels: ArrayLike,
+    im: str,
+    polarity: str,
+    engine: str,
+    rtol: float | None,
+    atol: float | None,
+    edp_limit: float | None,
+    threads: int,
+    estimate_error: bool = False,
+    collapses_only: bool = False,
+) -> Request:
+    """A request out of what a user gives."""
+    team = check_threads(threads)
+    levels = as_array("levels", levels).copy()
+    levels.flags.writeable = False
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error, collapses_only)
+    flat = flatten(tuple(records))
+    # What the records are scaled by does not depend on walls or levels: it is computed once.
+    values = _binding.scaling_values(im, flat, team)
+    name = _binding.describe_measure(im).name
+    return Request(tuple(walls), flat, values, levels, name, polarity, engine, settings, team)
+
+
+def check_threads(threads: int) -> int:
+    """A number of threads; 0 stands for all."""
+    return as_count("threads", threads, 0, 4096)
+
+
+def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
+    """A progress bar, hidden where stderr is neither a terminal nor a notebook's. `initial` are done already."""
+    # None: hidden unless stderr is a terminal. A notebook's is none, and shows the bar all the same.
+    hidden = False if hasattr(builtins, "get_ipython") else None
+    return _bar()(
+        total=total,
+        desc=label,
+        unit=f" {unit}",
+        unit_scale=True,
+        initial=initial,
+        disable=hidden if wanted else True,
+        leave=False,
+    )
+
+
+@functools.cache
+def _bar() -> Any:
+    """The kind of bar that fits: a widget in a notebook, plain text elsewhere and without ipywidgets."""
+    from tqdm import TqdmWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TqdmWarning)
+        from tqdm.auto import tqdm
+    return tqdm

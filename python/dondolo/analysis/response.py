@@ -1,0 +1,214 @@
+"""One motion of one wall."""
+
+from __future__ import annotations
+
+import functools
+import os
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_number, as_text
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding, _core
+from dondolo._storage import tables
+from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.records.record import Record
+from dondolo.walls.wall import Wall
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Response(Shown):
+    """What a motion leaves.
+
+    Attributes
+    ----------
+    wall, record : Wall, Record
+        What moved, and what moved it.
+    scale : float
+        Factor on the record, negative if its polarity was reversed.
+    edp : float
+        Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
+        collapse.
+    collapsed : bool
+        Did it reach the limit?
+    impacts : int
+        Impacts located before the end of the record; chains of bounces that are closed at once are not counted.
+    time_of_peak : float
+        Time of the largest rotation, or of reaching the limit [s].
+    time, ground_acceleration, rotation, velocity : ndarray, shape (rows,), or None
+        Time history at every sample and before and after every impact, until rest or 10 s past the end of the record
+        [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. None with history=False.
+    side : ndarray of int, shape (rows,), or None
+        +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
+    after_impact : ndarray of bool, shape (rows,), or None
+        True in the row just after an impact; the row before it, of the same time, is just before that impact. Impacts
+        after the end of the record are marked too, so that there may be more of them than `impacts`.
+    edp_error : float or None
+        Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
+    """
+
+    wall: Wall
+    record: Record
+    scale: float
+    edp: float
+    collapsed: bool
+    impacts: int
+    time_of_peak: float
+    edp_limit: float = 1.0
+    time: FloatArray | None = None
+    ground_acceleration: FloatArray | None = None
+    rotation: FloatArray | None = None
+    velocity: FloatArray | None = None
+    side: np.ndarray[Any, np.dtype[np.int8]] | None = None
+    after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
+    edp_error: float | None = None
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [
+            ("wall", self.wall.name),
+            ("record", self.record.name),
+            ("scale", f"{self.scale:.6g}"),
+            ("EDP", f"{self.edp:.6g}"),
+            ("collapsed", "yes" if self.collapsed else "no"),
+            ("impacts", str(self.impacts)),
+            ("time of the peak", f"{self.time_of_peak:.6g} s"),
+        ]
+        if self.edp_error is not None:
+            both = self.collapsed and self.edp_error == 0.0
+            fact = (
+                ("with halved steps", "collapses too")
+                if both
+                else ("estimated error of the EDP", f"{self.edp_error:.2g}")
+            )
+            facts.insert(4, fact)
+        return facts
+
+    def _table(self) -> tables.Table:
+        if self.time is None:
+            raise DondoloError("this response has no time history: simulate with history=True")
+        return history_table(self)
+
+    def to_frame(self) -> Any:
+        """The time history as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the time history as the executable's ``_history.csv``."""
+        comments = [
+            f"record: {self.record.name}",
+            f"scale: {tables.cell(self.scale)}",
+            f"edp: {tables.cell(self.edp)}",
+            f"collapsed: {int(self.collapsed)}",
+            f"impacts: {self.impacts}",
+            f"time_of_peak_s: {tables.cell(self.time_of_peak)}",
+        ]
+        if self.edp_error is not None:
+            comments.append(f"edp_error: {tables.cell(self.edp_error)}")
+        tables.write_csv(path, self._table(), comments)
+
+
+def simulate(
+    wall: Wall,
+    record: Record,
+    scale: float = 1.0,
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    history: bool = True,
+    estimate_error: bool = False,
+) -> Response:
+    """The motion of a wall under an accelerogram.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall, at rest at the start.
+    record : Record
+        The accelerogram.
+    scale : float
+        Factor on it; negative reverses its polarity.
+    engine : str
+        'auto' or the name of an engine.
+    rtol, atol : float, optional
+        Tolerances of a step, in units of q_c and p q_c; the library's own if left out.
+    edp_limit : float, optional
+        Rotation / capacity that counts as collapse, 1 if left out.
+    history : bool
+        Keep the time history?
+    estimate_error : bool
+        Run it a second time with halved steps, to estimate the error of the EDP?
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    InputError
+        A setting that makes no sense, with the sentence of the executable.
+
+    Warns
+    -----
+    DondoloWarning
+        A wall or a PGA that looks as if it were given in another unit, a record without motion; with an estimated
+        error, a history in doubt.
+
+    Notes
+    -----
+    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    if not isinstance(record, Record):
+        raise InputError(f"record: {type(record).__name__} is no record")
+    factor = as_number("scale", scale)
+    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
+    with _binding.stoppable():
+        edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
+            *wall._flat,
+            record.acceleration,
+            record.dt,
+            record.name.encode(),
+            factor,
+            as_text("engine", engine),
+            settings,
+            int(history),
+        )
+    _binding.check(stat, message)
+    if sentences := _warnings(wall, record.name, record.pga):
+        _binding.warn(sentences)
+    response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
+    if estimate_error:
+        object.__setattr__(response, "edp_error", edp_error)
+        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
+    if history:
+        parcel = _binding.receive(handle, sizes, stat, message)
+        side, after = parcel.integers.reshape(2, -1)
+        columns = ("time", "ground_acceleration", "rotation", "velocity", "side", "after_impact")
+        rows = (*parcel.reals.reshape(4, -1), side.astype(np.int8), after == 1)
+        for what, row in zip(columns, rows, strict=True):
+            row.flags.writeable = False
+            object.__setattr__(response, what, row)
+    return response
+
+
+@functools.lru_cache
+def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
+    """What looks odd about a wall and a record; kept, since one motion takes little longer."""
+    return _binding.warnings_of_motion(wall._flat, record, pga)
+
+
+def history_table(response: Response) -> tables.Table:
+    """Columns of ``_history.csv``."""
+    return {
+        "time_s": response.time,
+        "ground_acceleration_m_s2": response.ground_acceleration,
+        "rotation_rad": response.rotation,
+        "velocity_rad_s": response.velocity,
+        "edp": np.abs(response.rotation) / response.wall.capacity_angle,
+        "side": np.asarray(response.side, dtype=int),
+        "after_impact": np.asarray(response.after_impact, dtype=int),
+    }

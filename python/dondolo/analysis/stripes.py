@@ -1,0 +1,369 @@
+"""Multiple stripe analysis of one wall."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+from dondolo.analysis.request import Outcome, Plan, Request, new_request
+from dondolo.analysis.work import Work
+from dondolo.curves.fragility import Fragility, fit
+from dondolo.curves.sample import Sample
+from dondolo.errors import DondoloWarning, InputError, Interrupted
+from dondolo.records.record import Record, as_records
+from dondolo.walls.wall import Wall, walls_table
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Stripes(Shown):
+    """Every record at every level of intensity, and who collapses.
+
+    Attributes
+    ----------
+    wall : Wall
+        The wall.
+    im : str
+        Intensity measure.
+    levels : ndarray, shape (levels,)
+        Its levels: accelerations in g, all else in SI units.
+    edp : ndarray, shape (levels, histories)
+        Largest rotation / capacity; edp_limit for a collapse.
+    collapsed : ndarray of bool, shape (levels, histories)
+    impacts : ndarray of int, shape (levels, histories)
+    time_of_peak : ndarray, shape (levels, histories)
+        [s]
+    scale : ndarray, shape (levels, histories)
+        Factor on the record, without the sign of the polarity.
+    record_names : tuple of str, length histories
+        Record of each history.
+    polarity : ndarray of int, shape (histories,)
+        +1 as recorded, -1 reversed.
+    engine, edp_limit, rtol, atol
+        How it was computed.
+    work : Work
+        What was computed, and what was not.
+    edp_error : ndarray, shape (levels, histories), or None
+        Estimated errors of `edp`; None unless asked for.
+    """
+
+    wall: Wall
+    im: str
+    levels: FloatArray
+    edp: FloatArray
+    collapsed: np.ndarray[Any, np.dtype[np.bool_]]
+    impacts: np.ndarray[Any, np.dtype[np.int32]]
+    time_of_peak: FloatArray
+    scale: FloatArray
+    record_names: tuple[str, ...]
+    polarity: np.ndarray[Any, np.dtype[np.int32]]
+    engine: str
+    rtol: float
+    atol: float
+    edp_limit: float
+    work: Work
+    edp_error: FloatArray | None = None
+
+    @property
+    def records(self) -> int:
+        """Number of records."""
+        return len(self.record_names) // len(np.unique(self.polarity))
+
+    @property
+    def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
+        # All records come in one polarity, and again in the other if there are two.
+        return np.arange(len(self.record_names)) % self.records
+
+    @property
+    def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Collapses in each stripe, shape (levels,)."""
+        return self.collapsed.sum(axis=1)
+
+    @property
+    def histories(self) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Histories of each stripe, shape (levels,)."""
+        return np.full(len(self.levels), self.edp.shape[1])
+
+    @property
+    def fraction(self) -> FloatArray:
+        """Fraction of collapses in each stripe, shape (levels,)."""
+        return self.collapses / self.histories
+
+    def exceedances(self, edp: float) -> np.ndarray[Any, np.dtype[np.int64]]:
+        """Histories of each stripe that reach a threshold, shape (levels,).
+
+        Parameters
+        ----------
+        edp : float
+            Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
+
+        Returns
+        -------
+        ndarray of int, shape (levels,)
+
+        Raises
+        ------
+        InputError
+            A threshold beyond that.
+        """
+        threshold = as_number("edp", edp)
+        if not 0.0 < threshold <= self.edp_limit:
+            raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
+        return (self.edp >= threshold).sum(axis=1)
+
+    def fit(self, edp: float | None = None) -> Fragility:
+        """Fit a fragility curve by maximum likelihood.
+
+        Parameters
+        ----------
+        edp : float, optional
+            Rotation / capacity that makes a damage state; collapse if left out.
+
+        Returns
+        -------
+        Fragility
+            Its status says whether there is a curve.
+
+        Warns
+        -----
+        DondoloWarning
+            With the sentence of the executable, where there is no curve or it extrapolates.
+        """
+        state = self if edp is None else self._state(edp)
+        curve = fit(
+            self.levels,
+            state.collapses.astype(np.float64),
+            self.histories.astype(np.float64),
+            im=self.im,
+            wall=self.wall,
+            edp=state.edp_limit,
+            sample=state._sample(),
+        )
+        low, high = curve.bracket
+        numbers = np.zeros(8)
+        numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
+        data = _binding.CurveData(curve.status, numbers)
+        sentences = _binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data)
+        where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
+        _binding.warn(sentence.placed(where) for sentence in sentences)
+        return curve
+
+    def _state(self, edp: float) -> Stripes:
+        """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
+        self.exceedances(edp)
+        return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
+
+    def _sample(self) -> Sample:
+        """The histories as a curve keeps them."""
+        return Sample(self.levels, self.collapsed, self.record_index, self.record_names[: self.records])
+
+    def _tables(self) -> dict[str, Any]:
+        return {
+            "histories": lambda: histories_table(self),
+            "stripes": lambda: stripes_table(
+                [self.wall],
+                self.im,
+                self.levels,
+                [self.edp_limit],
+                self.collapses[None, :, None],
+                [self.edp.shape[1]],
+            ),
+            "walls": lambda: walls_table([self.wall]),
+        }
+
+    def to_frame(self, table: str = "histories") -> Any:
+        """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
+        return tables.frame(tables.choose(self._tables(), table))
+
+    def to_csv(self, path: str | os.PathLike[str], table: str = "histories") -> None:
+        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
+        comments = [
+            repr(self.wall),
+            f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
+            f"unit of im_level: {_binding.unit_of(self.im) or '1'}",
+        ]
+        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = _binding.unit_of(self.im)
+        return [
+            ("wall", self.wall.name),
+            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("histories of a stripe", str(self.edp.shape[1])),
+            ("collapses", " ".join(map(str, self.collapses))),
+            ("work", str(self.work)),
+        ]
+
+
+def multiple_stripe(
+    wall: Wall,
+    records: Record | Iterable[Record],
+    levels: ArrayLike,
+    im: str = "pga",
+    polarity: str = "as_recorded",
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    estimate_error: bool = False,
+    threads: int = 0,
+    progress: bool = True,
+) -> Stripes:
+    """Run every record at every level of intensity.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+    records : Record or iterable of Record
+        The accelerograms.
+    levels : array_like, shape (levels,)
+        Levels of intensity, positive and increasing, in the unit of the measure.
+    im : str
+        Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
+        'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
+        trigger acceleration and p its frequency parameter.
+    polarity : {'as_recorded', 'reversed', 'both'}
+        'both' doubles the histories, except for two-sided walls, which are symmetric.
+    engine, rtol, atol, edp_limit
+        As for `simulate`.
+    estimate_error : bool
+        Run every history a second time with halved steps, to estimate the error of its EDP?
+    threads : int
+        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
+    progress : bool
+        Show a progress bar in a terminal or notebook.
+
+    Returns
+    -------
+    Stripes
+
+    Raises
+    ------
+    InputError
+        What cannot be run, with the sentence of the executable.
+    Interrupted
+        Ctrl-C; its `partial` has the stripes that are complete.
+
+    Warns
+    -----
+    DondoloWarning
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion;
+        with estimated errors, histories in doubt.
+
+    Notes
+    -----
+    Section 3.3 of Nale et al.
+    """
+    if not isinstance(wall, Wall):
+        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    several = as_records(records)
+    request = new_request(
+        (wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, estimate_error
+    )
+    plan = request.plan()
+    _binding.warn(plan.warnings)
+    outcome, interrupted = request.run(plan.histories, progress, wall.name)
+    if not interrupted:
+        stripes = _stripes(request, several, plan, outcome, len(request.levels))
+        _binding.warn(_warnings(stripes))
+        return stripes
+    complete = outcome.done // len(plan.record)
+    partial = _stripes(request, several, plan, outcome, complete) if complete else None
+    raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
+
+
+def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome: Outcome, complete: int) -> Stripes:
+    """The stripes up to a level."""
+    shape = (complete, len(plan.record))
+    size = complete * len(plan.record)
+    *rows, error = (values[:size].reshape(shape) for values in outcome[:5])
+    levels, scale = request.levels[:complete], plan.scale[:complete]
+    for array in (*rows, error, scale, plan.polarity):
+        array.flags.writeable = False
+    rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    return Stripes(
+        request.walls[0],
+        request.im,
+        levels,
+        *rows,
+        scale,
+        tuple(records[i].name for i in plan.record),
+        plan.polarity,
+        request.engine,
+        rtol,
+        atol,
+        edp_limit,
+        outcome.work,
+        error if estimated else None,
+    )
+
+
+def _warnings(stripes: Stripes) -> list[DondoloWarning]:
+    """What the executable would warn of, of estimated errors."""
+    if stripes.edp_error is None:
+        return []
+    level, history = np.unravel_index(stripes.edp_error.argmax(), stripes.edp_error.shape)
+    return _binding.warnings_of_errors(
+        stripes.edp,
+        stripes.edp_error,
+        stripes.edp_limit,
+        stripes.record_names[history],
+        float(stripes.levels[level]),
+    )
+
+
+def histories_table(stripes: Stripes) -> tables.Table:
+    """Columns of ``_histories.csv``."""
+    levels, histories = stripes.edp.shape
+    polarity = ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity]
+    table: tables.Table = {
+        "wall": [stripes.wall.name] * stripes.edp.size,
+        "mechanism": [stripes.wall.mechanism] * stripes.edp.size,
+        "record": list(stripes.record_names) * levels,
+        "polarity": polarity * levels,
+        "im": [stripes.im] * stripes.edp.size,
+        "im_level": np.repeat(stripes.levels, histories),
+        "scale": stripes.scale.ravel(),
+        "edp": stripes.edp.ravel(),
+        "collapsed": stripes.collapsed.ravel().astype(int),
+        "impacts": stripes.impacts.ravel(),
+        "time_of_peak_s": stripes.time_of_peak.ravel(),
+    }
+    if stripes.edp_error is not None:
+        table["edp_error"] = stripes.edp_error.ravel()
+    return table
+
+
+def stripes_table(
+    walls: Sequence[Wall],
+    im: str,
+    levels: FloatArray,
+    edp_thresholds: Sequence[float],
+    exceedances: np.ndarray[Any, Any],
+    histories: Sequence[int],
+) -> tables.Table:
+    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls)."""
+    states, number = len(edp_thresholds), len(levels)
+    counts = exceedances.transpose(2, 0, 1).ravel()
+    sizes = np.repeat(np.asarray(histories), states * number)
+    return {
+        "wall": [wall.name for wall in walls for _ in range(states * number)],
+        "mechanism": [wall.mechanism for wall in walls for _ in range(states * number)],
+        "im": [im] * len(counts),
+        "im_level": np.tile(levels, states * len(walls)),
+        "histories": sizes,
+        "collapses": counts,
+        "fraction": counts / sizes,
+        "edp_threshold": np.tile(np.repeat(np.asarray(edp_thresholds), number), len(walls)),
+    }

@@ -1,0 +1,1 @@
+"""Fragility curves, their uncertainty, and regressions."""

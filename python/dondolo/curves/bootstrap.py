@@ -1,0 +1,155 @@
+"""Records drawn with replacement, and the curves fitted to them."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
+from dondolo._fortran import _binding
+from dondolo.curves.sample import Sample
+from dondolo.errors import DondoloError, InputError
+
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Bootstrap:
+    """Curves fitted to records drawn with replacement.
+
+    Attributes
+    ----------
+    theta, beta : ndarray, shape (samples,)
+        Parameters of each; NaN where a sample has no fit.
+    status : ndarray of str, shape (samples,)
+        What came of each fit; '' where it failed.
+    """
+
+    theta: FloatArray
+    beta: FloatArray
+    status: np.ndarray[Any, Any]
+
+    @property
+    def without_fit(self) -> float:
+        """Share of the samples without a fit; they take no part in the intervals."""
+        return float(np.mean(np.isnan(self.theta)))
+
+    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
+        """Percentile interval of the probability at levels (of each on its own, not of the curve as a whole).
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative.
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : float or ndarray, shape of x
+
+        Raises
+        ------
+        DondoloError
+            No sample has a fit.
+        """
+        from scipy.special import ndtr
+
+        values = as_levels(x)
+        theta, beta = self._fitted()
+        with np.errstate(divide="ignore"):
+            curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
+        curves *= self._ends()[~np.isnan(self.theta), None]
+        low, high = np.quantile(curves, tails(level), axis=0)
+        return shaped(low, values), shaped(high, values)
+
+    def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
+        """Percentile intervals of theta and beta.
+
+        Parameters
+        ----------
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        dict
+            'theta' and 'beta': (low, high).
+
+        Raises
+        ------
+        DondoloError
+            No sample has a fit.
+        """
+        ends = tails(level)
+        return {
+            name: tuple(float(end) for end in np.quantile(values, ends))
+            for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
+        }  # type: ignore[return-value]
+
+    def _ends(self) -> FloatArray:
+        """What the curve of each sample tends to."""
+        return np.ones_like(self.theta)
+
+    def _fitted(self) -> tuple[FloatArray, FloatArray]:
+        fitted = ~np.isnan(self.theta)
+        if not fitted.any():
+            raise DondoloError("none of the samples of the bootstrap has a fit")
+        return self.theta[fitted], self.beta[fitted]
+
+    def __repr__(self) -> str:
+        return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
+
+
+def draw_records(number: int, n: int, seed: Any, events: Sequence[Any] | None = None) -> FloatArray:
+    """How often each record comes in each of n samples drawn with replacement: (samples, records).
+
+    Records with the same label in `events` are drawn together. Each sample has as many records as there are.
+    """
+    n, generator = as_count("n", n, 1), as_generator(seed)
+    labels = _labels(number, events)
+    places: dict[Any, int] = {}
+    place = [places.setdefault(label, len(places)) for label in labels]
+    if len(places) < 2:
+        what = "records" if events is None else "events"
+        raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
+    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
+    # Events with many records must not make a sample count for more histories than there are.
+    return drawn * (number / drawn.sum(axis=1, keepdims=True))
+
+
+def _labels(number: int, events: Sequence[Any] | None) -> list[Any]:
+    """The label of each record; none may be missing, for all that are would be one event."""
+    if events is None:
+        return list(range(number))
+    if isinstance(events, str) or not isinstance(events, Iterable):
+        raise InputError(f"events = {events!r}: must be labels, one for each record")
+    labels = list(events)
+    if len(labels) != number:
+        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
+    for i, label in enumerate(labels):
+        if label is None or label == "" or label != label or not isinstance(label, Hashable):
+            raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
+    return labels
+
+
+def resample(sample: Sample, times: FloatArray) -> Bootstrap:
+    """Fit the histories again with each record taken so many times."""
+    place = sample.record_index
+    collapses = times[:, place] @ sample.collapsed.T.astype(np.float64)
+    histories = np.repeat(times[:, place].sum(axis=1, keepdims=True), len(sample.levels), axis=1)
+    return Bootstrap(*fit_samples(sample.levels, np.minimum(collapses, histories), histories))
+
+
+def fit_samples(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray
+) -> tuple[FloatArray, FloatArray, np.ndarray[Any, Any]]:
+    """Curves of many samples: theta and beta, NaN where a sample has no fit, and the status of each."""
+    curves, statuses = _binding.fit_curves(levels, collapses, histories)
+    status = np.array(statuses)
+    fitted = np.isin(status, ("ok", "extrapolated"))
+    return np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status

@@ -1,0 +1,168 @@
+"""Regressions of one variable on the logarithm of an intensity: a straight line, and a logistic curve.
+
+The line, ln y = a + b ln x + sigma epsilon, is fitted by least squares; sigma^2 is the sum of the squared residuals
+over n - 2. The logistic curve P(x) = 1/(1 + exp(-(b0 + b1 ln x))) maximises the likelihood of what happened at each x.
+Its logarithm is concave, and has a finite maximum only where the two kinds overlap strictly in x; where they do not,
+they are separated, and any steep enough curve fits (Albert and Anderson 1984, Biometrika 71, 1-10).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_levels, shaped
+
+BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
+
+
+@dataclass(frozen=True)
+class Regression:
+    """ln EDP = intercept + slope ln IM + sigma epsilon.
+
+    Attributes
+    ----------
+    slope, intercept, sigma : float
+        NaN without a fit.
+    se_slope : float
+        Standard error of the slope.
+    r2 : float
+        Share of the variance of ln EDP that the line explains.
+    n : int
+        Histories that rock and do not collapse.
+    status : str
+        'ok', or 'too_few': less than three of them, or all of one intensity.
+    """
+
+    slope: float
+    intercept: float
+    sigma: float
+    se_slope: float
+    r2: float
+    n: int
+    status: str
+
+
+@dataclass(frozen=True)
+class Logistic:
+    """P(x) = 1/(1 + exp(-(b0 + b1 ln x))), or why there is no such curve.
+
+    Attributes
+    ----------
+    b0, b1 : float
+        NaN without a curve.
+    status : str
+        'ok'; 'none', no history is of the kind: P = 0; 'all', each is: P = 1; 'separated': P = 0 up to the bracket, 1
+        from it on and NaN within; 'decreasing': the kind does not become more frequent with intensity, P = NaN.
+    bracket : (float, float)
+        Where the probability rises: the intensities, in order, of the lowest history of the kind and the highest of
+        the other kind.
+    n, count : int
+        Histories, and those of the kind.
+    """
+
+    b0: float
+    b1: float
+    status: str
+    bracket: tuple[float, float]
+    n: int
+    count: int
+
+    def __call__(self, x: ArrayLike) -> Any:
+        """Probability at intensities.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, not negative, in the unit of those it was fitted to.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+            NaN where the data do not say: see `status`.
+
+        Raises
+        ------
+        InputError
+            Intensities that are negative or no numbers.
+        """
+        values = as_levels(x)
+        return shaped(self.at(values.ravel()), values)
+
+    def at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
+        """Probabilities, with a value for the gap of a separated sample.
+
+        Parameters
+        ----------
+        x : ndarray, shape (points,)
+            Intensities, not negative.
+        gap : float
+            What stands for the probability within the bracket of a separated sample.
+
+        Returns
+        -------
+        ndarray, shape (points,)
+        """
+        from scipy.special import expit
+
+        if self.status == "ok":
+            with np.errstate(divide="ignore"):
+                return expit(self.b0 + self.b1 * np.log(x))
+        if self.status == "separated":
+            low, high = self.bracket
+            return np.where(x >= high, 1.0, np.where(x > low, gap, 0.0))
+        return np.full(len(x), {"none": 0.0, "all": 1.0}.get(self.status, np.nan))
+
+
+def regress(x: FloatArray, y: FloatArray) -> Regression:
+    """Line by least squares."""
+    n = len(x)
+    if n < 3 or x.min() == x.max():
+        return Regression(*[np.nan] * 5, n, "too_few")
+    from scipy.stats import linregress
+
+    line = linregress(x, y)
+    left = y - line.intercept - line.slope * x
+    sigma = float(np.sqrt(left @ left / (n - 2)))
+    return Regression(
+        float(line.slope), float(line.intercept), sigma, float(line.stderr), float(line.rvalue**2), n, "ok"
+    )
+
+
+def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
+    """Logistic regression on ln x by maximum likelihood."""
+    n, count = len(x), int(kind.sum())
+    if count in (0, n):
+        return Logistic(np.nan, np.nan, "all" if count else "none", (0.0, np.inf), n, count)
+    here, there = x[kind], x[~kind]
+    bracket = tuple(sorted((float(here.min()), float(there.max()))))
+    if here.max() <= there.min():
+        return Logistic(np.nan, np.nan, "decreasing", bracket, n, count)
+    if here.min() >= there.max():
+        return Logistic(np.nan, np.nan, "separated", bracket, n, count)
+    from scipy.optimize import minimize
+    from scipy.special import expit
+
+    u = np.log(x)
+    shift, unit = u.mean(), u.std()
+    design = np.stack([np.ones(n), (u - shift) / unit])
+
+    def height(b: FloatArray) -> float:
+        eta = b @ design
+        return float(np.logaddexp(0.0, eta).sum() - eta[kind].sum())
+
+    def gradient(b: FloatArray) -> FloatArray:
+        return design @ (expit(b @ design) - kind)
+
+    def hessian(b: FloatArray) -> FloatArray:
+        p = expit(b @ design)
+        return (design * (p * (1.0 - p))) @ design.T
+
+    found = minimize(height, np.zeros(2), jac=gradient, hess=hessian, method="trust-exact", options={"gtol": 1e-9})
+    b1 = float(found.x[1] / unit)
+    if b1 <= 0.0:
+        return Logistic(np.nan, np.nan, "decreasing", bracket, n, count)
+    return Logistic(float(found.x[0] - b1 * shift), b1, "ok", bracket, n, count)

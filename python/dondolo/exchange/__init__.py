@@ -1,0 +1,1 @@
+"""Files of others and of the executable: cases, results, OpenQuake's NRML."""

@@ -1,0 +1,182 @@
+"""The executable's job from Python: a case file in, results as objects out."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+from dondolo._base.arguments import FloatArray, as_path
+from dondolo._fortran import _binding, _core
+from dondolo.analysis.response import Response, simulate
+from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.curves.fragility import Fragility
+from dondolo.populations.study import typology
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.walls.population import Population
+from dondolo.walls.wall import wall_from
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A case file, read and checked.
+
+    Attributes
+    ----------
+    task : str
+        'history', 'stripes' or 'typology'.
+    title, output : str
+        Title, and path prefix of the result files; running a case from Python writes none.
+    population : Population
+        The walls; one unless the task is 'typology'.
+    records : tuple of Record
+    im, polarity, engine : str
+    levels : ndarray, shape (levels,)
+    edp_thresholds : ndarray, shape (thresholds,)
+        Damage states, rotation / capacity; the last is edp_limit, collapse.
+    rtol, atol, edp_limit : float
+    estimate_error : bool
+    threads : int
+    record : int
+        Index of the record of a time history, from 0.
+    scale : float
+        Factor on it, with the sign of its polarity.
+    """
+
+    task: str
+    title: str
+    output: str
+    population: Population
+    records: tuple[Record, ...]
+    im: str
+    polarity: str
+    engine: str
+    levels: FloatArray
+    edp_thresholds: FloatArray
+    rtol: float
+    atol: float
+    edp_limit: float
+    estimate_error: bool
+    threads: int
+    record: int
+    scale: float
+
+    def run(self, progress: bool = True) -> Results:
+        """Run it; see `run_case`.
+
+        Parameters
+        ----------
+        progress : bool
+            Show a progress bar in a terminal or notebook.
+
+        Returns
+        -------
+        Results
+        """
+        solver = {"engine": self.engine, "rtol": self.rtol, "atol": self.atol, "edp_limit": self.edp_limit}
+        if self.task == "history":
+            record = self.records[self.record]
+            response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, **solver)
+            return Results(self, response=response)
+        ensemble = {"im": self.im, "polarity": self.polarity, "threads": self.threads, "progress": progress, **solver}
+        if self.task == "stripes":
+            ensemble["estimate_error"] = self.estimate_error
+            stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
+            return Results(self, stripes=stripes, fragility=stripes.fit())
+        ensemble["edp_thresholds"] = self.edp_thresholds
+        return Results(self, typology=typology(self.population, self.records, self.levels, **ensemble))
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """Results of a case; what its task does not make is None.
+
+    Attributes
+    ----------
+    case : Case
+    response : Response or None
+        Of the task 'history'.
+    stripes, fragility : Stripes, Fragility or None
+        Of the task 'stripes'.
+    typology : Typology or None
+        Of the task 'typology'.
+    """
+
+    case: Case
+    response: Response | None = None
+    stripes: Stripes | None = None
+    fragility: Fragility | None = None
+    typology: Typology | None = None
+
+
+def read_case(path: str | os.PathLike[str]) -> Case:
+    """Read a case file and all it names, and check everything.
+
+    Parameters
+    ----------
+    path : path
+        A namelist file.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
+    """
+    parcel = _binding.receive(*_core.read_case(as_path(path)))
+    walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
+    rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
+    task, title, output, im, polarity, engine = parcel.lines[:6]
+    places = [5 + levels + thresholds, 6, 6]
+    people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
+    reals, integers, lines = (place + more for place, more in zip(places, _binding.walls_end(walls), strict=True))
+    weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
+    groups = parcel.lines[lines : lines + walls]
+    motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
+    _binding.warn(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
+    return Case(
+        task,
+        title,
+        output,
+        Population(tuple(people), weight, groups, p_occ),
+        tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
+        im,
+        polarity,
+        engine,
+        parcel.reals[5 : 5 + levels].copy(),
+        parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
+        rtol,
+        atol,
+        edp_limit,
+        estimate_error == 1.0,
+        threads,
+        record - 1,
+        scale,
+    )
+
+
+def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
+    """Run a case file as the executable does, with the results as objects and no files written.
+
+    Parameters
+    ----------
+    path : path
+        A namelist file; paths in it are relative to it.
+    progress : bool
+        Show a progress bar in a terminal or notebook.
+
+    Returns
+    -------
+    Results
+
+    Raises
+    ------
+    InputError
+        The case is wrong.
+    Interrupted
+        Ctrl-C; its `partial` has what is complete.
+    """
+    return read_case(path).run(progress)

@@ -1,0 +1,380 @@
+"""Fragility functions for OpenQuake: NRML 0.5, the format of the engine's fragility models.
+
+A model is a set of fragility functions, one for each taxonomy (class of assets) of an exposure model, and each of them
+has a curve for each limit state, the same states in the same order throughout::
+
+    <nrml xmlns="http://openquake.org/xmlns/nrml/0.5">
+      <fragilityModel id=... assetCategory=... lossCategory=...>
+        <description>...</description>
+        <limitStates>damage collapse</limitStates>
+        <fragilityFunction id="taxonomy" format="continuous" shape="logncdf">
+          <imls imt="PGA" noDamageLimit=... minIML=... maxIML=.../>
+          <params ls="damage" mean=... stddev=.../>
+          <params ls="collapse" mean=... stddev=.../>
+        </fragilityFunction>
+        <fragilityFunction id="another" format="discrete">
+          <imls imt="SA(0.5)" noDamageLimit=...>0.1 0.2 0.3</imls>
+          <poes ls="damage">0.0 0.2 0.4</poes>
+          <poes ls="collapse">0.0 0.1 0.3</poes>
+        </fragilityFunction>
+      </fragilityModel>
+    </nrml>
+
+Continuous
+    A lognormal distribution function. Its parameters are the mean and standard deviation of the intensity itself, not
+    of its logarithm: mean = theta exp(beta^2/2), stddev = mean sqrt(exp(beta^2) - 1). OpenQuake takes the curve as
+    constant below minIML and above maxIML, and as 0 up to noDamageLimit. Unless given, minIML is six dispersions below
+    the lowest median and maxIML three above the highest, and noDamageLimit is minIML. The lower end is far down because
+    weak shaking is frequent: of the risk under a hazard x^-k the share Phi(k beta - 6) is cut off.
+Discrete
+    Probabilities at levels, straight lines in between, constant above the last level. Without noDamageLimit OpenQuake
+    draws a line from 0 at no intensity to the first level. `nrml_functions` writes the mean curves of a population so,
+    at levels that reach far enough down and stand close enough.
+States
+    A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
+    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where curves cross, if they
+    do so at less than 0.1 % or more than 99.9 %; elsewhere crossing curves are refused.
+Units
+    PGA and SA(T) in g, as here (OpenQuake's g is the standard 9.80665 m/s2, that of dondolo's levels is the wall's
+    gravity, 9.81 unless given: 0.03 %). PGV in cm/s: levels are multiplied by 100. Other measures are refused.
+
+Source: OpenQuake engine manual, "Fragility Models"; openquake.risklib.read_nrml and openquake.risklib.scientific of the
+engine, version 3.26.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from itertools import pairwise
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_number, increasing
+from dondolo._base.files import check_replaced
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloError, InputError
+
+_NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
+# What stands in the second line of every file
+_MARK = "<!-- dondolo "
+_LOSS_CATEGORIES = ("structural", "nonstructural", "contents", "business_interruption")
+_NAME = re.compile(r"[A-Za-z0-9_-]{1,100}")
+# What the engine's reader accepts, and the GEM taxonomy needs: ASCII without blanks, quotes and the number sign
+_TAXONOMY = re.compile(r"[!$-&(-~]{1,100}")
+# Dispersions from the medians to the ends of the range of a function
+_REACH_DOWN, _REACH_UP = 6.0, 3.0
+# Where curves cross at such a probability, or at its complement, the range may end there
+_RARE = 1e-3
+# Of a difference of probits
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False, init=False, repr=False)
+class DiscreteFragility(Shown):
+    """A fragility curve as probabilities at levels, such as the mean of a typology.
+
+    Parameters
+    ----------
+    levels : array_like, shape (levels,)
+        Levels of intensity, positive and increasing; at least two.
+    probability : array_like, shape (levels,)
+        Of reaching the state, between 0 and 1, not decreasing.
+    im : str
+        Intensity measure.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75])
+    """
+
+    levels: FloatArray
+    probability: FloatArray
+    im: str
+
+    def __init__(self, levels: ArrayLike, probability: ArrayLike, im: str = "pga") -> None:
+        x = increasing("levels", levels)
+        p = as_array("probability", probability).copy()
+        if len(x) != len(p):
+            raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
+        if not np.all((p >= 0.0) & (p <= 1.0)):
+            raise InputError(f"probability = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+        if np.any(np.diff(p) < 0.0):
+            i = int(np.argmax(np.diff(p) < 0.0))
+            raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
+        p.flags.writeable = False
+        for what, value in (("levels", x), ("probability", p), ("im", _binding.describe_measure(im).name)):
+            object.__setattr__(self, what, value)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = f" {_binding.unit_of(self.im)}".rstrip()
+        ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
+        chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
+        return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]
+
+
+Curve = Fragility | DiscreteFragility
+
+
+def write_nrml(
+    path: str | os.PathLike[str],
+    functions: Mapping[str, Mapping[str, Curve]],
+    id: str = "dondolo",
+    description: str = "Rocking masonry walls, by dondolo",
+    asset_category: str = "buildings",
+    loss_category: str = "structural",
+    no_damage_limit: float | None = None,
+    min_iml: float | None = None,
+    max_iml: float | None = None,
+) -> None:
+    """Write fragility functions for OpenQuake, NRML 0.5; the file appears whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The file; its folder must exist. An earlier model of dondolo is replaced, any other file is not.
+    functions : mapping of mappings
+        Taxonomy -> limit state -> curve. Each taxonomy has the same limit states, from the lightest to the heaviest;
+        its curves are all `Fragility`, written as continuous, or all `DiscreteFragility` of the same levels, written as
+        discrete. Taxonomies may differ in that, and in the intensity measure. `nrml_functions` makes those of a
+        population.
+    id : str
+        Name of the model: letters, digits, - and _, at most 100.
+    description : str
+        A text in ASCII.
+    asset_category : str
+        Of the exposure model, such as 'buildings'.
+    loss_category : {'structural', 'nonstructural', 'contents', 'business_interruption'}
+        What is lost.
+    no_damage_limit : float, optional
+        Intensity up to which there is no damage. If left out, `min_iml` for continuous functions and none for discrete.
+    min_iml, max_iml : float, optional
+        Range of the continuous functions. If left out, from six dispersions below the lowest median to three above the
+        highest. These three are in the unit of the curves' levels, and for all functions.
+
+    Raises
+    ------
+    InputError
+        What the format does not hold: names, measures, curves that cross; a file that is no model of dondolo.
+    DondoloError
+        A curve without a fit; the file cannot be written.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+    >>> dd.write_nrml("fragility.xml", {"parapets": {"collapse": curve}})
+    """
+    check_replaced(path, _MARK, "fragility model")
+    if not isinstance(id, str) or not _NAME.fullmatch(id):
+        raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
+    description = _words("description", description)
+    asset_category = _words("asset_category", asset_category)
+    if loss_category not in _LOSS_CATEGORIES:
+        allowed = ", ".join(map(repr, _LOSS_CATEGORIES))
+        raise InputError(f"loss_category = {loss_category!r}: must be one of {allowed}")
+    limits = {"no_damage_limit": no_damage_limit, "min_iml": min_iml, "max_iml": max_iml}
+    for what, value in limits.items():
+        if value is not None and not 0.0 < as_number(what, value) < np.inf:
+            raise InputError(f"{what} = {value:g}: must be positive")
+    states = _states(functions)
+    root = ElementTree.Element("nrml", {"xmlns": _NAMESPACE})
+    attributes = {"id": id, "assetCategory": asset_category, "lossCategory": loss_category}
+    model = ElementTree.SubElement(root, "fragilityModel", attributes)
+    ElementTree.SubElement(model, "description").text = description
+    ElementTree.SubElement(model, "limitStates").text = " ".join(states)
+    for taxonomy, curves in functions.items():
+        _check_curves(taxonomy, curves)
+        if isinstance(curves[states[0]], Fragility):
+            _continuous(model, taxonomy, curves, no_damage_limit, min_iml, max_iml)  # type: ignore[arg-type]
+        else:
+            _discrete(model, taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
+    ElementTree.indent(root)
+    head = ["<?xml version='1.0' encoding='utf-8'?>", f"{_MARK}{_binding.constants().version} -->"]
+    tables.write_lines(path, [*head, ElementTree.tostring(root, encoding="unicode")])
+
+
+def _words(name: str, text: Any) -> str:
+    """A text as the format takes it, and XML."""
+    words = " ".join(text.split()) if isinstance(text, str) else ""
+    if not words or not words.isascii() or not words.isprintable():
+        raise InputError(f"{name} = {text!r}: must be a text in printable ASCII")
+    return words
+
+
+def _states(functions: Mapping[str, Mapping[str, Curve]]) -> tuple[str, ...]:
+    """The limit states, the same for all taxonomies."""
+    if not isinstance(functions, Mapping) or not functions:
+        raise InputError("functions: must be a mapping of taxonomies, one at least")
+    states: tuple[str, ...] = ()
+    for taxonomy, curves in functions.items():
+        if not isinstance(taxonomy, str) or not _TAXONOMY.fullmatch(taxonomy):
+            raise InputError(f"taxonomy {taxonomy!r}: must be ASCII without blanks, quotes and #, at most 100")
+        if not isinstance(curves, Mapping) or not curves:
+            raise InputError(f"taxonomy '{taxonomy}': must be a mapping of limit states, one at least")
+        states = states or tuple(curves)
+        if tuple(curves) != states:
+            raise InputError(
+                f"taxonomy '{taxonomy}': has the limit states {', '.join(map(str, curves))}: must be"
+                f" {', '.join(map(str, states))}, as of the first taxonomy"
+            )
+    for state in states:
+        # The engine adds a state of that name.
+        if not isinstance(state, str) or not _NAME.fullmatch(state) or state == "no_damage":
+            raise InputError(f"limit state {state!r}: must be of letters, digits, - and _, and not 'no_damage'")
+    return states
+
+
+def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
+    """Are all curves of a kind, of one measure, and fitted?"""
+    kinds = {type(curve) for curve in curves.values()}
+    discrete = kinds == {DiscreteFragility}
+    if not discrete and not all(issubclass(kind, Fragility) for kind in kinds):
+        raise InputError(f"taxonomy '{taxonomy}': its curves must be all Fragility or all DiscreteFragility")
+    if len({curve.im for curve in curves.values()}) > 1:
+        raise InputError(f"taxonomy '{taxonomy}': its curves must be of one intensity measure")
+    for state, curve in curves.items():
+        if isinstance(curve, Fragility) and not curve.has_fit:
+            raise DondoloError(
+                f"taxonomy '{taxonomy}', limit state '{state}': has no curve (status '{curve.status}'); its fractions"
+                " can be written as DiscreteFragility"
+            )
+        if isinstance(curve, Fragility) and curve.saturation < 1.0:
+            raise InputError(
+                f"taxonomy '{taxonomy}', limit state '{state}': tends to {curve.saturation:.3g}, and a lognormal of the"
+                " format tends to 1; its fractions can be written as DiscreteFragility"
+            )
+
+
+def _measure(taxonomy: str, im: str) -> tuple[str, int]:
+    """OpenQuake's name of an intensity measure, and its unit in that of dondolo."""
+    spectral = re.fullmatch(r"sa\((.+)\)", im)
+    if spectral:
+        return f"SA({float(spectral.group(1))!r})", 1
+    known = {"pga": ("PGA", 1), "pgv": ("PGV", 100)}
+    if im not in known:
+        raise InputError(f"taxonomy '{taxonomy}': im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")
+    return known[im]
+
+
+def _continuous(
+    model: ElementTree.Element,
+    taxonomy: str,
+    curves: Mapping[str, Fragility],
+    no_damage_limit: float | None,
+    min_iml: float | None,
+    max_iml: float | None,
+) -> None:
+    """Add a function of lognormal curves."""
+    im = next(iter(curves.values())).im
+    imt, unit = _measure(taxonomy, im)
+    low, high = _range(list(curves.values()), min_iml, max_iml)
+    none = low if no_damage_limit is None else no_damage_limit
+    if not low < high:
+        raise InputError(f"taxonomy '{taxonomy}': min_iml = {low:g}, max_iml = {high:g}: must increase")
+    if none >= high:
+        raise InputError(f"taxonomy '{taxonomy}': no_damage_limit = {none:g}: must be below max_iml = {high:g}")
+    _check_order(taxonomy, curves, low, high)
+    function = ElementTree.SubElement(
+        model, "fragilityFunction", {"id": taxonomy, "format": "continuous", "shape": "logncdf"}
+    )
+    limits = {"noDamageLimit": none, "minIML": low, "maxIML": high}
+    ElementTree.SubElement(
+        function, "imls", {"imt": imt, **{name: _text(value, unit) for name, value in limits.items()}}
+    )
+    for state, curve in curves.items():
+        mean = curve.theta * np.exp(0.5 * curve.beta**2)
+        deviation = mean * np.sqrt(np.expm1(curve.beta**2))
+        ElementTree.SubElement(
+            function, "params", {"ls": state, "mean": _text(mean, unit), "stddev": _text(deviation, unit)}
+        )
+
+
+def _range(curves: list[Fragility], min_iml: float | None, max_iml: float | None) -> tuple[float, float]:
+    """What is given, or where the curves begin and end."""
+    low = min(curve.theta * np.exp(-_REACH_DOWN * curve.beta) for curve in curves)
+    high = max(curve.theta * np.exp(_REACH_UP * curve.beta) for curve in curves)
+    for lighter, heavier in pairwise(curves):
+        cross = _crossing(lighter, heavier)
+        # The heavier curve is the higher one below the crossing if it is the flatter, above if it is the steeper.
+        if lighter.beta < heavier.beta and lighter(cross) <= _RARE:
+            low = max(low, cross)
+        if lighter.beta > heavier.beta and lighter(cross) >= 1.0 - _RARE:
+            high = min(high, cross)
+    return float(low if min_iml is None else min_iml), float(high if max_iml is None else max_iml)
+
+
+def _crossing(first: Fragility, second: Fragility) -> float:
+    """Intensity at which two curves cross: probits are straight lines of ln x. 0 for curves that are parallel."""
+    if first.beta == second.beta:
+        return 0.0
+    rise = 1.0 / first.beta - 1.0 / second.beta
+    # Nearly parallel curves cross so far away that it is nowhere.
+    with np.errstate(over="ignore"):
+        return float(np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / rise))
+
+
+def _check_order(taxonomy: str, curves: Mapping[str, Fragility], low: float, high: float) -> None:
+    """Do no curves cross within a range? The difference of their probits is a straight line: its ends tell."""
+    ends = np.log([low, high])
+    for lighter, heavier in pairwise(curves):
+        first, second = curves[lighter], curves[heavier]
+        gap = (ends - np.log(first.theta)) / first.beta - (ends - np.log(second.theta)) / second.beta
+        if (gap >= -_ROUNDING).all():
+            continue
+        who = f"taxonomy '{taxonomy}': '{heavier}' is more probable than '{lighter}'"
+        if (gap <= _ROUNDING).all():
+            raise InputError(f"{who}: limit states must be given from the lightest to the heaviest")
+        side, end = ("below", "min_iml") if gap[0] < 0.0 else ("above", "max_iml")
+        raise InputError(
+            f"{who} {side} {_crossing(first, second):.4g}, where the curves cross: choose {end} to leave that out of"
+            f" {low:.4g} to {high:.4g}, or write them as DiscreteFragility"
+        )
+
+
+def _discrete(
+    model: ElementTree.Element,
+    taxonomy: str,
+    curves: Mapping[str, DiscreteFragility],
+    no_damage_limit: float | None,
+) -> None:
+    """Add a function of probabilities at levels."""
+    names = list(curves)
+    levels = curves[names[0]].levels
+    imt, unit = _measure(taxonomy, curves[names[0]].im)
+    for lighter, heavier in pairwise(names):
+        if not np.array_equal(curves[heavier].levels, levels):
+            raise InputError(f"taxonomy '{taxonomy}': its curves must have the same levels")
+        wrong = curves[heavier].probability > curves[lighter].probability
+        if wrong.any():
+            raise InputError(
+                f"taxonomy '{taxonomy}': '{heavier}' is more probable than '{lighter}' at {levels[wrong][0]:g}: limit"
+                " states must be given from the lightest to the heaviest, and their curves must not cross"
+            )
+    if no_damage_limit is not None and no_damage_limit >= levels[0]:
+        raise InputError(
+            f"taxonomy '{taxonomy}': no_damage_limit = {no_damage_limit:g}: must be below the lowest level,"
+            f" {levels[0]:g}"
+        )
+    function = ElementTree.SubElement(model, "fragilityFunction", {"id": taxonomy, "format": "discrete"})
+    limit = {} if no_damage_limit is None else {"noDamageLimit": _text(no_damage_limit, unit)}
+    imls = ElementTree.SubElement(function, "imls", {"imt": imt, **limit})
+    imls.text = " ".join(_text(level, unit) for level in levels)
+    for state, curve in curves.items():
+        poes = ElementTree.SubElement(function, "poes", {"ls": state})
+        poes.text = " ".join(map(_text, curve.probability))
+
+
+def _text(value: float, unit: int = 1) -> str:
+    """A number times a unit, in as few digits as give it again: 1.1 times 100 is 110."""
+    return repr(float(Decimal(repr(float(value))) * unit))

@@ -1,0 +1,210 @@
+"""Result files, read back into objects."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.files import as_file
+from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.analysis.work import Work
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloWarning, InputError
+from dondolo.exchange.result_file import ResultFile
+from dondolo.populations.combination import combine
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.walls.population import Population
+from dondolo.walls.wall import MECHANISMS, Wall
+
+# Columns of _walls.csv and the arguments of a wall
+_WALL_COLUMNS = {
+    "height_m": "height",
+    "thickness_m": "thickness",
+    "density_kg_m3": "density",
+    "hinge": "hinge",
+    "restitution_value": "restitution_value",
+    "restitution_factor": "restitution_factor",
+    "overburden_n_m": "overburden",
+    "eccentricity_m": "eccentricity",
+}
+
+
+@dataclass(frozen=True)
+class StoredResults:
+    """What the result files of one run hold; what its task does not make is None.
+
+    Attributes
+    ----------
+    population : Population
+        The walls and their weights.
+    response : Response or None
+        Task 'history'.
+    stripes, fragility : Stripes, Fragility or None
+        Task 'stripes'.
+    typology : Typology or None
+        Task 'typology'.
+    run : RunFile
+        What ran: version, settings, inputs with checksums, counts of the work, warnings.
+    """
+
+    population: Population
+    run: RunFile
+    response: Response | None = None
+    stripes: Stripes | None = None
+    fragility: Fragility | None = None
+    typology: Typology | None = None
+
+
+def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
+    """Read the result files of the executable, or those that `Typology.save` wrote.
+
+    Parameters
+    ----------
+    prefix : path
+        What their names begin with: `output` of the case, for example ``out/parapet``.
+
+    Returns
+    -------
+    StoredResults
+        The same objects as those of a run in Python; curves are fitted again, to the same counts.
+
+    Raises
+    ------
+    InputError
+        They are not result files of dondolo; the file and the line are named.
+    MissingFileError
+        There are no such files.
+    """
+    as_file("prefix", prefix)
+    prefix = os.fspath(prefix)
+    # The tables of another task may lie there from a run before: the file of the run names the task of the last.
+    run = read_run_file(prefix + "_run.json")
+    task = run.setting("job", "task", "")
+    names = {"history": "history", "stripes": "histories", "typology": "stripes"}
+    if task not in names:
+        raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, names))}")
+    result, gravity = run.history, run.setting("solver", "gravity", 9.81)
+    if task == "history" and result is None:
+        raise InputError(f"{run.path}: no 'history'")
+    try:
+        work = Work(**run.work)
+    except TypeError as error:
+        raise InputError(f"{run.path}: work: {error}") from error
+    limit = run.setting("solver", "edp_limit", 1.0)
+    tolerances = [run.setting("solver", name, np.nan) for name in ("rtol", "atol")]
+    engine = run.setting("solver", "engine", "auto")
+    walls = ResultFile(prefix + "_walls.csv")
+    with walls.reading():
+        population = _population(walls, gravity)
+    stored = StoredResults(population, run)
+    table = ResultFile(f"{prefix}_{names[task]}.csv")
+    with table.reading():
+        if task == "history":
+            return replace(stored, response=_response(table, population.walls[0], result, limit))
+        if task == "stripes":
+            stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
+            return replace(stored, stripes=stripes, fragility=stripes.fit())
+        return replace(stored, typology=_typology(table, population, work, run.warnings))
+
+
+def _population(table: ResultFile, gravity: float) -> Population:
+    """Walls as they were given."""
+    walls: list[Wall] = []
+    for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
+        given: dict[str, Any] = {
+            argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
+        }
+        try:
+            if kind not in MECHANISMS:
+                raise InputError(f"mechanism = {kind!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+            restitution = table.texts("restitution_model")[i]
+            walls.append(MECHANISMS[kind](name=name, restitution=restitution, gravity=gravity, **given))
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"{table.place(i)}: {error}") from error
+    weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
+    return Population(tuple(walls), weights, tuple(table.texts("group")), p_occ)
+
+
+def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:
+    """A motion; its record is what the history shows of it."""
+    time, acceleration = table.numbers("time_s"), table.numbers("ground_acceleration_m_s2")
+    rotation, velocity = table.numbers("rotation_rad"), table.numbers("velocity_rad_s")
+    scale = result.scale
+    # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
+    with np.errstate(over="ignore"):
+        steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
+    if not np.any(steps > 0.0) or scale == 0.0:
+        raise ValueError("no motion: time_s must increase, and scale must not be 0")
+    dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
+    at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
+    _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
+    record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
+    return Response(
+        wall,
+        record,
+        scale,
+        result.edp,
+        result.collapsed,
+        result.impacts,
+        result.time_of_peak_s,
+        edp_limit,
+        time,
+        acceleration,
+        rotation,
+        velocity,
+        table.numbers("side").astype(np.int8),
+        table.numbers("after_impact") == 1.0,
+        result.edp_error,
+    )
+
+
+def _stripes(
+    table: ResultFile, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
+) -> Stripes:
+    """All histories of a wall."""
+    levels = np.unique(table.numbers("im_level"))
+    if len(table) % len(levels):
+        raise ValueError(f"{len(table)} rows: must be as many at each of the {len(levels)} levels")
+    shape = (len(levels), len(table) // len(levels))
+    first = slice(0, shape[1])
+    polarity = [-1 if word == "reversed" else 1 for word in table.texts("polarity")[first]]
+    return Stripes(
+        wall=wall,
+        im=table.texts("im")[0],
+        levels=levels,
+        edp=table.numbers("edp").reshape(shape),
+        collapsed=table.numbers("collapsed").reshape(shape) == 1.0,
+        impacts=table.counts("impacts").reshape(shape),
+        time_of_peak=table.numbers("time_of_peak_s").reshape(shape),
+        scale=table.numbers("scale").reshape(shape),
+        record_names=tuple(table.texts("record")[first]),
+        polarity=np.asarray(polarity, dtype=np.int32),
+        engine=engine,
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        work=work,
+        edp_error=table.numbers("edp_error").reshape(shape) if "edp_error" in table else None,
+    )
+
+
+def _typology(table: ResultFile, population: Population, work: Work, warnings: tuple[DondoloWarning, ...]) -> Typology:
+    """Counts of all walls of a population."""
+    thresholds = np.unique(table.numbers("edp_threshold"))
+    levels = np.unique(table.numbers("im_level"))
+    shape = (len(population), len(thresholds), len(levels))
+    if len(table) != np.prod(shape):
+        product = " x ".join(map(str, shape))
+        raise ValueError(f"{len(table)} rows: must be {product}, one for each wall, damage state and level")
+    counts = table.counts("collapses").reshape(shape).transpose(1, 2, 0)
+    histories = table.counts("histories", 1).reshape(shape)[:, 0, 0]
+    everyone = np.ones(len(population), dtype=bool)
+    im = table.texts("im")[0]
+    result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
+    return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))

@@ -1,0 +1,79 @@
+"""One style for all figures: colours that colour-blind eyes tell apart; shape and lightness tell them apart in grey."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from dondolo._fortran import _binding
+from dondolo.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Okabe and Ito (2008), Color universal design
+BLUE = "#0072B2"
+RED = "#D55E00"
+BLACK = "#000000"
+GREY = "#8C8C8C"
+LIGHT = "#D9D9D9"
+BRICK = "#E8C9A8"
+
+RC = {
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E6E6E6",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "font.size": 9.5,
+    "axes.titlesize": 10.5,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.dpi": 110,
+    "savefig.dpi": 160,
+    "savefig.bbox": "tight",
+    "lines.linewidth": 1.4,
+}
+
+
+def im_label(im: str) -> str:
+    """Axis label of an intensity measure: words and unit of those that dondolo knows."""
+    try:
+        measure = _binding.describe_measure(im)
+    except InputError:
+        return im if im else "intensity measure"
+    return f"{measure.title} [{measure.unit or '-'}]"
+
+
+def mechanism_name(mechanism: str) -> str:
+    """A mechanism in words."""
+    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
+
+
+def counted(number: int, noun: str) -> str:
+    """How many: 1 wall, 2 walls."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def label(text: str) -> str:
+    """A label that begins with what a user wrote: Matplotlib leaves those that begin with '_' out of legends."""
+    return f" {text}" if text.startswith("_") else text
+
+
+def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), columns: int = 1, **options: Any) -> Any:
+    """Axes of a new figure in the style of dondolo."""
+    import matplotlib.pyplot as plt
+
+    # Not within rc_context: the first figure of a session chooses the backend, which turns interactive mode on, and
+    # leaving the context would turn it off again. Without it a notebook shows no further figure.
+    figure = plt.figure(figsize=size, dpi=RC["figure.dpi"], layout="constrained")
+    with plt.rc_context(RC):
+        return figure.subplots(rows, columns, **options)
+
+
+def legend(ax: Axes, **options: Any) -> None:
+    """A legend without a frame, if there is something to explain; names in it are no formulas."""
+    handles, labels = ax.get_legend_handles_labels()
+    if handles:
+        for text in ax.legend(handles, labels, frameon=False, fontsize=8.5, **options).get_texts():
+            text.set_parse_math(False)

@@ -1,0 +1,242 @@
+"""Uncertainty of a typological curve: records and walls drawn with replacement."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray, as_count, as_generator, tails
+from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.errors import InputError
+from dondolo.populations.flags import Flags
+from dondolo.walls.population import Population
+
+# Numbers that are held at a time: samples x walls, and samples x rows of a chunk x levels
+_DRAWS = 4_000_000
+_FRACTIONS = 8_000_000
+
+_KINDS = ("records", "walls")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TypologyBootstrap(Bootstrap):
+    """Typological curves of records and walls drawn with replacement.
+
+    Attributes
+    ----------
+    theta, beta : ndarray, shape (samples,)
+        Parameters of the lognormal curve fitted to each mean fraction / saturation; NaN where a sample has no fit.
+    status : ndarray of str, shape (samples,)
+        What came of each fit; '' where it failed.
+    levels : ndarray, shape (levels,)
+        Levels of intensity.
+    mean_fraction : ndarray, shape (samples, levels)
+        Weighted mean of the walls' fractions of collapse; NaN where a sample has no wall that counts.
+    saturation : ndarray, shape (samples,)
+        Share of the weight in which any mechanism can occur.
+    over : tuple of str
+        What was drawn: 'records', 'walls' or both.
+    """
+
+    levels: FloatArray
+    mean_fraction: FloatArray
+    saturation: FloatArray
+    over: tuple[str, ...]
+
+    @property
+    def se_ln_theta(self) -> float:
+        """Standard error of ln theta: standard deviation of the samples with a fit."""
+        return float(np.std(np.log(self._fitted()[0]), ddof=1))
+
+    @property
+    def se_beta(self) -> float:
+        """Standard error of beta: standard deviation of the samples with a fit."""
+        return float(np.std(self._fitted()[1], ddof=1))
+
+    def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
+        """Percentile interval of the mean fraction at each of the levels.
+
+        Parameters
+        ----------
+        level : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : ndarray, shape (levels,)
+        """
+        low, high = np.nanquantile(self.mean_fraction, tails(level), axis=0)
+        return low, high
+
+    def _ends(self) -> FloatArray:
+        return self.saturation
+
+    def __repr__(self) -> str:
+        what = " and ".join(self.over)
+        return f"<TypologyBootstrap over {what}: {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
+
+
+class _Rows(NamedTuple):
+    """The rows of a curve.
+
+    Attributes
+    ----------
+    row : ndarray of int, shape (rows,)
+        Places in the population.
+    wall : ndarray of int, shape (rows,)
+        Which wall each belongs to, from 0.
+    walls : int
+        Walls that are drawn from; not all of them have a row in a curve of one mechanism.
+    weight : ndarray, shape (rows,)
+        Of the wall; with the probability of occurrence in a curve of one mechanism.
+    share : ndarray, shape (rows,)
+        Factor on the fraction: the probability of occurrence where mechanisms are combined, else 1.
+    """
+
+    row: NDArray[np.int64]
+    wall: NDArray[np.int64]
+    walls: int
+    weight: FloatArray
+    share: FloatArray
+
+
+def resample_population(
+    population: Population,
+    flags: Flags,
+    levels: FloatArray,
+    n: int = 1000,
+    seed: int | np.random.Generator | None = 0,
+    over: str | Iterable[str] = _KINDS,
+    mechanism: str | None = None,
+    group: str = "",
+    events: Sequence[Any] | None = None,
+) -> TypologyBootstrap:
+    """Fit the curve of a population again to records and walls drawn with replacement.
+
+    A record is drawn for all walls at once and brings its histories at all levels and of both polarities; a wall brings
+    all its mechanisms. For the parameters see `Typology.bootstrap`.
+    """
+    kinds = (over,) if isinstance(over, str) or not isinstance(over, Iterable) else tuple(over)
+    if not kinds or not all(kind in _KINDS for kind in kinds):
+        raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
+    n, generator = as_count("n", n, 1), as_generator(seed)
+    rows = _rows_of(population, mechanism, group)
+    if rows.walls == 1 and "walls" in kinds:
+        # Drawn from itself a wall would look certain.
+        if "records" not in kinds:
+            raise InputError("walls: two at least are needed to draw from, there is 1")
+        kinds = ("records",)
+    records = np.ones((n, flags.records))
+    if "records" in kinds:
+        records = draw_records(flags.records, n, generator, events)
+    draws = generator if "walls" in kinds else None
+    size = max(1, _DRAWS // rows.walls)
+    parts = [
+        _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
+        for start in range(0, n, size)
+    ]
+    fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
+    counted = np.isfinite(fraction[:, 0])
+    histories = np.full_like(fraction, _histories_behind(rows, flags))
+    occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
+    share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
+    theta, beta, status = fit_samples(levels, share * histories, histories)
+    return TypologyBootstrap(
+        np.where(counted, theta, np.nan),
+        np.where(counted, beta, np.nan),
+        np.where(counted, status, ""),
+        levels,
+        fraction,
+        saturation,
+        tuple(kind for kind in _KINDS if kind in kinds),
+    )
+
+
+def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:
+    """The rows of a curve, wall by wall."""
+    groups = dict.fromkeys(["", *population.groups])
+    if group not in groups:
+        raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, groups))}")
+    wall = np.searchsorted(population.first_rows, np.arange(len(population)), side="right") - 1
+    chosen = np.array([group in ("", own) for own in population.groups])
+    kinds = dict.fromkeys(own.mechanism for own, here in zip(population.walls, chosen, strict=True) if here)
+    _, wall[chosen] = np.unique(wall[chosen], return_inverse=True)
+    walls = int(wall[chosen].max()) + 1
+    weight, p_occ = population.weights, population.p_occ
+    if mechanism is None or mechanism == "all":
+        row = np.flatnonzero(chosen)
+        return _Rows(row, wall[row], walls, weight[row], p_occ[row])
+    if mechanism not in kinds:
+        raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, [*kinds, 'all']))}")
+    row = np.flatnonzero(chosen & np.array([own.mechanism == mechanism for own in population.walls]))
+    return _Rows(row, wall[row], walls, weight[row] * p_occ[row], np.ones(len(row)))
+
+
+def _mean_fractions(
+    rows: _Rows,
+    flags: Flags,
+    records: FloatArray,
+    resampled: bool,
+    draws: np.random.Generator | None,
+) -> tuple[FloatArray, FloatArray]:
+    """Mean fractions (samples, levels) and saturations; `records` says how often each record is in each sample."""
+    samples = len(records)
+    times = np.ones((samples, rows.walls))
+    if draws is not None:
+        for own in times:
+            own[:] = np.bincount(draws.integers(rows.walls, size=rows.walls), minlength=rows.walls)
+    # Without drawn records all samples share the fractions.
+    if not resampled:
+        records = records[:1]
+    total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
+    for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
+        survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], records)
+        if len(starts) < survival.shape[1]:
+            survival = np.multiply.reduceat(survival, starts, axis=1)
+        own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
+        weight += own.sum(axis=1)
+        occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))
+        if resampled:
+            total += (own[:, None, :] @ (1.0 - survival))[:, 0, :]
+        else:
+            total += own @ (1.0 - survival[0])
+    with np.errstate(invalid="ignore"):
+        return np.clip(total / weight[:, None], 0.0, 1.0), occurring / weight
+
+
+def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
+    """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
+    fractions = np.empty((len(records), len(row), flags.levels))
+    for places in flags.alike(row):
+        reached = flags.of(row[places])[:, flags.state]
+        walls, levels, histories = reached.shape
+        # Both polarities of a record stay together.
+        of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
+        drawn = records @ of_record.reshape(walls * levels, -1).T
+        fractions[:, places] = drawn.reshape(len(records), walls, levels) / histories
+    return fractions
+
+
+def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]:
+    """Rows of whole walls, about so many, and where in them each wall begins."""
+    begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
+    first = 0
+    while first < len(begins):
+        last = max(first + 1, int(np.searchsorted(begins, begins[first] + size, side="right")))
+        end = int(begins[last]) if last < len(begins) else len(rows.row)
+        yield slice(int(begins[first]), end), begins[first:last] - begins[first]
+        first = last
+
+
+def _histories_behind(rows: _Rows, flags: Flags) -> float:
+    """Histories at each level that the fit takes the mean fraction for."""
+    begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
+    histories = np.minimum.reduceat(flags.histories[rows.row], begins)
+    weight = rows.weight[begins]
+    if not weight.any():
+        raise InputError("group: the weights of its walls are all zero")
+    return float(np.count_nonzero(weight) * (weight @ histories) / weight.sum())

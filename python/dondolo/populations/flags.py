@@ -1,0 +1,138 @@
+"""Which history reaches which state, a bit each: what is kept of a population."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo._base.arguments import FloatArray, as_array
+from dondolo.errors import InputError
+
+Bits = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False)
+class Flags:
+    """The states that every history of every wall reaches.
+
+    The bits of a wall stand together, state by state, level by level and history by history, and begin with a byte of
+    their own.
+
+    Attributes
+    ----------
+    histories : ndarray of int, shape (walls,)
+        Histories of a stripe of each wall.
+    levels : int
+        Number of levels.
+    states : int
+        Number of states, collapse among them.
+    records : int
+        Number of records: the histories of a stripe are those of all records, and again in the other polarity if there
+        are two.
+    bits : ndarray of uint8
+        Eight flags a byte.
+    state : int
+        Place of the state that is asked for; the last, collapse, if not said.
+    """
+
+    histories: NDArray[np.int32]
+    levels: int
+    states: int
+    records: int
+    bits: Bits
+    state: int = -1
+
+    @classmethod
+    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, records: int) -> Flags:
+        """No history reaches anything."""
+        sizes = _bytes_of(histories, levels * states)
+        return cls(histories, levels, states, records, np.zeros(int(sizes.sum()), dtype=np.uint8))
+
+    @classmethod
+    def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
+        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
+        states, levels, walls = exceedances.shape
+        bits = [
+            np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None])  # type: ignore[operator]
+            for i in range(walls)
+        ]
+        return cls(histories, levels, states, 1, np.concatenate(bits))
+
+    @functools.cached_property
+    def _starts(self) -> NDArray[np.int64]:
+        """Where the bytes of each wall begin, and the end of the last."""
+        return np.append(0, np.cumsum(_bytes_of(self.histories, self.levels * self.states)))
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Not what is easily computed again
+        return {name: value for name, value in self.__dict__.items() if name != "_starts"}
+
+    def place(self, first: int, count: int) -> slice:
+        """Where the bytes of some walls are, from number `first` on."""
+        return slice(int(self._starts[first]), int(self._starts[first + count]))
+
+    def of(self, walls: ArrayLike) -> NDArray[np.bool_]:
+        """Flags (walls, states, levels, histories) of walls that have equally many histories."""
+        chosen = np.asarray(walls)
+        histories = int(self.histories[chosen[0]])
+        size = self._starts[chosen[0] + 1] - self._starts[chosen[0]]
+        packed = self.bits[self._starts[chosen][:, None] + np.arange(size)]
+        flags = np.unpackbits(packed, axis=1, count=self.states * self.levels * histories)
+        return flags.reshape(len(chosen), self.states, self.levels, histories).view(np.bool_)
+
+    def at(self, state: int) -> Flags:
+        """The same, of another state."""
+        return replace(self, state=state)
+
+    def alike(self, walls: NDArray[np.int64]) -> Iterable[NDArray[np.int64]]:
+        """Places in a list of walls, of those with equally many histories together."""
+        histories = self.histories[walls]
+        return (np.flatnonzero(histories == number) for number in np.unique(histories))
+
+    def counts(self, first: int, count: int) -> NDArray[np.int32]:
+        """How many histories reach each state (states, levels, walls), of some walls from number `first` on."""
+        walls = np.arange(first, first + count)
+        counts = np.empty((self.states, self.levels, count), dtype=np.int32)
+        for places in self.alike(walls):
+            counts[:, :, places] = np.moveaxis(self.of(walls[places]).sum(axis=-1, dtype=np.int32), 0, -1)
+        return counts
+
+    def chosen(self, walls: NDArray[np.int64]) -> Flags:
+        """Those of some walls only."""
+        bits = [self.bits[self.place(int(i), 1)] for i in walls]
+        return replace(self, histories=self.histories[walls], bits=np.concatenate(bits))
+
+
+def pack(edp: FloatArray, collapsed: NDArray[np.bool_], states: FloatArray, sizes: Iterable[int]) -> Bits:
+    """The bits of consecutive walls, which have so many histories each; the last state is collapse."""
+    packed, start = [], 0
+    for size in sizes:
+        here = slice(start, start + size)
+        packed.append(np.packbits(np.vstack([edp[here] >= states[:-1, None], collapsed[here]])))
+        start += size
+    return np.concatenate(packed) if packed else np.zeros(0, dtype=np.uint8)
+
+
+def states_of(edp_thresholds: ArrayLike | None, edp_limit: float) -> FloatArray:
+    """EDP from which on a history is in each state: what a user gives, checked, and collapse as the last."""
+    given = np.empty(0) if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)
+    for one, other in zip(np.append(0.0, given), given, strict=False):
+        if not other > 0.0:
+            raise InputError(f"edp_thresholds = {other:g}: must be positive")
+        if not other > one:
+            raise InputError(f"edp_thresholds = {other:g}: must increase")
+        if not other <= edp_limit:
+            raise InputError(f"edp_thresholds = {other:g}: must be at most edp_limit = {edp_limit:g}")
+    states = np.append(given[given < edp_limit], edp_limit)
+    states.flags.writeable = False
+    return states
+
+
+def _bytes_of(histories: NDArray[np.int32], flags: int) -> NDArray[np.int64]:
+    """Bytes that walls take with so many flags a history."""
+    return (histories.astype(np.int64) * flags + 7) // 8

@@ -1,0 +1,113 @@
+"""Run a population: walls and records in, the typological curve out."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._fortran import _binding
+from dondolo.analysis.request import new_request
+from dondolo.analysis.work import Work
+from dondolo.errors import Interrupted
+from dondolo.populations.blocks import run_walls
+from dondolo.populations.combination import combine
+from dondolo.populations.flags import states_of
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record, as_records
+from dondolo.walls.population import Population
+from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+
+def typology(
+    population: Population | Iterable[Wall],
+    records: Record | Iterable[Record],
+    levels: ArrayLike,
+    im: str = "pga",
+    polarity: str = "as_recorded",
+    engine: str = "auto",
+    rtol: float | None = None,
+    atol: float | None = None,
+    edp_limit: float | None = None,
+    edp_thresholds: ArrayLike | None = None,
+    threads: int = 0,
+    executor: Executor | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    block: int | None = None,
+    progress: bool = True,
+) -> Typology:
+    """Fragility of a population of walls.
+
+    Parameters
+    ----------
+    population : Population or iterable of Wall
+        The walls; without weights they count alike.
+    records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
+        As for `multiple_stripe`.
+    edp_thresholds : array_like, optional
+        Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
+        collapse is always the last state. All states come from the same histories. Without thresholds only collapses
+        are asked for, which takes less time.
+    executor : concurrent.futures.Executor, optional
+        Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
+        thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A process that is
+        made by a fork works on one thread, whatever `threads` says: OpenMP's other threads do not survive it.
+    checkpoint : path, optional
+        File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
+        results are the same to the bit. It stays when all is done.
+    block : int, optional
+        Rows of a block (a row is one mechanism of a wall), the unit of checkpoints and executors; as many as take one
+        to two seconds if left out. Results do not depend on it.
+
+    Returns
+    -------
+    Typology
+
+    Raises
+    ------
+    InputError
+        What cannot be run, with the sentence of the executable; a checkpoint of another study.
+    DondoloError
+        The executor failed, or the checkpoint cannot be written.
+    Interrupted
+        Ctrl-C; its `partial` is the typology of the walls that are complete.
+
+    Warns
+    -----
+    DondoloWarning
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion,
+        walls without a fit, a fit that extrapolates.
+    """
+    people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
+    if executor is not None and threads == 0:
+        threads = 1
+    several = as_records(records)
+    limit = float(_binding.settings(rtol, atol, edp_limit)[2])
+    states = states_of(edp_thresholds, limit)
+    alone = len(states) == 1
+    request = new_request(
+        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=alone
+    )
+    plan = request.plan()
+    run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
+    # A wall is complete with all its mechanisms.
+    first = people.first_rows
+    whole = np.logical_and.reduceat(run.complete, first)
+    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
+    if not whole.any():
+        raise Interrupted("interrupted: no wall is complete")
+    work = Work.total(run.works)
+    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
+    known = {"flags": run.flags.chosen(np.flatnonzero(rows)), "warnings": (*plan.warnings, *result.warnings)}
+    result = dataclasses.replace(result, **known)
+    if not whole.all():
+        raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
+    _binding.warn(result.warnings)
+    return result

@@ -1,0 +1,1 @@
+"""Accelerograms: read, processed, made; and their intensity measures."""

@@ -1,0 +1,120 @@
+"""Catalogues made of folders of accelerogram files."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+from dondolo._base.files import check_replaced
+from dondolo._storage import tables
+from dondolo.errors import InputError
+from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
+from dondolo.records.record import Record, read_records
+
+#: Metadata that stand in a catalogue, for its readers.
+_KEYS = ("event", "date", "station", "component", "magnitude")
+
+
+class Catalogue(NamedTuple):
+    """What was found in a folder."""
+
+    path: Path
+    records: int
+    problems: list[str]
+
+
+def build_catalogue(
+    folder: str | os.PathLike[str],
+    file: str | os.PathLike[str] | None = None,
+    dt: float | None = None,
+    units: str | None = None,
+    vertical: bool = False,
+) -> Catalogue:
+    """Write a catalogue of all accelerogram files in a folder and the folders in it, one row a channel.
+
+    Parameters
+    ----------
+    folder : path
+        Where the files are.
+    file : path, optional
+        The catalogue, in place of an earlier one; ``catalogue.csv`` in the folder if left out, where there must be none
+        yet.
+    dt, units : optional
+        Time step [s] and units for the files that do not state them.
+    vertical : bool
+        Keep vertical components, which are left out otherwise. They are recognised by component, channel and axis in
+        the metadata, else by the file's name: UP, UD, DWN, VERT, HNZ, HGZ, or V or Z at its end.
+
+    Returns
+    -------
+    Catalogue
+        Its path, its number of records, and one line for each file or channel that is left out, with the reason.
+
+    Raises
+    ------
+    InputError
+        No such folder, no accelerogram in it, or a file that is no catalogue stands where it would be written.
+    """
+    root = Path(folder)
+    if not root.is_dir():
+        raise InputError(f"{root}: no such folder")
+    target = root / "catalogue.csv" if file is None else Path(file)
+    if file is None and target.exists():
+        raise InputError(f"{target}: already exists: name the catalogue with -o, which replaces it if it is one")
+    columns = ("file", "channel", "dt_s", "units", *_KEYS)
+    check_replaced(target, ",".join(columns), "catalogue")
+    table: dict[str, list[str]] = {column: [] for column in columns}
+    problems = []
+    files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]
+    for path in files:
+        if path.resolve() == target.resolve():
+            continue
+        place = Path(os.path.relpath(path, target.parent)).as_posix()
+        try:
+            place.encode()
+            if is_search_result(path):
+                raise InputError(f"{path}: a list of search results of PEER, no accelerogram")
+            records, given_units = _read(path, dt, units)
+        except UnicodeEncodeError:
+            problems.append(f"{path}: a name that UTF-8 does not know")
+            continue
+        except InputError as error:
+            problems.append(str(error))
+            continue
+        for record in records:
+            quantity = other_quantity(record, path)
+            if quantity:
+                problems.append(f"{path}: no acceleration, by {quantity!r} in its name; it does not state its units")
+                continue
+            mark = "" if vertical else vertical_mark(record, path)
+            if mark:
+                problems.append(f"{path}: a vertical component, by its {mark}")
+                continue
+            row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
+            row += (record.metadata.get("units", given_units),)
+            row += tuple(record.metadata.get(key, "") for key in _KEYS)
+            for column, text in zip(columns, row, strict=True):
+                table[column].append(text)
+    if not table["file"]:
+        raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
+    tables.write_csv(target, table)
+    return Catalogue(target, len(table["file"]), problems)
+
+
+def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:
+    """All channels of a file, and the units that it did not state."""
+    # What a file states may not be given unless it agrees, so that each is tried without the other first
+    attempts = dict.fromkeys([(None, None), (None, units), (dt, None), (dt, units)])
+    for attempt in attempts:
+        try:
+            return read_records(path, *attempt), attempt[1] or ""
+        except InputError as error:
+            reason = error
+            if attempt == (None, None) and "must be given" not in str(error):
+                break
+    raise reason
+
+
+def _is_hidden(path: Path, root: Path) -> bool:
+    return any(part.startswith(".") for part in path.relative_to(root).parts)

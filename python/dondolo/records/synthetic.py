@@ -1,0 +1,86 @@
+"""Synthetic records from the project's own generator."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dondolo._base.arguments import as_count, as_number, as_text
+from dondolo._fortran import _binding, _core
+from dondolo.errors import InputError
+from dondolo.records.record import Record
+
+
+def synthetic_records(
+    magnitude: float,
+    distance: float,
+    site: str,
+    count: int = 1,
+    seed: int = 1,
+    first: int = 0,
+    deviations: float = 0.0,
+) -> list[Record]:
+    """Realisations of the model of Sabetta and Pugliese (1996) for an Italian earthquake.
+
+    Parameters
+    ----------
+    magnitude : float
+        Magnitude of the earthquake, 4 to 7.5 (the model was calibrated on 4.6 to 6.8).
+    distance : float
+        Epicentral distance [km], 0 to 150 (calibrated up to 100).
+    site : {'rock', 'shallow', 'deep'}
+        Rock, shallow alluvium or deep alluvium.
+    count : int
+        Number of records.
+    seed : int
+        Seed of the random phases, positive. The same seed makes the same records on every machine.
+    first : int
+        Number of the first realisation, from 0: the records of (count=5, first=0) and (count=5, first=5) are those of
+        count=10.
+    deviations : float
+        Standard deviations by which duration and energy exceed their medians, -3 to 3.
+
+    Returns
+    -------
+    list of Record
+        With a time step of 0.005 s, named after the arguments, which their metadata hold too: event ('synthetic'),
+        magnitude, distance_km, site, seed, realisation, deviations and format ('synthetic'). They are synthetic: say so
+        where you show them.
+
+    Raises
+    ------
+    InputError
+        An argument outside its range, with the sentence of the library.
+
+    Notes
+    -----
+    The generator of ``dondolo-synthetic44``, with one stream of random numbers a realisation; the phases alone are
+    random, so that two realisations differ less than two recorded motions of a magnitude and distance.
+    docs/processing.md shows what the model gives and how it differs from recordings.
+    """
+    numbers = [
+        as_number(what, value)
+        for what, value in (("magnitude", magnitude), ("distance", distance), ("deviations", deviations))
+    ]
+    for what, value, least in (("count", count, 1), ("seed", seed, 1), ("first", first, 0)):
+        as_count(what, value, least, 2**31 - 1)
+    if int(first) + int(count) > 2**31:
+        raise InputError(f"first = {first}, count = {count}: realisations must have numbers below 2147483648")
+    place = as_text("site", site)
+    return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(count)]
+
+
+def _realisation(*arguments: Any) -> Record:
+    parcel = _binding.receive(*_core.synthetic_record(*arguments))
+    (data,) = _binding.unpack_records(parcel, 1)
+    magnitude, distance, site, seed, realisation, deviations = arguments
+    metadata = {
+        "event": "synthetic",
+        "magnitude": f"{magnitude:.15g}",
+        "distance_km": f"{distance:.15g}",
+        "site": site.decode(),
+        "seed": str(seed),
+        "realisation": str(realisation),
+        "deviations": f"{deviations:.15g}",
+        "format": "synthetic",
+    }
+    return Record(data.acceleration, data.dt, data.name, metadata=metadata)

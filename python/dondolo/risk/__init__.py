@@ -1,0 +1,1 @@
+"""Hazard curves and annual frequencies of collapse."""

@@ -1,0 +1,406 @@
+"""Risk: how often a wall collapses, from its fragility and the hazard of its site.
+
+The hazard curve H(x) is the mean annual frequency of IM > x. With the fragility P(C | x) the mean annual frequency of
+collapse is (Cornell and Krawinkler 2000; McGuire 2004)
+
+    lambda = integral of P(C | x) |dH(x)|.
+
+Hazard
+    Levels and frequencies are joined by straight lines of ln H against ln x: between two levels H is a power law,
+    H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x): of a fitted lognormal in closed
+    form, of any other curve by Gauss's rule (dondolo._risk_integrals).
+Beyond the levels
+    A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
+    fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
+    saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
+    with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
+    levels than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing
+    collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
+Power laws
+    With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
+
+        lambda = k0 theta^-k exp(k^2 beta^2/2).
+
+    For k > 0 and a P that falls more slowly than x^k towards x = 0, there is no finite frequency, and an error says so.
+Time
+    Events are a Poisson process: of one wall P(at least one collapse in t years) = 1 - exp(-lambda t), and the return
+    period is 1/lambda. What stands after a collapse is the same wall. A curve with the saturation s is of a wall in
+    which something can occur with the probability s, for all events: s (1 - exp(-lambda t/s)).
+Populations
+    The mean curve gives the mean frequency, lambda = sum(w_i lambda_i)/sum(w_i): the share of the walls lost a year.
+    The probability that a wall drawn by weight collapses in t years is another mean,
+
+        sum(w_i (1 - exp(-lambda_i t)))/sum(w_i) <= 1 - exp(-lambda t) <= lambda t:
+
+    walls that never collapse take no part however long the time is, and weak ones collapse once. So it is computed
+    from the walls behind the mean of a typology; a wall with mechanisms that may not occur is itself a mixture
+    (dondolo._risk_walls). There is no return period of a population.
+
+Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
+H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
+
+References: Cornell (1996), Calculating building seismic performance reliability: a basis for multi-level design norms,
+11th World Conference on Earthquake Engineering, paper 2122; Cornell and Krawinkler (2000), Progress and challenges in
+seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic hazard and risk analysis, EERI MNO-10.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing, shaped
+from dondolo._base.shown import Shown
+from dondolo._fortran import _binding
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloError, InputError
+from dondolo.populations.typology import Group, Typology
+from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
+from dondolo.risk.walls import WallFrequencies, wall_frequencies
+
+Curve = Fragility | Callable[[Any], Any]
+
+# Bounds that differ by more than this are worth a warning
+_WIDE = 0.01
+# A wall without a fit takes part in a mean with its counts, so that the mean may fall, by no more than this
+_FALL = 0.01
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Risk(Shown):
+    """Mean annual frequency of collapse, and where it comes from.
+
+    Attributes
+    ----------
+    fragility : Fragility or callable
+    hazard : HazardCurve
+    inside : float
+        What the range of the hazard curve contributes [1/year].
+    below, above : (float, float)
+        Bounds of what intensities below and above that range contribute [1/year]; (0, 0) for a power law without end.
+    error : float
+        Estimated error of the integration of `inside` [1/year]; 0 for a fitted curve, of which the integral has a
+        closed form.
+    """
+
+    fragility: Curve
+    hazard: HazardCurve
+    inside: float
+    below: tuple[float, float]
+    above: tuple[float, float]
+    error: float
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Bounds of the mean annual frequency of collapse [1/year]."""
+        return (self.inside + self.below[0] + self.above[0], self.inside + self.below[1] + self.above[1])
+
+    @property
+    def frequency(self) -> float:
+        """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
+        return self.bounds[0]
+
+    @property
+    def return_period(self) -> float:
+        """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
+
+        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
+        population it is no more than the inverse of the share lost a year.
+        """
+        return self.return_period_bounds[1]
+
+    @property
+    def return_period_bounds(self) -> tuple[float, float]:
+        """Bounds of the return period [year], the shorter first; 0 where the frequency has no upper bound."""
+        low, high = (1.0 / value if value > 0.0 else np.inf for value in self.bounds)
+        return high, low
+
+    def probability(self, years: float) -> float:
+        """Probability that a wall collapses within some years, its lower bound.
+
+        The end that is not on the safe side: `probability_bounds` has both.
+
+        Parameters
+        ----------
+        years : float
+            Length of time [year], not negative.
+
+        Returns
+        -------
+        float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+
+        Warns
+        -----
+        DondoloWarning
+            The curve is a plain function, which is taken for that of one wall.
+        """
+        return self.probability_bounds(years)[0]
+
+    def probability_bounds(self, years: float) -> tuple[float, float]:
+        """Bounds of the probability that a wall collapses within some years.
+
+        Parameters
+        ----------
+        years : float
+            Length of time [year], not negative.
+
+        Returns
+        -------
+        low, high : float
+
+        Raises
+        ------
+        InputError
+            Years that are negative or no number.
+
+        Warns
+        -----
+        DondoloWarning
+            The curve is a plain function, which is taken for that of one wall.
+
+        Notes
+        -----
+        For the `mean` of a typology it is that of a wall drawn by weight, the share of the walls that is lost, from the
+        frequencies of all walls. Any other function is taken for the curve of one wall, and the fit of a population for
+        that of walls that are alike, but for its saturation. A plain function, such as ``lambda x: typology.mean(x)``,
+        hides the walls behind it: the probability is then too high for a population, and a warning says so. Give the
+        method itself, ``typology.mean`` or ``functools.partial(typology.mean, group="high")``.
+        """
+        time = as_number("years", years)
+        if not 0.0 <= time < np.inf:
+            raise InputError(f"years = {time:g}: must be finite and not negative")
+        if time == 0.0:
+            # Whatever the frequency
+            return 0.0, 0.0
+        if self._of_function:
+            _binding.warn(
+                [
+                    "the curve is a plain function, taken for that of one wall: for a population give typology.mean"
+                    " itself, or functools.partial of it with a mechanism or group"
+                ]
+            )
+        return self._walls.probability(time)
+
+    @functools.cached_property
+    def _walls(self) -> WallFrequencies:
+        """The walls behind the curve."""
+        if self._of_several:
+            curve = _curve_behind(self.fragility)
+            members = _object_of(self.fragility)._members(curve.mechanism, curve.group)
+            return wall_frequencies(members, self.hazard)
+        share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
+        return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
+
+    @property
+    def _of_several(self) -> bool:
+        """Is the curve the mean of a typology?"""
+        return _is_mean(self.fragility)
+
+    @property
+    def _of_function(self) -> bool:
+        """Whether the curve is a plain function, which does not show how many walls are behind it."""
+        return inspect.isfunction(_object_of(self.fragility))
+
+    def density(self, x: ArrayLike) -> Any:
+        """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, positive.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+            [1/year] a unit of ln x; 0 beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Intensities that are not positive or no numbers.
+        """
+        values = as_levels(x)
+        if not np.all(values > 0.0):
+            raise InputError("x: must be positive")
+        flat = values.ravel()
+        inside = self.hazard._covers(flat)
+        found = integrand(functools.partial(_probability, self.fragility), self.hazard, np.log(flat))
+        return shaped(np.where(inside, found, 0.0), values)
+
+    def deaggregate(self, edges: ArrayLike) -> FloatArray:
+        """Deaggregation: what the intensities between edges contribute to the frequency.
+
+        Parameters
+        ----------
+        edges : array_like, shape (bins + 1,)
+            Intensities, positive and increasing.
+
+        Returns
+        -------
+        ndarray, shape (bins,)
+            [1/year]. Without the part beyond the levels of the hazard curve.
+
+        Raises
+        ------
+        InputError
+            Edges that are less than two, not positive or do not increase.
+        """
+        x = increasing("edges", edges)
+        levels = self.hazard.im_levels
+        if not self.hazard.endless:
+            x = np.clip(x, levels[0], levels[-1])
+        cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
+        if len(cuts) == 1:
+            return np.zeros(len(x) - 1)
+        if isinstance(self.fragility, Fragility):
+            curve = self.fragility
+            parts = curve.saturation * lognormal_integrals(curve.theta, curve.beta, self.hazard, np.log(cuts))
+        else:
+            probability = functools.partial(_probability, self.fragility)
+            parts, _ = integrals(lambda u: integrand(probability, self.hazard, u), np.log(cuts))
+        return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
+
+    def _facts(self) -> list[tuple[str, str]]:
+        of = " of one wall" if self._of_function else ""
+        facts = [("mean annual frequency of collapse", between(*self.bounds, "a year"))]
+        if not self._of_several:
+            facts.append((f"return period{of}", between(*self.return_period_bounds, "years")))
+        return [*facts, (f"probability in 50 years{of}", between(*self._walls.probability(50.0)))]
+
+
+def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
+    """Mean annual frequency of collapse: the fragility integrated over the hazard.
+
+    Parameters
+    ----------
+    fragility : Fragility or callable
+        A fitted curve, or a function from intensities (an array) to probabilities that do not fall with the intensity,
+        such as the `mean` of a typology, given as such: wrapped in another function it is taken for the curve of one
+        wall (`Risk.probability_bounds`).
+    hazard : HazardCurve
+        Of the same intensity measure.
+
+    Returns
+    -------
+    Risk
+
+    Raises
+    ------
+    InputError
+        The measures differ; the function gives no probabilities, or they fall by more than 0.01.
+    DondoloError
+        The fragility has no curve; the frequency is not finite; the function is too rough to be integrated.
+
+    Warns
+    -----
+    DondoloWarning
+        Intensities beyond the hazard curve may contribute more than 1 %.
+
+    Notes
+    -----
+    The docstring of the module dondolo.risk has the formulas.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+    >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
+    >>> round(risk.return_period, 3)
+    186.44
+    """
+    if not isinstance(hazard, HazardCurve):
+        raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
+    if not callable(fragility):
+        raise InputError(f"fragility: {type(fragility).__name__} is no curve")
+    # The object of a method knows its measure, as a typology does that of its mean; a plain function does not.
+    im = getattr(_object_of(fragility), "im", "")
+    if im and im != hazard.im:
+        raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
+    if isinstance(fragility, Fragility):
+        fragility._need_fit()
+        one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
+        inside, below, above, error = (most * float(part) for part in one)
+    else:
+        one = of_function(functools.partial(_probability, fragility), hazard)
+        inside, below, above, error = map(float, one)
+        most = _curve_behind(fragility).saturation if _is_mean(fragility) else 1.0
+    if np.isinf(inside):
+        raise DondoloError(
+            "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
+            " no faster than the power law rises; give levels of the hazard instead"
+        )
+    if hazard.endless:
+        return Risk(fragility, hazard, inside, (0.0, 0.0), (0.0, 0.0), error)
+    risk = Risk(fragility, hazard, inside, (0.0, below), (above, most * float(hazard.annual_frequency[-1])), error)
+    low, high = risk.bounds
+    if low < (1.0 - _WIDE) * high:
+        unit = f" {_binding.unit_of(hazard.im)}".rstrip()
+        first, last = hazard.im_levels[[0, -1]]
+        _binding.warn(
+            [
+                f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
+                f" lies between {low:.3g} and {high:.3g}"
+            ]
+        )
+    return risk
+
+
+def _method_of(fragility: Curve) -> Any:
+    """A curve without what `functools.partial` gives it."""
+    return fragility.func if isinstance(fragility, functools.partial) else fragility
+
+
+def _object_of(fragility: Curve) -> Any:
+    """What a curve is a method of; the curve itself if it is none."""
+    method = _method_of(fragility)
+    return getattr(method, "__self__", method)
+
+
+def _is_mean(fragility: Curve) -> bool:
+    """Is a curve the mean of a typology?"""
+    return getattr(_method_of(fragility), "__func__", None) is Typology.mean
+
+
+def _curve_behind(fragility: Curve) -> Group:
+    """Of what mechanism and group the mean of a typology is."""
+    options = fragility.keywords if isinstance(fragility, functools.partial) else {}
+    return _object_of(fragility).group(options.get("mechanism"), options.get("group", ""))
+
+
+def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
+    """Probabilities of collapse, checked."""
+    given = fragility(x)
+    try:
+        p = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("fragility: must give numbers for an array of intensities") from None
+    if p.shape != x.shape:
+        raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {x.shape}")
+    if not np.all((p >= 0.0) & (p <= 1.0)):
+        raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+    order = np.argsort(x, kind="stable")
+    risen = np.maximum.accumulate(p[order])
+    falls = p[order] < risen - _FALL
+    if falls.any():
+        i = int(np.argmax(falls))
+        at, now = x[order][i], p[order][i]
+        raise InputError(f"fragility = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity")
+    return p
+
+
+def between(low: float, high: float, unit: str = "", digits: int = 4) -> str:
+    """One number where both are the same to the digits shown, else both ends."""
+    ends = f"{low:.{digits}g}", f"{high:.{digits}g}"
+    return f"{ends[0] if ends[0] == ends[1] else f'between {ends[0]} and {ends[1]}'} {unit}".rstrip()

@@ -1,0 +1,125 @@
+"""Tables of hazard as they are published: levels of intensity, and how often each is exceeded."""
+
+from __future__ import annotations
+
+import os
+import re
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _binding
+from dondolo.errors import InputError
+
+#: Columns that say how often a level is exceeded.
+_FREQUENCIES = ("annual_frequency", "return_period", "poe")
+
+#: Names that the tables of the Italian code (NTC) have for columns.
+_NTC_NAMES = {"tr": "return_period", "t_r": "return_period", "a_g": "ag"}
+
+#: Columns of these tables that describe the shape of a response spectrum.
+_NTC_SHAPE = ("f0", "fo", "f_0", "f_o", "tc", "tc*", "t_c", "t_c*")
+
+_YEARS = ("year", "years", "yr", "anno", "anni")
+
+
+def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray]:
+    """Intensity measure, levels and annual frequencies of a table."""
+    titles, values = _binding.read_number_table(path)
+    try:
+        im, levels, frequency, unused = _understand(titles, values)
+    except InputError as error:
+        raise InputError(f"{os.fspath(path)}: {error}") from None
+    if unused:
+        _binding.warn([f"{os.fspath(path)}: columns that are not used: {', '.join(unused)}"])
+    return im, levels, frequency
+
+
+def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, FloatArray, list[str]]:
+    """The same, and the columns that are not used."""
+    columns: dict[str, FloatArray] = {}
+    measures: list[tuple[str, FloatArray]] = []
+    unused = []
+    for title, column in zip(titles, values.T, strict=True):
+        name, unit = _name_and_unit(title)
+        if name in _NTC_SHAPE:
+            unused.append(title)
+        elif name in (*_FREQUENCIES, "investigation_time"):
+            if name in columns:
+                raise InputError(f"column {title!r}: {name} stands there twice")
+            if unit and (name not in ("return_period", "investigation_time") or unit not in _YEARS):
+                raise InputError(f"column {title!r}: {name} must be {_unit_of(name)}")
+            columns[name] = column
+        else:
+            measures.append(_levels(title, name, unit, column))
+    if len(measures) != 1:
+        which = ", ".join(repr(name) for name, _ in measures) or "none"
+        raise InputError(f"one column must be the levels of a measure, such as 'pga' or 'ag (g)'; there is {which}")
+    im, levels = measures[0]
+    return im, levels, _frequencies(columns), unused
+
+
+def _name_and_unit(title: str) -> tuple[str, str]:
+    """Name of a column, in lower case, and what stands in brackets at its end, if it is no name of a measure."""
+    name, unit = title.strip().lower(), ""
+    found = re.fullmatch(r"(.*?)\s*[\[(]([^\])]*)[\])]", name)
+    if found and not name.startswith("sa"):
+        name, unit = found.group(1), re.sub(r"[\s^]", "", found.group(2)).replace("²", "2")
+    return _NTC_NAMES.get(name, name), unit
+
+
+def _levels(title: str, name: str, unit: str, column: FloatArray) -> tuple[str, FloatArray]:
+    """Measure and levels of a column, in the unit of dondolo."""
+    gravity = _binding.constants().gravity
+    sizes = {"g": 1.0, "g/10": 0.1, "m/s2": 1.0 / gravity, "cm/s2": 0.01 / gravity, "gal": 0.01 / gravity}
+    if name == "ag" and not unit:
+        raise InputError(
+            f"column {title!r}: the unit must follow the name: 'ag (g)', 'ag (m/s2)', or 'ag (g/10)' as in annex B"
+            " of the Italian code NTC 2008"
+        )
+    if unit and name in ("ag", "pga"):
+        if unit not in sizes:
+            raise InputError(f"column {title!r}: the unit must be one of {', '.join(map(repr, sizes))}")
+        return "pga", column * sizes[unit]
+    try:
+        return _binding.describe_measure(title.strip()).name, column
+    except InputError as error:
+        raise InputError(
+            f"column {title!r}: must be an intensity measure, ag, {', '.join(_FREQUENCIES)} or investigation_time"
+            f" ({error})"
+        ) from None
+
+
+def _frequencies(columns: dict[str, FloatArray]) -> FloatArray:
+    """Annual frequencies of exceedance [1/year]."""
+    given = [name for name in _FREQUENCIES if name in columns]
+    if len(given) != 1:
+        raise InputError(
+            "one column must be annual_frequency, return_period or poe (with investigation_time); "
+            f"there is {', '.join(given) or 'none'}"
+        )
+    (name,) = given
+    if (name == "poe") != ("investigation_time" in columns):
+        raise InputError("poe and investigation_time (years) belong together")
+    column = columns[name]
+    if name == "annual_frequency":
+        return column
+    if name == "return_period":
+        _check(name, column, column > 0.0, "must be positive, in years")
+        return 1.0 / column
+    time = columns["investigation_time"]
+    _check(name, column, (column > 0.0) & (column < 1.0), "must lie between 0 and 1, both excluded; 10 % is 0.1")
+    _check("investigation_time", time, time > 0.0, "must be positive, in years")
+    return np.asarray(-np.log1p(-column) / time)
+
+
+def _check(name: str, column: FloatArray, right: np.ndarray[Any, Any], allowed: str) -> None:
+    """Refuse the first value that is not right."""
+    if not right.all():
+        raise InputError(f"{name} = {column[~right][0]:g}: {allowed}")
+
+
+def _unit_of(name: str) -> str:
+    """Unit of a column, in words."""
+    return {"annual_frequency": "per year", "poe": "a probability between 0 and 1"}.get(name, "in years")

@@ -1,0 +1,1 @@
+"""Walls, populations of walls, and the distributions that they are drawn from."""

@@ -1,0 +1,230 @@
+"""Distributions of the properties of walls, by their quantiles."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo.errors import InputError
+
+
+class Distribution:
+    """What the distributions share: quantiles."""
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p.
+
+        Parameters
+        ----------
+        probability : ndarray
+            p, between 0 and 1.
+
+        Returns
+        -------
+        ndarray, shape of probability
+            In the unit of the parameters.
+        """
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Uniform(Distribution):
+    """All values between two alike.
+
+    Parameters
+    ----------
+    low, high : float
+        The smallest and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, or `high` not greater than `low`.
+    """
+
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+        return self.low + (self.high - self.low) * probability
+
+
+@dataclass(frozen=True)
+class Triangular(Distribution):
+    """What is known where an expert gives the smallest, the most likely and the largest value.
+
+    Parameters
+    ----------
+    low, mode, high : float
+        The smallest, the most likely and the largest value.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `high` not greater than `low`, or `mode` not between them.
+    """
+
+    low: float
+    mode: float
+    high: float
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        _check_ends(self.low, self.high)
+        if not self.low <= self.mode <= self.high:
+            raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+        from scipy import stats
+
+        width = self.high - self.low
+        return stats.triang((self.mode - self.low) / width, self.low, width).ppf(probability)
+
+
+@dataclass(frozen=True)
+class Normal(Distribution):
+    """The normal distribution, whole or cut off.
+
+    Parameters
+    ----------
+    mean, sd : float
+        Mean and standard deviation, of the whole distribution.
+    low, high : float, optional
+        Where it is cut off: what lies beyond is spread over what is left in proportion, so that the distribution keeps
+        its shape and no samples gather at the ends.
+
+    Raises
+    ------
+    InputError
+        A parameter is no finite number, `sd` not positive, or `high` not greater than `low`.
+    """
+
+    mean: float
+    sd: float
+    low: float | None = None
+    high: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        if not self.sd > 0.0:
+            raise InputError(f"sd = {self.sd:g}: must be positive")
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+        ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
+        return self.mean + self.sd * _cut_normal(probability, *ends)
+
+
+@dataclass(frozen=True)
+class Lognormal(Distribution):
+    """The lognormal distribution, whole or cut off.
+
+    Parameters
+    ----------
+    median : float
+        Median, of the whole distribution.
+    beta : float
+        Standard deviation of the logarithm, of the whole distribution.
+    low, high : float, optional
+        Where it is cut off, as for `Normal`.
+
+    Raises
+    ------
+    InputError
+        A parameter is no positive finite number, or `high` not greater than `low`.
+    """
+
+    median: float
+    beta: float
+    low: float | None = None
+    high: float | None = None
+
+    def __post_init__(self) -> None:
+        _check_numbers(self)
+        for what in ("median", "beta", "low", "high"):
+            value = getattr(self, what)
+            if value is not None and not value > 0.0:
+                raise InputError(f"{what} = {value:g}: must be positive")
+        _check_ends(self.low, self.high)
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+        ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
+        return self.median * np.exp(self.beta * _cut_normal(probability, *ends))
+
+
+@dataclass(frozen=True)
+class Choice(Distribution):
+    """One of some values.
+
+    Parameters
+    ----------
+    values : sequence of float
+        The values, rising.
+    probabilities : sequence of float, optional
+        Their probabilities, with the sum 1; all alike if left out.
+
+    Raises
+    ------
+    InputError
+        The values do not rise, or there are not as many probabilities, not negative and with the sum 1.
+    """
+
+    values: tuple[float, ...]
+    probabilities: tuple[float, ...] = None  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        values = as_array("values", self.values)
+        shares = np.full(len(values), 1.0 / len(values))
+        if self.probabilities is not None:
+            shares = as_array("probabilities", self.probabilities)
+        if len(shares) != len(values):
+            raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
+        if not (np.diff(values) > 0.0).all():
+            raise InputError("values: must rise from one to the next")
+        if not ((shares >= 0.0).all() and abs(shares.sum() - 1.0) < 1e-9):
+            raise InputError(f"probabilities: must not be negative and have the sum 1, not {shares.sum():.6g}")
+        object.__setattr__(self, "values", tuple(values.tolist()))
+        object.__setattr__(self, "probabilities", tuple(shares.tolist()))
+
+    def quantile(self, probability: FloatArray) -> FloatArray:
+        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+        ends = np.cumsum(self.probabilities)[:-1]
+        return np.asarray(self.values)[np.searchsorted(ends, probability)]
+
+
+def _cut_normal(probability: FloatArray, low: float | None, high: float | None) -> FloatArray:
+    """Quantiles of the standard normal distribution between two ends."""
+    from scipy import stats
+
+    return stats.truncnorm(-np.inf if low is None else low, np.inf if high is None else high).ppf(probability)
+
+
+def _check_numbers(distribution: Any) -> None:
+    """Make the parameters of a distribution finite numbers."""
+    for field in dataclasses.fields(distribution):
+        value = getattr(distribution, field.name)
+        if value is None:
+            continue
+        number = as_number(field.name, value)
+        if not math.isfinite(number):
+            raise InputError(f"{field.name} = {number}: must be finite")
+        object.__setattr__(distribution, field.name, number)
+
+
+def _check_ends(low: float | None, high: float | None) -> None:
+    """The ends of a distribution must leave something between them."""
+    if low is not None and high is not None and not low < high:
+        raise InputError(f"high = {high:g}: must be greater than low = {low:g}")

@@ -1,0 +1,373 @@
+"""Populations: walls, how many of the kind each stands for, and the table they are read from."""
+
+from __future__ import annotations
+
+import functools
+import math
+import os
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo._base.arguments import FloatArray, as_array, as_text
+from dondolo._base.shown import Shown, html_of
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+from dondolo.errors import InputError
+from dondolo.walls.wall import Wall, wall_from, walls_table
+
+# Name that Fortran gives a wall without one
+_UNNAMED = "wall"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Population(Shown):
+    """Walls and how many of the kind each stands for.
+
+    Walls with the same name, one after the other, are mechanisms of one wall. Walls that were given no name are called
+    'wall' with the number of their row, or the next that no other wall is called by.
+
+    Attributes
+    ----------
+    walls : tuple of Wall
+        The walls, each with one mechanism: the rows of the population.
+    weights : ndarray, shape (rows,)
+        Their weights, not negative and not all zero; 1 each if left out.
+    groups : tuple of str
+        Name of the group that each belongs to, for curves by group; empty if left out.
+    p_occ : ndarray, shape (rows,)
+        Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
+    origin : tuple of str
+        Where the walls come from, in lines for the head of a file.
+
+    Raises
+    ------
+    InputError
+        The walls, or what is said of them, do not go together.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> population = dd.Population(
+    ...     [
+    ...         dd.OneSidedWall(3.0, 0.25, name="a"),
+    ...         dd.TwoBlockWall(3.0, 0.25, name="a"),
+    ...         dd.OneSidedWall(6.0, 0.5, name="b"),
+    ...     ],
+    ...     weights=[2.0, 2.0, 5.0],
+    ...     groups=["low", "low", "high"],
+    ...     p_occ=[0.4, 0.6, 1.0],
+    ... )
+    >>> population
+    <Population: walls 2, mechanisms 3, sum of the weights 7, groups 'low' (1), 'high' (1)>
+    >>> population[2].name
+    'b'
+    >>> [wall.mechanism for wall in population.group("low")]
+    ['one_sided', 'two_block']
+    """
+
+    walls: tuple[Wall, ...]
+    weights: FloatArray = None  # type: ignore[assignment]
+    groups: tuple[str, ...] = None  # type: ignore[assignment]
+    p_occ: FloatArray = None  # type: ignore[assignment]
+    origin: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        walls = (self.walls,) if isinstance(self.walls, Wall) else _several("walls", self.walls, "walls")
+        if not walls:
+            raise InputError("walls: must be given")
+        for wall in walls:
+            if not isinstance(wall, Wall):
+                raise InputError(f"walls: {type(wall).__name__} is no wall")
+        if len(walls) > 1:
+            walls = _named(walls)
+        weights = _shares("weight", self.weights, walls, math.inf)
+        if not np.any(weights > 0.0):
+            raise InputError("weight: must be positive for at least one wall")
+        p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
+        groups = ("",) * len(walls) if self.groups is None else _several("groups", self.groups, "a name for each wall")
+        if len(groups) != len(walls):
+            raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
+        for wall, group in zip(walls, groups, strict=True):
+            _on_one_line("group", group, wall)
+        # A table cannot tell blanks from nothing.
+        groups = tuple(group if group.strip(" ") else "" for group in groups)
+        origin = _several("origin", self.origin, "lines")
+        for line in origin:
+            as_text("origin", line)
+        _check_names(walls, weights, groups)
+        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": origin}
+        for name, value in filled.items():
+            object.__setattr__(self, name, value)
+
+    @functools.cached_property
+    def first_rows(self) -> NDArray[np.intp]:
+        """Where among the rows each wall begins: the rows of a wall stand one after the other."""
+        names = [wall.name for wall in self.walls]
+        first = np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)
+        first.flags.writeable = False
+        return first
+
+    def __len__(self) -> int:
+        return len(self.walls)
+
+    def __iter__(self) -> Iterator[Wall]:
+        return iter(self.walls)
+
+    @overload
+    def __getitem__(self, index: int) -> Wall: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Population: ...
+
+    def __getitem__(self, index: int | slice) -> Wall | Population:
+        """The wall of a row, or a population of the rows in a slice.
+
+        Parameters
+        ----------
+        index : int or slice
+            Which rows.
+
+        Returns
+        -------
+        Wall or Population
+
+        Raises
+        ------
+        InputError
+            There are no rows in the slice.
+        """
+        if isinstance(index, slice):
+            return self._chosen(range(len(self))[index])
+        return self.walls[index]
+
+    def __add__(self, other: Population) -> Population:
+        """Both populations together.
+
+        Parameters
+        ----------
+        other : Population
+            Its rows come last.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            Both have a wall of one name.
+        """
+        if not isinstance(other, Population):
+            return NotImplemented
+        names = {wall.name for wall in self.walls} - {_UNNAMED}
+        for wall in other.walls:
+            if wall.name in names:
+                raise InputError(f"name = {wall.name!r}: both populations have a wall of this name")
+        return Population(
+            self.walls + other.walls,
+            np.concatenate([self.weights, other.weights]),
+            self.groups + other.groups,
+            np.concatenate([self.p_occ, other.p_occ]),
+            self.origin + other.origin,
+        )
+
+    def group(self, name: str) -> Population:
+        """The walls of a group.
+
+        Parameters
+        ----------
+        name : str
+            Name of the group; '' for the walls that belong to none.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            No wall belongs to it.
+        """
+        chosen = [i for i, group in enumerate(self.groups) if group == name]
+        if not chosen:
+            known = ", ".join(map(repr, dict.fromkeys(self.groups)))
+            raise InputError(f"group = {name!r}: must be one of {known}")
+        return self._chosen(chosen)
+
+    def _chosen(self, chosen: Sequence[int]) -> Population:
+        """A population of some of the walls."""
+        index = np.fromiter(chosen, dtype=np.intp)
+        return Population(
+            tuple(self.walls[i] for i in chosen),
+            self.weights[index],
+            tuple(self.groups[i] for i in chosen),
+            self.p_occ[index],
+            self.origin,
+        )
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """How many there are, name and text."""
+        groups = Counter(self.groups[i] for i in self.first_rows)
+        facts = [
+            ("walls", str(len(self.first_rows))),
+            ("mechanisms", str(len(self))),
+            ("sum of the weights", f"{self.weights[self.first_rows].sum():.6g}"),
+            ("groups", ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
+        ]
+        return facts if any(groups) else facts[:-1]
+
+    def _ranges(self) -> list[tuple[str, str]]:
+        """Between which values the properties lie, name and text."""
+
+        def between(what: str, values: Iterable[float], unit: str = "") -> tuple[str, str]:
+            values = list(values)
+            return what, f"{min(values):.4g} to {max(values):.4g} {unit}".strip()
+
+        return [
+            between("height", (wall.height for wall in self.walls), "m"),
+            between("thickness", (wall.thickness for wall in self.walls), "m"),
+            between("height / thickness", (wall.height / wall.thickness for wall in self.walls)),
+            between("trigger", (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
+            between("p_occ", self.p_occ),
+        ]
+
+    def _repr_html_(self) -> str:
+        return html_of("Population", [*self._facts(), *self._ranges()])
+
+    def to_frame(self) -> Any:
+        """The walls, their static quantities and weights.
+
+        Returns
+        -------
+        pandas.DataFrame
+            The columns of the executable's ``*_walls.csv``, with units in their names: one row a mechanism of a wall.
+
+        Raises
+        ------
+        DondoloError
+            There is no pandas.
+        """
+        return tables.frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the table that `read_population` and the executable read.
+
+        Parameters
+        ----------
+        path : path
+            The file; its folder must exist.
+
+        Raises
+        ------
+        DondoloError
+            It cannot be written.
+
+        Notes
+        -----
+        What is read back is the same to the bit. Gravity is no column: it is given again when the table is read. The
+        lines of `origin` stand at the head.
+        """
+        tables.write_lines(path, tables.csv_lines(population_table(self), self.origin, tables.shortest))
+
+    def _table(self) -> tables.Table:
+        return walls_table(self.walls, self.weights, self.groups, self.p_occ)
+
+
+def read_population(path: str | os.PathLike[str], gravity: float | None = None) -> Population:
+    """Read a population of walls.
+
+    Parameters
+    ----------
+    path : path
+        A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group and
+        p_occ.
+    gravity : float, optional
+        [m/s2], 9.81 if left out.
+
+    Returns
+    -------
+    Population
+
+    Raises
+    ------
+    InputError
+        The table or one of its walls is wrong.
+    """
+    walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
+    origin = (f"read from {Path(path).name}",)
+    return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ, origin)
+
+
+def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
+    """Turn what a user gives for several things into a tuple of them; a text is not several."""
+    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
+        raise InputError(f"{name} = {values!r}: must be {what}")
+    return tuple(values)
+
+
+def _named(walls: Sequence[Wall]) -> tuple[Wall, ...]:
+    """Walls of which each that was given no name has one of its own."""
+    taken = {wall.name for wall in walls}
+    named, number = [], 0
+    for i, wall in enumerate(walls, 1):
+        if wall.name == _UNNAMED:
+            number = max(number + 1, i)
+            while f"wall {number}" in taken:
+                number += 1
+            wall = wall._renamed(f"wall {number}")
+        named.append(wall)
+    return tuple(named)
+
+
+def _on_one_line(what: str, text: str, wall: Wall) -> None:
+    """Check a text of a wall."""
+    try:
+        as_text(what, text)
+    except InputError as error:
+        raise InputError(f"wall {wall.name!r}: {error}") from None
+
+
+def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> FloatArray:
+    """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
+    shares = np.ones(len(walls)) if values is None else as_array(name, values).copy()
+    if len(shares) != len(walls):
+        raise InputError(f"{len(walls)} walls, {len(shares)} values of {name}: must be as many")
+    wrong = ~((shares >= 0.0) & (shares <= largest) & (shares < math.inf))
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
+        raise InputError(f"wall {walls[first].name!r}: {name} = {shares[first]}: {allowed}")
+    shares.flags.writeable = False
+    return shares
+
+
+def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[str]) -> None:
+    """Walls with one name must be mechanisms of one wall."""
+    first: dict[str, int] = {}
+    for i, wall in enumerate(walls):
+        one = first.setdefault(wall.name, i)
+        if one == i:
+            continue
+        if walls[i - 1].name != wall.name:
+            raise InputError(
+                f"name = {wall.name!r}: another wall has this name; "
+                "mechanisms of one wall must stand one after the other"
+            )
+        if wall.mechanism in (other.mechanism for other in walls[one:i]):
+            raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
+        if weights[i] != weights[one] or groups[i] != groups[one]:
+            raise InputError(f"name = {wall.name!r}: mechanisms of one wall must have the same weight and group")
+
+
+def population_table(population: Population) -> tables.Table:
+    """Columns of a population's table, as it is read."""
+    names = ("name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value")
+    names += ("restitution_factor", "overburden", "eccentricity")
+    table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
+    return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

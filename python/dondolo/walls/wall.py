@@ -1,0 +1,350 @@
+"""Walls: what is said of them, and the mechanism that follows."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from collections.abc import Iterable, Sequence
+from dataclasses import InitVar, dataclass
+from typing import Any, ClassVar, NamedTuple
+
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray
+from dondolo._base.shown import html_of
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+
+_GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
+
+
+class Terms(NamedTuple):
+    """Terms of the equation of motion J q'' + C q'^2 + G = -s L u_g'' + Q at some rotations, per metre of wall.
+
+    Attributes
+    ----------
+    inertia : ndarray
+        J [kg m2].
+    inertia_rate : ndarray
+        C = 1/2 dJ/dq [kg m2].
+    restoring_moment : ndarray
+        G, of gravity [N m].
+    excitation_lever : ndarray
+        L [kg m].
+    load_force : ndarray
+        Q, the generalised force of carried loads [N m]; 0 without an overburden.
+    """
+
+    inertia: FloatArray
+    inertia_rate: FloatArray
+    restoring_moment: FloatArray
+    excitation_lever: FloatArray
+    load_force: FloatArray
+
+
+@dataclass(frozen=True, repr=False)
+class Wall:
+    """What all walls share. Use `OneSidedWall`, `FreeStandingWall` or `TwoBlockWall`.
+
+    Every number that is left out (None) gets its default from the Fortran library, and stands in the wall afterwards.
+    """
+
+    mechanism: ClassVar[str] = ""
+
+    height: float
+    thickness: float
+    density: float | None = None
+    restitution: str | None = None
+    restitution_value: float | None = None
+    restitution_factor: float | None = None
+    gravity: float | None = None
+    name: str | None = None
+
+    def __post_init__(self, *bearing: Any) -> None:
+        if not self.mechanism:
+            raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
+        numbers = dict(zip(_binding.WALL_NUMBERS, self._numbers(), strict=True))
+        # A two-block wall comes with what takes the place of its eccentricity
+        place, numbers["bearing_distance"] = bearing or (None, None)
+        data = _binding.describe_wall(self.name, self.mechanism, self.restitution, numbers, self.gravity, place)
+        self._fill(data)
+
+    def _numbers(self) -> list[Any]:
+        """Its numbers in the order of Fortran, None where one does not apply."""
+        return [getattr(self, what, None) for what in _binding.WALL_NUMBERS]
+
+    def _fill(self, data: _binding.WallData) -> None:
+        """Take over what Fortran has understood."""
+        own = type(self).__dataclass_fields__
+        filled: dict[str, Any] = {what: value for what, value in data.numbers.items() if what in own}
+        filled |= {"name": data.name, "restitution": data.restitution, "gravity": data.gravity}
+        filled |= {"_statics": data.statics, "_two_sided": data.two_sided}
+        for what, value in filled.items():
+            object.__setattr__(self, what, value)
+
+    def _renamed(self, name: str) -> Wall:
+        """The same wall with another name, which stands on one line."""
+        other = copy.copy(self)
+        object.__setattr__(other, "name", name)
+        return other
+
+    @property
+    def _flat(self) -> _binding.FlatWall:
+        """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
+        return _binding.flat_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity)
+
+    @property
+    def radius(self) -> float:
+        """Half diagonal R [m], of the lower block of a two-block wall."""
+        return self._statics[0]
+
+    @property
+    def slenderness_angle(self) -> float:
+        """Slenderness angle alpha [rad], of the lower block of a two-block wall."""
+        return self._statics[1]
+
+    @property
+    def frequency_parameter(self) -> float:
+        """Frequency parameter p [rad/s]; p^2 = 3 g/(4 R) for one block."""
+        return self._statics[2]
+
+    @property
+    def trigger_acceleration(self) -> float:
+        """Ground acceleration at which the wall begins to rock [m/s2]."""
+        return self._statics[3]
+
+    @property
+    def capacity_angle(self) -> float:
+        """Rotation at which the restoring moment vanishes [rad]."""
+        return self._statics[4]
+
+    @property
+    def restitution_coefficient(self) -> float:
+        """Speed after an impact / speed before it, 0 <= e < 1."""
+        return self._statics[5]
+
+    @property
+    def two_sided(self) -> bool:
+        """Does it rock to both sides?"""
+        return self._two_sided
+
+    def terms(self, rotation: ArrayLike) -> Terms:
+        """Terms of the equation of motion at given rotations.
+
+        Parameters
+        ----------
+        rotation : array_like
+            Rotations q [rad], at least 0 and less than the geometric end; of the lower block for a two-block wall.
+
+        Returns
+        -------
+        Terms
+            J, C, G, L and Q, each in the shape of `rotation`.
+
+        Raises
+        ------
+        InputError
+            A rotation that the wall cannot have.
+
+        Notes
+        -----
+        Equations (1) and (3) of Nale et al. in the common form; docs/theory.md, section 2. One block can rotate until
+        its centroid is level with its corner (alpha + pi/2), a two-block wall until its upper block lies flat.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> wall = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6)
+        >>> terms = wall.terms([0.0, 0.05])
+        >>> terms.excitation_lever.round(3).tolist()
+        [1215.0, 1221.916]
+        """
+        return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
+
+    def potential(self, rotation: ArrayLike) -> FloatArray:
+        """Potential energy of gravity and of carried loads at given rotations.
+
+        Parameters
+        ----------
+        rotation : array_like
+            Rotations q [rad], as for `terms`.
+
+        Returns
+        -------
+        ndarray, shape of rotation
+            V [J per metre of wall], measured from the base, with V' = G - Q.
+
+        Raises
+        ------
+        InputError
+            A rotation that the wall cannot have.
+
+        Notes
+        -----
+        1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
+        """
+        return _binding.wall_terms(self._flat, rotation)[5]
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """What a reader wants to know, name and text."""
+        own = [
+            (field.name, getattr(self, field.name))
+            for field in dataclasses.fields(self)
+            if field.name != "name" and getattr(self, field.name) is not None
+        ]
+        facts = [(what, value if isinstance(value, str) else f"{value:.6g}") for what, value in own]
+        facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
+        trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
+        return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
+
+    def __repr__(self) -> str:
+        facts = ", ".join(f"{what}={text}" for what, text in self._facts())
+        return f"<{type(self).__name__} {self.name!r}: {facts}>"
+
+    def _repr_html_(self) -> str:
+        return html_of(f"{type(self).__name__} '{self.name}'", self._facts())
+
+    def to_frame(self) -> Any:
+        """The wall and its static quantities as a pandas DataFrame of one row."""
+        return tables.frame(walls_table([self]))
+
+
+@dataclass(frozen=True, repr=False)
+class OneSidedWall(Wall):
+    """A wall that rotates outwards only, about its outer base edge (a facade that came loose, a parapet).
+
+    Parameters
+    ----------
+    height, thickness : float
+        Its size [m].
+    density : float, optional
+        [kg/m3], 1800 if left out.
+    restitution : {'default', 'sorrentino', 'constant'}, optional
+        Model of the impacts against the walls behind (Sorrentino, AlShawa and Decanini 2011 by default).
+    restitution_value : float, optional
+        Speed ratio, only with 'constant': 0 <= value < 1.
+    restitution_factor : float, optional
+        Factor on the speed ratio of any model, 1 if left out.
+    gravity : float, optional
+        [m/s2], 9.81 if left out.
+    name : str, optional
+        Name in tables and figures.
+
+    Raises
+    ------
+    InputError
+        A value that makes no sense, with the sentence of the executable.
+
+    Notes
+    -----
+    Equation (1) of Nale et al.; docs/theory.md, section 2.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
+    >>> round(wall.frequency_parameter, 6)
+    2.210895
+    """
+
+    mechanism: ClassVar[str] = "one_sided"
+
+
+@dataclass(frozen=True, repr=False)
+class FreeStandingWall(Wall):
+    """A wall that stands free and rocks to both sides (the block of Housner 1963).
+
+    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
+    1 - 3/2 sin^2 alpha) and 'constant'.
+    """
+
+    mechanism: ClassVar[str] = "free_standing"
+
+
+@dataclass(frozen=True, repr=False)
+class TwoBlockWall(Wall):
+    """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
+
+    Parameters are those of `OneSidedWall`, the models of restitution 'default', 'sorrentino', 'impulse' and 'constant',
+    and:
+
+    Parameters
+    ----------
+    hinge : float, optional
+        Height of the hinge / height of the wall, 0.5 if left out.
+    overburden : float, optional
+        Vertical load on the top [N per metre of wall], 0 if left out.
+    eccentricity : float, optional
+        Its distance from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall that
+        folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
+    bearing : {'inner', 'outer', 'centre'}, optional
+        Where the load bears, instead of the eccentricity: near the inner or the outer face, or on the centreline.
+    bearing_distance : float, optional
+        Distance of the load's resultant from the inner or the outer face [m]; half the length that joists bear on the
+        wall, a third where they bear harder on its edge.
+
+    Notes
+    -----
+    The wall keeps a bearing as its eccentricity. It is that of a wall that folds outwards; docs/theory.md, section 2.
+
+    Examples
+    --------
+    Joists that bear 0.12 m into the wall from its inner face:
+
+    >>> import dondolo as dd
+    >>> wall = dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    >>> wall.eccentricity
+    -0.065
+    """
+
+    mechanism: ClassVar[str] = "two_block"
+
+    hinge: float | None = None
+    overburden: float | None = None
+    eccentricity: float | None = None
+    bearing: InitVar[str | None] = None
+    bearing_distance: InitVar[float | None] = None
+
+
+MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
+
+
+def wall_from(data: _binding.WallData) -> Wall:
+    """A wall that Fortran has understood already."""
+    wall = object.__new__(MECHANISMS[data.mechanism])
+    wall._fill(data)
+    return wall
+
+
+def walls_table(
+    walls: Sequence[Wall],
+    weights: Iterable[float] = (1.0,),
+    groups: Iterable[str] = ("",),
+    p_occ: Iterable[float] = (1.0,),
+) -> tables.Table:
+    """Columns of ``_walls.csv``."""
+
+    def column(what: str) -> list[Any]:
+        return [getattr(wall, what, None) for wall in walls]
+
+    return {
+        "wall": column("name"),
+        "mechanism": column("mechanism"),
+        "height_m": column("height"),
+        "thickness_m": column("thickness"),
+        "density_kg_m3": column("density"),
+        "hinge": column("hinge"),
+        "restitution_model": column("restitution"),
+        "restitution_value": column("restitution_value"),
+        "restitution_factor": column("restitution_factor"),
+        "overburden_n_m": column("overburden"),
+        "eccentricity_m": column("eccentricity"),
+        "alpha_rad": column("slenderness_angle"),
+        "p_rad_s": column("frequency_parameter"),
+        "trigger_acceleration_m_s2": column("trigger_acceleration"),
+        "capacity_rad": column("capacity_angle"),
+        "restitution": column("restitution_coefficient"),
+        "weight": list(weights),
+        "group": list(groups),
+        "p_occ": list(p_occ),
+    }
