@@ -121,7 +121,7 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
         "covariance (delta method)": curve.parameter_interval(),
         "profile likelihood": curve.parameter_interval(method="profile"),
     }
-    if curve.stripes is not None:
+    if curve.sample is not None:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(_SAMPLES).parameter_interval()
     columns: dict[Piece, Sequence[Piece]] = {"method": list(methods)}
     for letter, name in ((THETA, "theta"), (BETA, "beta")):
