@@ -2,7 +2,7 @@
 module dondolo_arguments
    use dondolo_error, only : error_type, raise_input
    use dondolo_job_group, only : task_names
-   use dondolo_ensemble, only : largest_threads
+   use dondolo_threads, only : largest_threads
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_numbers, only : parse_integer, parse_real

@@ -11,6 +11,7 @@ module dondolo_benchmark
    use dondolo_population, only : member_type
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : rounded, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names
@@ -91,7 +92,7 @@ contains
    !> Run the work once, and keep what can be compared
    subroutine find_fingerprint(case, walls, fingerprint, error)
       !> The work
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> What it gives
@@ -99,13 +100,16 @@ contains
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(stripes_type) :: stripes
       integer :: i, kind
 
+      call case%make_study(study)
+      ! All EDPs are compared
+      study%solver%collapses_only = .false.
       do i = 1, size(walls)
          associate (wall => walls(i)%wall)
-            call multiple_stripe(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling%name, &
-               & case%records_input%polarity, case%solver%solver, 0, error)
+            call multiple_stripe(stripes, wall, study, error)
             if (allocated(error)) return
             kind = findloc(mechanism_names == wall%input%mechanism, .true., dim=1)
          end associate
@@ -121,7 +125,7 @@ contains
    !> Time that the work takes, several times over
    subroutine measure(case, walls, copies, threads, seconds, error)
       !> The work
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> How many times over
@@ -133,15 +137,17 @@ contains
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(counts_type), allocatable :: rows(:)
       type(work_type) :: work
       integer(int64) :: start
       real(wp) :: spent(times)
       integer :: i
 
+      call case%make_study(study, threads)
       do i = 1, times
          call system_clock(start)
-         call run_rows(case, repeat_walls(walls, copies), 1, rows, work, error, threads, 0)
+         call run_rows(study, repeat_walls(walls, copies), rows, work, error, 0, 0)
          if (allocated(error)) return
          spent(i) = seconds_since(start)
       end do
@@ -194,7 +200,7 @@ contains
          & 'engine: '//engine_text(fingerprint%work)
       associate (work => fingerprint%work)
          write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
-            & to_text(size(case%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
+            & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
             & ' levels, '//to_text(copies)//' times over', &
             & '   '//to_text(work%histories)//' histories, '//to_text(work%still)//' of them never move; '// &
             & to_text(work%intervals)//' sample intervals, the wall rocks in '//to_text(work%rocked)//'; '// &

@@ -5,9 +5,9 @@ module dondolo_benchmark_walls
    use dondolo_kinds, only : wp
    use dondolo_normal_form, only : new_normal_form, normal_form_type
    use dondolo_population, only : member_type
-   use dondolo_record_set, only : new_record_set
+   use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling
-   use dondolo_stripes, only : measure_records
+   use dondolo_suite, only : new_suite
    use dondolo_synthetic_suite, only : suite_record, synthetic44
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
@@ -33,11 +33,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(wall_input_type) :: input
+      type(record_type), allocatable :: records(:)
       integer :: i, j, number
 
-      allocate (case%records(2*size(synthetic44)), members(size(mechanism_names)*size(heights)))
-      do i = 1, size(case%records)
-         call suite_record((i + 1)/2, 2 - modulo(i, 2), case%records(i), error)
+      allocate (records(2*size(synthetic44)), members(size(mechanism_names)*size(heights)))
+      do i = 1, size(records)
+         call suite_record((i + 1)/2, 2 - modulo(i, 2), records(i), error)
          if (allocated(error)) return
       end do
       number = 0
@@ -58,9 +59,8 @@ contains
       case%stripes%levels = levels
       case%stripes%thresholds = [case%solver%solver%edp_limit]
       call new_scaling(case%stripes%scaling, 'pga', error)
-      case%values = measure_records(case%stripes%scaling%measure, case%records, 1)
-      call new_record_set(case%record_set, case%records)
-      case%peaks = case%records%pga()
+      call new_suite(case%suite, records)
+      call case%suite%measure(case%stripes%scaling%measure, 1)
    end subroutine make_work
 
    !> The same walls several times over

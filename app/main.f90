@@ -15,7 +15,7 @@ program dondolo_main
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
    use dondolo_run_population, only : merge_population
-   use dondolo_ensemble, only : available_threads
+   use dondolo_threads, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template

@@ -59,9 +59,9 @@ contains
       end if
       call print_records(case)
       if (case%job%task == 'history') then
-         write (output_unit, '(a)') 'one history: record '''//case%records(case%history%record)%name// &
+         write (output_unit, '(a)') 'one history: record '''//case%suite%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
-         call print_warnings(oddities, case%records(case%history%record:case%history%record), case, scales)
+         call print_warnings(oddities, case%suite%records(case%history%record:case%history%record), case, scales)
          return
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
@@ -76,7 +76,7 @@ contains
          & to_text(file%last - file%first + 1)//' rows, in '//file%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
-      call print_warnings(oddities, case%records, case, scales)
+      call print_warnings(oddities, case%suite%records, case, scales)
    end subroutine print_plan
 
    !> Print what a run would warn of beforehand: last, where it is seen
@@ -208,11 +208,11 @@ contains
 
       associate (scaling => case%stripes%scaling)
          ! The PGA stands there anyway
-         if (allocated(case%values) .and. scaling%measure%kind /= 'pga') then
-            table = record_table(case%records, case%solver%gravity, scaling%measure%name, scaling%measure%unit(), &
-               & case%values/scaling%measure%level_size(case%solver%gravity))
+         if (case%is_scaled() .and. scaling%measure%kind /= 'pga') then
+            table = record_table(case%suite%records, case%solver%gravity, scaling%measure%name, scaling%measure%unit(), &
+               & case%suite%values(scaling%measure, case%job%threads)/scaling%measure%level_size(case%solver%gravity))
          else
-            table = record_table(case%records, case%solver%gravity)
+            table = record_table(case%suite%records, case%solver%gravity)
          end if
       end associate
       do i = 1, table%count

@@ -120,7 +120,7 @@ contains
       !> Its results
       type(results_type), intent(in) :: results
 
-      associate (response => results%response, record => case%records(case%history%record))
+      associate (response => results%response, record => case%suite%records(case%history%record))
          write (output_unit, '(a)') 'record '''//record%name//''', scale '//rounded(case%history_scale())// &
             & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
          if (response%collapsed) then

@@ -4,14 +4,21 @@
 !>     type(wall_input_type) :: input
 !>     type(wall_type) :: wall
 !>     type(record_type), allocatable :: records(:)
+!>     type(suite_type), target :: suite
+!>     type(scaling_type) :: scaling
+!>     type(study_type) :: study
 !>     type(stripes_type) :: stripes
 !>     type(error_type), allocatable :: error
 !>
 !>     input%mechanism = 'one_sided'; input%height = 3.0_wp; input%thickness = 0.25_wp
 !>     call new_wall(wall, input, error)
 !>     if (.not. allocated(error)) call read_catalogue('records.csv', records, error)
-!>     if (.not. allocated(error)) call multiple_stripe(stripes, wall, records, [0.2_wp, 0.4_wp], 'pga', &
-!>        & 'as_recorded', solver_type(), 0, error)
+!>     if (.not. allocated(error)) call new_scaling(scaling, 'pga', error)
+!>     if (.not. allocated(error)) then
+!>        call new_suite(suite, records)
+!>        call new_study(study, suite, scaling, [0.2_wp, 0.4_wp], 'as_recorded', solver_type(), threads=0)
+!>        call multiple_stripe(stripes, wall, study, error)
+!>     end if
 !>     if (allocated(error)) print *, error%message
 module dondolo
    use dondolo_case, only : case_type, read_case
@@ -36,12 +43,14 @@ module dondolo
    use dondolo_queue, only : progress_interface
    use dondolo_simulate, only : simulate
    use dondolo_solver, only : check_limit, check_solver, engine_names, solver_type
-   use dondolo_stripes, only : multiple_stripe, polarity_names, stripes_type
+   use dondolo_stripes, only : multiple_stripe, stripes_type
+   use dondolo_study, only : new_study, polarity_names, study_type
+   use dondolo_suite, only : new_suite, suite_type
    use dondolo_synthetic, only : synthetic_record
    use dondolo_typology, only : combination_type, combine_population, typology_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
-   use dondolo_wall_curves, only : new_wall_curves, wall_curves_type
+   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
    implicit none
    private
 
@@ -57,10 +66,11 @@ module dondolo
    public :: solver_type, check_solver, check_limit, engine_names
    public :: simulate, response_type, trace_type
    ! Fragility
+   public :: suite_type, new_suite, study_type, new_study
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface
    public :: scaling_type, new_scaling, scaling_names
    public :: fragility_type, fit_fragility, typology_type, combination_type, combine_population
-   public :: wall_curves_type, new_wall_curves
+   public :: wall_curves_type, mechanism_counts_type, new_wall_curves
    ! Cases
    public :: case_type, read_case, results_type, run_case, merge_population, check_reports, write_reports
    public :: member_type, population_reader_type, read_population

@@ -5,9 +5,9 @@ module lane_runs
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : new_normal_form, normal_form_type
    use dondolo_record, only : record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type
    use dondolo_solver, only : solver_type
+   use dondolo_suite, only : new_suite, suite_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -37,7 +37,8 @@ contains
       type(work_type), intent(out), optional :: work
       integer, intent(in), optional :: threads
       type(ensemble_type) :: ensemble
-      type(record_set_type) :: set
+      type(suite_type) :: suite
+      type(record_type), allocatable :: copies(:)
       type(solver_type) :: in_lanes
       integer :: team
 
@@ -47,8 +48,9 @@ contains
       ensemble%scale = scale
       in_lanes = solver
       in_lanes%engine = 'lanes'
-      call new_record_set(set, records)
-      call run_ensemble(ensemble, mechanism, records, set, in_lanes, team)
+      copies = records
+      call new_suite(suite, copies)
+      call run_ensemble(ensemble, mechanism, suite, in_lanes, team)
       call move_alloc(ensemble%response, response)
       if (present(work)) work = ensemble%work
    end subroutine run_lanes

@@ -14,6 +14,7 @@ program test_case
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
    use dondolo_settings, only : settings_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
@@ -133,7 +134,8 @@ contains
 
    !> Defaults as the documentation says
    subroutine test_defaults()
-      type(case_type) :: case
+      type(case_type), target :: case
+      type(study_type) :: study
       type(error_type), allocatable :: error
 
       call suite('defaults')
@@ -160,7 +162,8 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_close(case%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
          & 'gravity enters the wall')
-      call check_close(case%scale_to(1, 0.6_wp), 0.6_wp*5.0_wp/case%records(1)%pga(), 1.0e-15_wp, 'and the levels')
+      call case%make_study(study)
+      call check_close(study%scale_to(case%wall, 1, 0.6_wp), 0.6_wp*5.0_wp/case%suite%peaks(1), 1.0e-15_wp, 'and the levels')
    end subroutine test_defaults
 
    !> Levels from a grid
@@ -275,7 +278,7 @@ contains
       call check_close(history%response%time_of_peak, stripes%row%response(2, 2)%time_of_peak, 1.0e-6_wp, &
          & 'at the same time')
       call check_close(minval(history%trace%acceleration(:history%trace%rows)) &
-         & *maxval(abs(case%records(2)%acceleration))/maxval(case%records(2)%acceleration), &
+         & *maxval(abs(case%suite%records(2)%acceleration))/maxval(case%suite%records(2)%acceleration), &
          & -0.5_wp*9.81_wp, 1.0e-12_wp, 'reversed and scaled to its level')
 
       call write_file('a.nml', typology_case)

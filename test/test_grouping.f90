@@ -8,14 +8,16 @@ program test_grouping
    use dondolo_lane_variants, only : build_variant
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : measure_records, multiple_stripe, plan_stripes, run_histories, stripes_type
+   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_study, only : new_study, study_type
+   use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    use random_history, only : across, argument, between, choice, random_record, random_solver, random_wall
    use same_response, only : is_same
+   use stripe_runs, only : run_stripes, suite_of
    implicit none
 
    integer :: i, walls, first
@@ -57,7 +59,8 @@ contains
       type(record_type) :: records(5)
       type(solver_type) :: solver
       type(scaling_type) :: scaling
-      type(record_set_type) :: set
+      type(suite_type), target :: whole
+      type(study_type) :: study
       type(stripes_type) :: one, other
       type(error_type), allocatable :: error
       character(len=:), allocatable :: what
@@ -80,25 +83,22 @@ contains
       do j = 2, size(levels)
          levels(j) = levels(j - 1)*between(random, 1.01_wp, 1.6_wp)
       end do
-      call multiple_stripe(one, wall, records, levels, 'pga', 'both', solver, 1, error)
-      call check_ok(error, what)
+      call run_stripes(one, wall, records, levels, 'pga', 'both', solver, 1)
       do j = 1, size(threads)
-         call multiple_stripe(other, wall, records, levels, 'pga', 'both', solver, threads(j), error)
-         call check_ok(error, what)
+         call run_stripes(other, wall, records, levels, 'pga', 'both', solver, threads(j))
          call check(all(is_same(one%response, other%response)), what//' with '//to_text(threads(j))//' threads')
       end do
       call new_scaling(scaling, 'pga', error)
       call check_ok(error, what)
-      call plan_stripes(other, wall, records, levels, scaling, measure_records(scaling%measure, records, 1), &
-         & records%pga(), 'both', &
-         & solver, error)
+      whole = suite_of(records)
+      call new_study(study, whole, scaling, levels, 'both', solver, threads=1)
+      call plan_stripes(other, wall, study, error)
       call check_ok(error, what)
-      call new_record_set(set, records)
       total = size(other%response)
       first = 1
       do while (first <= total)
          last = min(total, first + choice(random, total/2) - 1)
-         call run_histories(other, wall, records, set, solver, first, last, choice(random, 3))
+         call run_histories(other, wall, study, choice(random, 3), first, last)
          first = last + 1
       end do
       call check(all(is_same(one%response, other%response)), what//' in pieces')

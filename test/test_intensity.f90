@@ -12,9 +12,11 @@ program test_intensity
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
    use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : measure_records, multiple_stripe, stripes_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use stripe_runs, only : run_stripes, suite_of
    implicit none
 
    real(wp), parameter :: pi = 3.14159265358979323846264338327950288_wp
@@ -310,6 +312,7 @@ contains
       type(wall_input_type) :: input
       type(wall_type) :: wall
       type(scaling_type) :: scaling
+      type(suite_type) :: whole
       type(stripes_type) :: stripes, by_pga
       type(error_type), allocatable :: error
       character(len=12) :: name
@@ -344,16 +347,22 @@ contains
          call check(scaling%needs_wall() .eqv. i > size(names), name//' needs a wall')
       end do
       ! The same accelerations by another name move the wall alike
-      call multiple_stripe(by_pga, wall, records, [0.8_wp], 'pga', 'both', solver_type(), 1, error)
-      call check_ok(error, 'pga')
+      call run_stripes(by_pga, wall, records, [0.8_wp], 'pga', 'both', solver_type(), 1)
       level = 0.8_wp*wall%gravity/wall%mechanism%trigger_acceleration()
-      call multiple_stripe(stripes, wall, records, [level], 'pga/a0', 'both', solver_type(), 1, error)
-      call check_ok(error, 'pga/a0')
+      call run_stripes(stripes, wall, records, [level], 'pga/a0', 'both', solver_type(), 1)
       call check_text(stripes%im, 'pga/a0', 'im')
       call check_close(stripes%response(1, 1)%edp, by_pga%response(1, 1)%edp, 1.0e-9_wp, 'EDP')
       call new_scaling(scaling, 'sa(0.5)', error)
-      call check_close(sum(measure_records(scaling%measure, records, 2)), scaling%measure%of(records(1)), 0.0_wp, &
-         & 'values of records')
+      whole = suite_of(records)
+      call check_close(sum(whole%values(scaling%measure, 2)), scaling%measure%of(records(1)), 0.0_wp, 'values of records')
+      do i = 1, 100
+         ! The first time they are computed, then they are kept; a suite that has no room for more computes them again
+         call new_scaling(scaling, 'sa('//to_text(0.1_wp + 0.01_wp*real(i, wp))//')', error)
+         call whole%measure(scaling%measure, 1)
+         call whole%measure(scaling%measure, 1)
+         call check_close(sum(whole%values(scaling%measure, 1)), scaling%measure%of(records(1)), 0.0_wp, &
+            & 'values that are kept')
+      end do
    end subroutine test_levels
 
    !> El Centro 1940, north-south, 1560 samples of 0.02 s. Chopra (Dynamics of Structures, section 6.4 and figure 6.6.2,

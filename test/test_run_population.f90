@@ -15,6 +15,8 @@ program test_run_population
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_run_population, only : counts_path, merge_population
    use dondolo_run_rows, only : run_rows
+   use dondolo_study, only : study_type
+   use dondolo_survey, only : number_of_group
    use dondolo_system, only : remove_file
    use dondolo_text, only : to_text
    use dondolo_warning_sentence, only : make_sentence
@@ -262,6 +264,28 @@ contains
       end do
    end subroutine test_threads
 
+   !> Run rows of a case, on one thread unless another number is given; first is the number of the first of them
+   subroutine run_some_rows(case, members, first, rows, work, error, threads)
+      type(case_type), intent(in), target :: case
+      type(member_type), intent(in) :: members(:)
+      integer, intent(in) :: first
+      type(counts_type), allocatable, intent(out) :: rows(:)
+      type(work_type), intent(out) :: work
+      type(error_type), allocatable, intent(out) :: error
+      integer, intent(in), optional :: threads
+
+      type(study_type) :: study
+      integer :: i
+
+      call case%make_study(study, 1)
+      if (present(threads)) study%threads = threads
+      call run_rows(study, members, rows, work, error, 0, 0)
+      do i = 1, size(rows)
+         rows(i)%row = first + i - 1
+         rows(i)%group = number_of_group(case%survey%groups, members(i)%group)
+      end do
+   end subroutine run_some_rows
+
    !> The curves of each threshold are made of the counts of that threshold
    subroutine test_states(case, results)
       type(case_type), intent(in) :: case
@@ -275,7 +299,7 @@ contains
       integer :: i, k
 
       call read_population(scratch//'/walls.csv', members, error)
-      call run_rows(case, members, 1, rows, work, error, 1, 0)
+      call run_some_rows(case, members, 1, rows, work, error)
       call check_ok(error, 'rows')
       if (allocated(error)) return
       do k = 1, 2
@@ -322,7 +346,7 @@ contains
       members = members([1, (2, i=1, 7)])
       members(2)%wall%input%name = 'the first'
       do threads = 1, 4
-         call run_rows(case, members, 1, rows, work, error, threads, 0)
+         call run_some_rows(case, members, 1, rows, work, error, threads)
          call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')
       end do
    end subroutine test_first_error
@@ -343,7 +367,7 @@ contains
       call suite('file of counts')
       call read_case(scratch//'/a.nml', case, error)
       call read_population(scratch//'/walls.csv', members, error)
-      call run_rows(case, members, 1, rows, work, error, 1, 0)
+      call run_some_rows(case, members, 1, rows, work, error)
       call check_ok(error, 'rows')
       if (allocated(error)) return
       call make_part(case, path, 1, 7, [3, 4])
@@ -535,7 +559,7 @@ contains
       call make_part(case, path, 1, 7, [2])
       call inspect_counts(path, file, exists, error)
       whole = contents(path)
-      call run_rows(case, members(3:4), 3, rows, work, error, 1, 0)
+      call run_some_rows(case, members(3:4), 3, rows, work, error)
       call write_file('out/z.checkpoint', whole//'a block of another run')
       call append_counts(file, rows, work, error)
       call check_error(error, 'z.checkpoint: has changed since this run began: does another run write it?', 'two runs')
@@ -597,11 +621,11 @@ contains
       call refuse(case, other, elsewhere, 'the intensity measure')
       other%records_input%polarity = 'reversed'
       call refuse(case, other, elsewhere, 'the polarity')
-      other%records(1)%acceleration(100) = 2.0_wp
+      other%suite%records(1)%acceleration(100) = 2.0_wp
       call refuse(case, other, shaken, 'a sample of a record')
-      other%records(2)%dt = 0.01_wp
+      other%suite%records(2)%dt = 0.01_wp
       call refuse(case, other, shaken, 'the step of a record')
-      other%records(2)%name = 'three'
+      other%suite%records(2)%name = 'three'
       call refuse(case, other, shaken, 'the name of a record')
       other%solver%gravity = 9.8_wp
       call refuse(case, other, elsewhere, 'gravity')
@@ -731,7 +755,7 @@ contains
       call inspect_counts(path, file, exists, error)
       from = first
       do i = 1, size(blocks)
-         call run_rows(case, members(from:from + blocks(i) - 1), from, rows, work, error, 1, 0)
+         call run_some_rows(case, members(from:from + blocks(i) - 1), from, rows, work, error)
          call append_counts(file, rows, work, error)
          from = from + blocks(i)
       end do

@@ -6,10 +6,11 @@ program test_typology
    use dondolo_fractiles, only : bits_within, fractiles_type, new_fractiles
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
-   use dondolo_stripes, only : check_thresholds, stripes_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_study, only : check_thresholds
    use dondolo_text, only : to_text
    use dondolo_typology, only : combination_type, combine_population, fractile_shares, typology_type, whole_population
-   use dondolo_wall_curves, only : new_wall_curves, wall_curves_type
+   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
    implicit none
 
    !> Levels of all populations here
@@ -54,23 +55,24 @@ contains
       !> The wall
       type(wall_curves_type) :: wall
 
-      type(fragility_type) :: curves(size(rows))
+      type(mechanism_counts_type) :: counts(size(rows))
       type(error_type), allocatable :: error
       character(len=:), allocatable :: name
-      real(wp) :: chance(size(rows))
-      integer :: n(size(rows)), i
+      integer :: i
 
-      n = 44
-      if (present(histories)) n = histories
-      chance = 1.0_wp
-      if (present(p_occ)) chance = p_occ
+      counts%mechanism = mechanisms
+      counts%histories = 44
+      if (present(histories)) counts%histories = histories
+      if (present(p_occ)) counts%p_occ = p_occ
       name = ''
       if (present(group)) name = group
       do i = 1, size(rows)
-         call fit_fragility(curves(i), x, real(z(:, rows(i)), wp), spread(real(n(i), wp), 1, size(x)), error)
+         counts(i)%collapses = z(:, rows(i))
+         call fit_fragility(counts(i)%curve, x, real(z(:, rows(i)), wp), &
+            & spread(real(counts(i)%histories, wp), 1, size(x)), error)
          call check_ok(error, 'fit')
       end do
-      call new_wall_curves(wall, name, weight, mechanisms, chance, curves, z(:, rows), n, x, error)
+      call new_wall_curves(wall, name, weight, counts, x, error)
       call check_ok(error, 'wall')
    end function wall_of
 
@@ -116,8 +118,8 @@ contains
       call check(fit%status == 'separated', 'one mechanism')
       do i = 1, 200
          p_occ = 0.005_wp*real(i, wp)
-         call new_wall_curves(wall, '', 1.0_wp + p_occ, ['one_sided'], [p_occ], [fit], &
-            & reshape([0, 44, 44], [3, 1]), [44], x, error)
+         call new_wall_curves(wall, '', 1.0_wp + p_occ, [mechanism_counts_type('one_sided', p_occ, fit, &
+            & [0, 44, 44], 44)], x, error)
          call check_ok(error, 'wall')
          call combine_population(curves, [wall], x, error)
          call check_ok(error, 'population')

@@ -23,7 +23,7 @@ module dondolo_boundary
    private
 
    public :: parcel_type, send, take
-   public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_threads, check_rotations, &
+   public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_rotations, &
       & check_spectrum, check_room, check_parcel, check_trace, check_interrupt
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
@@ -269,17 +269,6 @@ contains
       call look_for_interrupt(interrupted)
       if (interrupted == 1) call raise_failure(error, 'interrupted')
    end subroutine check_interrupt
-
-   !> Check a number of threads
-   subroutine check_threads(threads, error)
-      !> Number
-      integer(c_int), intent(in) :: threads
-      !> It makes no sense
-      type(error_type), allocatable, intent(out) :: error
-
-      if (threads < 0 .or. threads > 4096) &
-         & call raise_input(error, 'threads = '//to_text(threads)//': must lie between 0 (all) and 4096')
-   end subroutine check_threads
 
    !> Check the oscillators of a response spectrum
    subroutine check_spectrum(periods, damping, error)

@@ -221,11 +221,12 @@ end subroutine describe_measure
 ! Intensities of records, in the unit of the levels
 subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, threads, values, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_room, check_threads, report, set_records
+   use dondolo_boundary, only : check_room, report, set_records
    use dondolo_error, only : error_type
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_record, only : record_type
-   use dondolo_stripes, only : measure_records
+   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_threads, only : check_threads
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: im, names
@@ -235,6 +236,7 @@ subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, thre
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
    type(measure_type) :: measure
+   type(suite_type) :: suite
    type(record_type), allocatable :: records(:)
    type(error_type), allocatable :: error
 
@@ -244,7 +246,8 @@ subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, thre
    if (.not. allocated(error)) call new_measure(measure, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
-      values = measure_records(measure, records, threads)/measure%level_size(gravity)
+      call new_suite(suite, records)
+      values = suite%values(measure, threads)/measure%level_size(gravity)
    end if
    call report(error, stat, message)
 end subroutine intensities
@@ -252,11 +255,12 @@ end subroutine intensities
 ! Values that plan and run_block scale records by
 subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, values, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_room, check_threads, report, set_records
+   use dondolo_boundary, only : check_room, report, set_records
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_stripes, only : measure_records
+   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_threads, only : check_threads
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: im, names
@@ -266,6 +270,7 @@ subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, v
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
    type(scaling_type) :: scaling
+   type(suite_type) :: suite
    type(record_type), allocatable :: records(:)
    type(error_type), allocatable :: error
 
@@ -275,7 +280,8 @@ subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, v
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
-      values = measure_records(scaling%measure, records, threads)
+      call new_suite(suite, records)
+      values = suite%values(scaling%measure, threads)
    end if
    call report(error, stat, message)
 end subroutine scaling_values
@@ -621,7 +627,7 @@ end subroutine simulate
 subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_room, check_threads, pack_warnings, parcel_type, report, send, set_records, &
+   use dondolo_boundary, only : as_solver, check_room, pack_warnings, parcel_type, report, send, set_records, &
       & set_walls
    use dondolo_error, only : add_place, error_type
    use dondolo_plausibility, only : wall_warning_type
@@ -629,6 +635,9 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_study, only : new_study, study_type
+   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_threads, only : check_threads
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : scale_warning_type, warn_of_records
@@ -641,7 +650,8 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
-   real(c_double), allocatable :: peaks(:)
+   type(suite_type), target :: suite
+   type(study_type) :: study
    type(scaling_type) :: scaling
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
@@ -664,30 +674,31 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) then
       call set_records(records, names, lengths, dt, acceleration)
-      peaks = records%pga()
+      call new_suite(suite, records)
+      call new_study(study, suite, scaling, levels, polarity, as_solver(engine, settings), threads)
+      study%values = values
       do i = 1, w
          ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
          fresh = i == 1 .or. scaling%needs_wall()
          if (.not. fresh) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
             & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
          if (fresh) then
-            call plan_stripes(stripes, walls(i), records, levels, scaling, values, peaks, polarity, &
-               & as_solver(engine, settings), error)
+            call plan_stripes(stripes, walls(i), study, error)
          else
-            call check_limit(as_solver(engine, settings), walls(i)%mechanism, error)
+            call check_limit(study%solver, walls(i)%mechanism, error)
          end if
          if (allocated(error)) then
             if (w > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
             exit
          end if
          histories(i) = size(stripes%record)
-         call scales%look(stripes, records)
+         call scales%look(stripes, suite%records)
          call oddities%look(walls(i))
       end do
    end if
    if (.not. allocated(error)) then
       call oddities%warn(warnings)
-      call warn_of_records(records, gravity(1), warnings)
+      call warn_of_records(suite%records, gravity(1), warnings)
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
@@ -704,13 +715,13 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
       & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, set_walls
-   use dondolo_ensemble, only : team_of
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_solver, only : solver_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_study, only : new_study, study_type
+   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_threads, only : team_of
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
@@ -723,10 +734,9 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    character(len=2048), intent(out) :: message
    type(wall_type), allocatable :: walls(:)
    type(record_type), allocatable :: records(:)
-   real(c_double), allocatable :: peaks(:)
-   type(record_set_type) :: set
+   type(suite_type), target :: suite
+   type(study_type) :: study
    type(scaling_type) :: scaling
-   type(solver_type) :: solver
    type(stripes_type), allocatable :: stripes(:)
    type(work_type) :: total
    type(error_type), allocatable :: error
@@ -738,7 +748,6 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    impacts = 0
    time_of_peak = 0
    edp_error = 0
-   solver = as_solver(engine, settings)
    call check_room(error, w, r, n, 2.0_c_double*w*r*m)
    if (.not. allocated(error)) then
       allocate (walls(w), stripes(w), before(w + 1))
@@ -747,13 +756,14 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    if (.not. allocated(error)) call new_scaling(scaling, im, error)
    if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
    if (.not. allocated(error)) then
-      call new_record_set(set, records)
-      peaks = records%pga()
+      call new_suite(suite, records)
+      call new_study(study, suite, scaling, levels, polarity, as_solver(engine, settings), threads)
+      study%values = values
       before(1) = 0
    end if
    do i = 1, w
       if (allocated(error)) exit
-      call plan_stripes(stripes(i), walls(i), records, levels, scaling, values, peaks, polarity, solver, error)
+      call plan_stripes(stripes(i), walls(i), study, error)
       if (.not. allocated(error)) before(i + 1) = before(i) + size(stripes(i)%response)
    end do
    if (.not. allocated(error)) then
@@ -761,15 +771,15 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
       crew = team_of(threads, huge(1))
       shared_out = w - modulo(w, crew)
       !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out > 0) default(none) &
-      !$omp & shared(shared_out, stripes, walls, records, set, solver, first, count, before)
+      !$omp & shared(shared_out, stripes, walls, study, first, count, before)
       do i = 1, shared_out
-         call run_histories(stripes(i), walls(i), records, set, solver, max(first - before(i), 1), &
-            & min(first + count - 1 - before(i), size(stripes(i)%response)), 1)
+         call run_histories(stripes(i), walls(i), study, 1, max(first - before(i), 1), &
+            & min(first + count - 1 - before(i), size(stripes(i)%response)))
       end do
       !$omp end parallel do
       do i = shared_out + 1, w
-         call run_histories(stripes(i), walls(i), records, set, solver, max(first - before(i), 1), &
-            & min(first + count - 1 - before(i), size(stripes(i)%response)), threads)
+         call run_histories(stripes(i), walls(i), study, threads, max(first - before(i), 1), &
+            & min(first + count - 1 - before(i), size(stripes(i)%response)))
       end do
       done = 0
       do i = 1, w
@@ -792,14 +802,15 @@ end subroutine run_block
 subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
       & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_threads, pack_response, report, set_records, &
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, &
       & set_walls
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_suite, only : new_suite, suite_type
    use dondolo_text, only : to_text
+   use dondolo_threads, only : check_threads
    use dondolo_wall, only : wall_type
    implicit none
    !f2py threadsafe
@@ -813,7 +824,7 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    type(record_type), allocatable :: records(:)
    type(solver_type) :: solver
    type(ensemble_type) :: ensemble
-   type(record_set_type) :: set
+   type(suite_type) :: suite
    type(error_type), allocatable :: error
    real(c_double), allocatable :: edp_error(:)
    integer :: i
@@ -842,8 +853,8 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    if (.not. allocated(error)) then
       ensemble%record = record
       ensemble%scale = scale
-      call new_record_set(set, records)
-      call run_ensemble(ensemble, walls(1)%mechanism, records, set, solver, threads)
+      call new_suite(suite, records)
+      call run_ensemble(ensemble, walls(1)%mechanism, suite, solver, threads)
       allocate (edp_error(k))
       call pack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
       call check_interrupt(error)
@@ -939,7 +950,7 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
+   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
    use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : fit_warning_type
    implicit none
@@ -957,7 +968,7 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   character(len=mechanism_length), allocatable :: mechanisms(:)
+   type(mechanism_counts_type), allocatable :: counts(:)
    real(c_double), allocatable :: parts(:, :), whole(:, :)
    integer :: first, last, i
 
@@ -965,24 +976,24 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    sizes = 0
    call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
    if (.not. allocated(error)) then
-      allocate (walls(w), curves(r), mechanisms(r), whole(m, w))
+      allocate (walls(w), curves(r), counts(r), whole(m, w))
       call split_lines(texts, words)
    end if
    do i = 1, r
       if (allocated(error)) exit
-      mechanisms(i) = words%line(3*i - 1)%text
       call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
          & spread(real(histories(i), c_double), 1, m), error)
       if (allocated(error)) exit
       call fits%look(curves(i), words%line(3*i - 2)%text)
+      counts(i) = mechanism_counts_type(words%line(3*i - 1)%text, p_occ(i), curves(i), collapses(:, i), histories(i))
    end do
    last = 0
    do i = 1, w
       if (allocated(error)) exit
       first = last + 1
       last = last + rows(i)
-      call new_wall_curves(walls(i), words%line(3*first)%text, weights(first), mechanisms(first:last), &
-         & p_occ(first:last), curves(first:last), collapses(:, first:last), histories(first:last), levels, error)
+      call new_wall_curves(walls(i), words%line(3*first)%text, weights(first), counts(first:last), levels, &
+         & error)
       parts = walls(i)%fractions()
       whole(:, i) = parts(:, size(parts, 2))
    end do
@@ -1144,12 +1155,12 @@ subroutine read_case(path, handle, sizes, stat, message)
          members(1)%group = ''
       end if
    end if
-   if (.not. allocated(error)) call check_parcel(error, size(members), case%records)
+   if (.not. allocated(error)) call check_parcel(error, size(members), case%suite%records)
    if (.not. allocated(error)) then
       if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
       scale = 1
       if (case%job%task == 'history') scale = case%history_scale()
-      parcel%integers = [size(members), size(case%stripes%levels), size(case%records), &
+      parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
          & size(case%stripes%thresholds), case%job%threads, case%history%record]
       parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
          & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
@@ -1162,7 +1173,7 @@ subroutine read_case(path, handle, sizes, stat, message)
       call lines%add(trim(case%solver%solver%engine))
       parcel%text = pack_lines(lines)
       call pack_members(members, parcel)
-      call pack_records(case%records, parcel)
+      call pack_records(case%suite%records, parcel)
       parcel%text = parcel%text//pack_lines(case%notes)
       call send(parcel, handle, sizes)
    end if

@@ -5,6 +5,7 @@ program shortcuts
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use plain_motion, only : shortcut_type, simulate_plain
    implicit none
@@ -25,7 +26,8 @@ program shortcuts
       & shortcut_type('nothing after the record', no_tail=.true.), &
       & shortcut_type('all of these', 1.0e-4_wp, .true., .true., 2, .true., .true.)]
 
-   type(case_type) :: case
+   type(case_type), target :: case
+   type(study_type) :: study
    type(error_type), allocatable :: error
    type(response_type) :: response
    character(len=:), allocatable :: file
@@ -39,17 +41,18 @@ program shortcuts
       write (error_unit, '(a)') 'dondolo-shortcuts: '//error%message
       stop 1, quiet=.true.
    end if
-   if (any(abs(case%records%dt - 0.5_wp*coarse) > 1.0e-9_wp)) then
+   if (any(abs(case%suite%records%dt - 0.5_wp*coarse) > 1.0e-9_wp)) then
       write (error_unit, '(a)') 'dondolo-shortcuts: records must be sampled at 0.005 s'
       stop 1, quiet=.true.
    end if
+   call case%make_study(study)
    write (output_unit, '(a)') 'shortcut,record,im_level,edp,collapsed'
    do k = 1, size(studied)
       do j = 1, size(case%stripes%levels)
-         do i = 1, size(case%records)
-            call simulate_plain(case%wall%mechanism, case%records(i), &
-               & case%scale_to(i, case%stripes%levels(j)), case%solver%solver, studied(k), response)
-            write (output_unit, '(*(a))') trim(studied(k)%name), ',', case%records(i)%name, ',', &
+         do i = 1, size(case%suite%records)
+            call simulate_plain(case%wall%mechanism, case%suite%records(i), &
+               & study%scale_to(case%wall, i, case%stripes%levels(j)), case%solver%solver, studied(k), response)
+            write (output_unit, '(*(a))') trim(studied(k)%name), ',', case%suite%records(i)%name, ',', &
                & to_text(case%stripes%levels(j)), ',', to_text(response%edp), ',', &
                & to_text(merge(1, 0, response%collapsed))
          end do

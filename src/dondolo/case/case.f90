@@ -13,14 +13,14 @@ module dondolo_case
    use dondolo_paths, only : beside
    use dondolo_population_group, only : echo_population, read_population_group
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_records_group, only : echo_records, read_records_group, records_input_type
    use dondolo_simulate, only : check_history
    use dondolo_settings, only : settings_type
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
-   use dondolo_stripes, only : measure_records
    use dondolo_stripes_group, only : check_states, echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_study, only : new_study, study_type
+   use dondolo_suite, only : new_suite, suite_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
@@ -53,16 +53,10 @@ module dondolo_case
       type(survey_type) :: survey
       !> What is said of the accelerograms
       type(records_input_type) :: records_input
-      !> The accelerograms
-      type(record_type), allocatable :: records(:)
+      !> The accelerograms, measured where they are scaled to levels
+      type(suite_type) :: suite
       !> Intensity measure and levels
       type(stripes_input_type) :: stripes
-      !> The records joined, where there are many histories
-      type(record_set_type) :: record_set
-      !> Values of the measure for the records as they stand, where records are scaled to levels
-      real(wp), allocatable :: values(:)
-      !> PGA of the records [m/s2], where there are many histories
-      real(wp), allocatable :: peaks(:)
       !> How the motions are computed
       type(solver_input_type) :: solver
       !> Which time history
@@ -70,8 +64,10 @@ module dondolo_case
       !> How its tables were read, where there is something to say of it
       type(lines_type) :: notes
    contains
-      !> Factor that scales a record to a level
-      procedure :: scale_to
+      !> Are records scaled to levels?
+      procedure :: is_scaled
+      !> What walls are tried with
+      procedure :: make_study
       !> Factor on the record of the time history, with the sign of its polarity
       procedure :: history_scale
       !> Path of the population
@@ -132,18 +128,19 @@ contains
    !> Survey the population
    subroutine survey(case, rows, error)
       !> The case: its survey is made
-      type(case_type), intent(inout) :: case
+      type(case_type), intent(inout), target :: case
       !> First and last row that are to be run; all if absent
       integer, intent(in), optional :: rows(2)
       !> Everything that is wrong with the population
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       integer :: range(2)
 
       range = [1, huge(1)]
       if (present(rows)) range = rows
-      call survey_population(case%survey, case%population_path(), case%records_input, case%records, case%values, &
-         & case%peaks, case%stripes, case%solver, range, error)
+      call case%make_study(study)
+      call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       case%survey%is_part = present(rows)
@@ -248,10 +245,12 @@ contains
       type(group_type), intent(in) :: group
       !> The case: its records are read
       type(case_type), intent(inout) :: case
-      !> What is wrong with them
+      !> What is wrong with them, or too little memory
       type(error_type), allocatable, intent(out) :: error
 
+      type(record_type), allocatable :: records(:)
       character(len=:), allocatable :: note
+      integer :: i
 
       call check_file(group, 'catalogue', case%records_input%catalogue, error)
       if (allocated(error)) return
@@ -259,8 +258,11 @@ contains
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), case%records, error, note)
+      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note)
+      if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
+         & i=1, size(records))]), error)
       if (allocated(error)) return
+      call new_suite(case%suite, records)
       if (len(note) > 0) call case%notes%add(note)
    end subroutine read_records
 
@@ -296,22 +298,15 @@ contains
       type(namelist_type), intent(in) :: namelist
       !> The case
       type(case_type), intent(inout) :: case
-      !> No such record, or too little memory
+      !> No such record
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
-      integer :: i
 
       group = namelist%group('history')
-      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%records, error)
-      if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(case%records(i)%acceleration), wp), &
-         & i=1, size(case%records))]), error)
+      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%suite%records, error)
       if (allocated(error)) return
-      if (case%job%task /= 'history' .or. allocated(case%history%im_level)) &
-         & case%values = measure_records(case%stripes%scaling%measure, case%records, case%job%threads)
-      if (case%job%task == 'history') return
-      call new_record_set(case%record_set, case%records)
-      case%peaks = case%records%pga()
+      if (case%is_scaled()) call case%suite%measure(case%stripes%scaling%measure, case%job%threads)
    end subroutine measure_case
 
    !> Check that no record is scaled beyond all measure
@@ -319,17 +314,17 @@ contains
       !> The file
       type(namelist_type), intent(in) :: namelist
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> A scale that is too large
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
+      type(study_type) :: study
       real(wp) :: scale
-      integer :: i
 
       if (case%job%task == 'history') then
          group = namelist%group('history')
-         associate (record => case%records(case%history%record))
+         associate (record => case%suite%records(case%history%record))
             scale = abs(case%history_scale())
             if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
             if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
@@ -343,41 +338,53 @@ contains
          end associate
          return
       end if
+      call case%make_study(study)
+      call study%check_scales(case%wall, error)
       group = namelist%group('stripes')
-      associate (highest => case%stripes%levels(size(case%stripes%levels)))
-         do i = 1, size(case%records)
-            if (case%scale_to(i, highest)*case%peaks(i) <= largest_acceleration) cycle
-            call raise_input(error, group%place()//': levels = '//to_text(highest)//': scales record '''// &
-               & case%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2'// &
-               & group%in_line(trim(merge('levels', 'last  ', group%has('levels')))))
-            return
-         end do
-      end associate
+      if (allocated(error)) error%message = group%place()//': '//error%message// &
+         & group%in_line(trim(merge('levels', 'last  ', group%has('levels'))))
    end subroutine check_scales
 
-   !> Factor that scales a record to a level
-   pure function scale_to(self, record, level) result(scale)
-      !> The case, of one wall
+   !> Are records scaled to levels?
+   pure logical function is_scaled(self)
+      !> The case
       class(case_type), intent(in) :: self
-      !> Number of the record
-      integer, intent(in) :: record
-      !> Level, in the unit of the intensity measure
-      real(wp), intent(in) :: level
-      !> The factor; 0 for a record without motion
-      real(wp) :: scale
 
-      scale = self%stripes%scaling%factor(level, self%values(record), self%wall)
-   end function scale_to
+      is_scaled = self%job%task /= 'history' .or. allocated(self%history%im_level)
+   end function is_scaled
+
+   !> What walls are tried with
+   subroutine make_study(self, study, threads)
+      !> The case, which must outlive the study
+      class(case_type), intent(in), target :: self
+      !> The study
+      type(study_type), intent(out) :: study
+      !> Number of threads instead of the case's
+      integer, intent(in), optional :: threads
+
+      integer :: team
+
+      team = self%job%threads
+      if (present(threads)) team = threads
+      call new_study(study, self%suite, self%stripes%scaling, self%stripes%levels, self%records_input%polarity, &
+         & self%solver%solver, team)
+      study%thresholds = self%stripes%thresholds
+      study%keeps_histories = self%job%task == 'stripes' .or. self%job%histories
+      study%solver%collapses_only = size(study%thresholds) == 1 .and. .not. study%keeps_histories
+   end subroutine make_study
 
    !> Factor on the record of the time history, with the sign of its polarity
-   pure function history_scale(self) result(scale)
+   function history_scale(self) result(scale)
       !> The case
       class(case_type), intent(in) :: self
       !> The factor
       real(wp) :: scale
 
+      real(wp) :: values(size(self%suite%records))
+
       if (allocated(self%history%im_level)) then
-         scale = self%scale_to(self%history%record, self%history%im_level)
+         values = self%suite%values(self%stripes%scaling%measure, self%job%threads)
+         scale = self%stripes%scaling%factor(self%history%im_level, values(self%history%record), self%wall)
       else
          scale = self%history%scale
       end if
@@ -408,7 +415,7 @@ contains
          call echo_wall(self%wall%input, settings)
       end if
       call echo_records(self%records_input, settings)
-      if (self%job%task /= 'history' .or. allocated(self%history%im_level)) call echo_stripes(self%stripes, settings)
+      if (self%is_scaled()) call echo_stripes(self%stripes, settings)
       call echo_solver(self%solver, settings)
       if (self%job%task == 'history') call echo_history(self%history, settings)
    end subroutine echo

@@ -10,7 +10,7 @@ module dondolo_combine_rows
    use dondolo_results, only : results_type, shown_rows
    use dondolo_typology, only : combination_type
    use dondolo_wall, only : mechanism_names
-   use dondolo_wall_curves, only : mechanism_length, new_wall_curves, wall_curves_type
+   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
    use dondolo_warnings, only : fit_warning_type, warn_of_records
    implicit none
    private
@@ -45,7 +45,7 @@ contains
          results%typologies(:, k) = combination%typologies
       end do
       call case%survey%oddities%warn(results%warnings)
-      call warn_of_records(case%records, case%solver%gravity, results%warnings)
+      call warn_of_records(case%suite%records, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, thresholds), results%warnings)
    end subroutine combine_rows
@@ -137,23 +137,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(wall_curves_type) :: wall
-      type(fragility_type) :: curve(size(rows))
-      character(len=mechanism_length) :: mechanism(size(rows))
+      type(mechanism_counts_type) :: counts(size(rows))
       character(len=:), allocatable :: group
-      real(wp) :: p_occ(size(rows))
-      integer :: reached(size(case%stripes%levels), size(rows)), histories(size(rows)), m
+      integer :: m
 
       group = ''
       if (rows(1)%group > 0) group = case%survey%groups%line(rows(1)%group)%text
       do m = 1, size(rows)
-         mechanism(m) = mechanism_names(rows(m)%mechanism)
-         p_occ(m) = rows(m)%p_occ
-         curve(m) = rows(m)%curve(threshold)
-         reached(:, m) = rows(m)%reached(:, threshold)
-         histories(m) = rows(m)%histories
+         counts(m) = mechanism_counts_type(mechanism_names(rows(m)%mechanism), rows(m)%p_occ, &
+            & rows(m)%curve(threshold), rows(m)%reached(:, threshold), rows(m)%histories)
       end do
-      call new_wall_curves(wall, group, rows(1)%weight, mechanism, p_occ, curve, reached, histories, &
-         & case%stripes%levels, error, combination%is_summing())
+      call new_wall_curves(wall, group, rows(1)%weight, counts, case%stripes%levels, error, combination%is_summing())
       if (.not. allocated(error)) call combination%add(wall)
    end subroutine add_wall
 

@@ -5,6 +5,7 @@ module dondolo_counts
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type
+   use dondolo_stripe_counts, only : stripe_counts_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -25,7 +26,7 @@ module dondolo_counts
    end type shape_type
 
    !> Counts of a row
-   type :: counts_type
+   type, extends(stripe_counts_type) :: counts_type
       !> Number of the row
       integer :: row = 0
       !> Is it a further mechanism of the wall in the row before?
@@ -38,12 +39,6 @@ module dondolo_counts
       real(wp) :: weight = 0.0_wp
       !> Probability that the mechanism can occur
       real(wp) :: p_occ = 0.0_wp
-      !> Histories of a stripe
-      integer :: histories = 0
-      !> Histories that reach a threshold (levels, thresholds)
-      integer, allocatable :: reached(:, :)
-      !> Curve of each threshold
-      type(fragility_type), allocatable :: curve(:)
       !> All histories (histories, levels), if they are kept
       type(response_type), allocatable :: response(:, :)
    end type counts_type

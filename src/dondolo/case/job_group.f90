@@ -4,7 +4,7 @@ module dondolo_job_group
    use dondolo_namelist_group, only : group_type
    use dondolo_settings, only : settings_type
    use dondolo_text, only : join, lower, to_text
-   use dondolo_ensemble, only : largest_threads
+   use dondolo_threads, only : largest_threads
    implicit none
    private
 

@@ -3,7 +3,7 @@ module dondolo_records_group
    use dondolo_error, only : error_type, raise_input
    use dondolo_namelist_group, only : group_type
    use dondolo_settings, only : settings_type
-   use dondolo_stripes, only : polarity_names
+   use dondolo_study, only : polarity_names
    use dondolo_text, only : join, lower
    implicit none
    private

@@ -229,7 +229,7 @@ contains
       integer :: i
 
       associate (response => results%response, trace => results%trace)
-         call files%line('# record: '//case%records(case%history%record)%name)
+         call files%line('# record: '//case%suite%records(case%history%record)%name)
          call files%line('# scale: '//to_table(case%history_scale()))
          call files%line('# edp: '//to_table(response%edp))
          call files%line('# collapsed: '//to_text(merge(1, 0, response%collapsed)))

@@ -10,6 +10,7 @@ module dondolo_row_reports
       & stripes_row, wall_cells, wall_head, wall_row
    use dondolo_result_files, only : result_files_type
    use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_table
    implicit none
    private
@@ -127,7 +128,7 @@ contains
    !> All histories of a row
    subroutine write_histories(case, member, row, files, error)
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
@@ -137,19 +138,20 @@ contains
       !> They cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(stripes_type) :: plan
       character(len=:), allocatable :: cells, last
       integer :: i, j
 
-      call plan_stripes(plan, member%wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
-         & case%peaks, case%records_input%polarity, case%solver%solver, error)
+      call case%make_study(study)
+      call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
       cells = wall_cells(member%wall)
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
-            call files%line(history_row(cells, case%records(plan%record(i))%name, plan%polarity(i), plan%im, &
+            call files%line(history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j))//last)
          end do
       end do

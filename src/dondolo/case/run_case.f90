@@ -3,7 +3,6 @@
 module dondolo_run_case
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type, raise_failure
-   use dondolo_fragility, only : fit_fragility
    use dondolo_kinds, only : wp
    use dondolo_memory, only : raise_shortage
    use dondolo_plausibility, only : wall_warning_type
@@ -12,8 +11,9 @@ module dondolo_run_case
    use dondolo_results, only : results_type
    use dondolo_run_population, only : run_population
    use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : plan_stripes, planned_work, run_histories, stripes_type
+   use dondolo_stripes, only : multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_survey, only : check_size
+   use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
@@ -51,9 +51,9 @@ contains
       end if
       select case (case%job%task)
       case ('history')
-         call warn_of_records(case%records(case%history%record:case%history%record), case%solver%gravity, &
+         call warn_of_records(case%suite%records(case%history%record:case%history%record), case%solver%gravity, &
             & results%warnings)
-         call simulate(case%wall%mechanism, case%records(case%history%record), case%history_scale(), &
+         call simulate(case%wall%mechanism, case%suite%records(case%history%record), case%history_scale(), &
             & case%solver%solver, results%response, results%trace)
          if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
          if (allocated(error)) return
@@ -68,7 +68,7 @@ contains
    !> What can be told of the work of a case before it is run
    subroutine plan_case(case, work, scales, error)
       !> The case, its task 'stripes' or 'typology'
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Work of all walls, see planned_work; a second run to estimate errors is not counted
       type(work_type), intent(out) :: work
       !> What there is to say of scale factors
@@ -76,10 +76,12 @@ contains
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(population_reader_type) :: reader
       type(member_type) :: member
       logical :: found
 
+      call case%make_study(study)
       if (case%job%task == 'stripes') then
          call plan_wall(case%wall)
          return
@@ -105,10 +107,10 @@ contains
 
          type(stripes_type) :: stripes
 
-         call choose_histories(case, wall, stripes, error)
+         call plan_stripes(stripes, wall, study, error)
          if (allocated(error)) return
-         call work%add(planned_work(stripes, wall, case%record_set))
-         call scales%look(stripes, case%records)
+         call work%add(planned_work(stripes, wall, study))
+         call scales%look(stripes, case%suite%records)
       end subroutine plan_wall
 
    end subroutine plan_case
@@ -116,7 +118,7 @@ contains
    !> Stripes of the one wall, all histories kept
    subroutine run_stripes(case, results, error, team, progress)
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its results
       type(results_type), intent(inout) :: results
       !> What cannot be run
@@ -126,47 +128,21 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
+      type(study_type) :: study
       type(stripes_type) :: stripes
       type(scale_warning_type) :: scales
-      real(wp), allocatable :: histories(:)
-      integer :: k
 
-      call choose_histories(case, case%wall, stripes, error)
+      call case%make_study(study, team)
+      call multiple_stripe(stripes, case%wall, study, error, progress)
+      if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, error)
       if (allocated(error)) return
-      call run_histories(stripes, case%wall, case%records, case%record_set, case%solver%solver, 1, &
-         & size(stripes%response), team, progress)
-      associate (row => results%row, thresholds => case%stripes%thresholds)
-         row%histories = size(stripes%record)
-         allocate (row%reached(size(stripes%levels), size(thresholds)), row%curve(size(thresholds)))
-         histories = spread(real(row%histories, wp), 1, size(stripes%levels))
-         do k = 1, size(thresholds)
-            row%reached(:, k) = stripes%exceedances(thresholds(k))
-            call fit_fragility(row%curve(k), stripes%levels, real(row%reached(:, k), wp), histories, error)
-            if (allocated(error)) return
-         end do
-         results%work = stripes%work
-         call warn_of_records(case%records, case%solver%gravity, results%warnings)
-         call scales%look(stripes, case%records)
-         call scales%warn(results%warnings)
-         call warn_of_fit(case%wall, stripes, row%curve(size(thresholds)), results%warnings)
-         call warn_of_errors(stripes, case%records, case%solver%solver%edp_limit, results%warnings)
-      end associate
+      results%work = stripes%work
+      call warn_of_records(case%suite%records, case%solver%gravity, results%warnings)
+      call scales%look(stripes, case%suite%records)
+      call scales%warn(results%warnings)
+      call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
+      call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
-
-   !> Choose the histories of a wall
-   subroutine choose_histories(case, wall, stripes, error)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> The wall
-      type(wall_type), intent(in) :: wall
-      !> The plan
-      type(stripes_type), intent(out) :: stripes
-      !> What cannot be run
-      type(error_type), allocatable, intent(out) :: error
-
-      call plan_stripes(stripes, wall, case%records, case%stripes%levels, case%stripes%scaling, case%values, &
-         & case%peaks, case%records_input%polarity, case%solver%solver, error)
-   end subroutine choose_histories
 
 end module dondolo_run_case

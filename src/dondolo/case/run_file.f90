@@ -67,8 +67,8 @@ contains
       call json%open_array('inputs')
       call put_input('case', case%file)
       call put_input('catalogue', beside(case%records_input%catalogue, case%file))
-      do i = 1, size(case%records)
-         if (allocated(case%records(i)%file)) call put_input('record', case%records(i)%file)
+      do i = 1, size(case%suite%records)
+         if (allocated(case%suite%records(i)%file)) call put_input('record', case%records(i)%file)
       end do
       if (allocated(case%population_file)) call put_input('population', case%population_path())
       call json%close_array()
@@ -108,7 +108,7 @@ contains
 
       associate (response => results%response)
          call json%open_object('history')
-         call json%put('record', case%records(case%history%record)%name)
+         call json%put('record', case%suite%records(case%history%record)%name)
          call json%put('scale', case%history_scale())
          call json%put('edp', response%edp)
          call json%put('collapsed', response%collapsed)

@@ -8,7 +8,6 @@ module dondolo_run_population
    use dondolo_combine_rows, only : combine_rows
    use dondolo_counts, only : counts_type, shape_type
    use dondolo_counts_file, only : append_counts, counts_file_type, counts_key_type, create_counts, inspect_counts
-   use dondolo_ensemble, only : team_of
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_kinds, only : wp
@@ -19,9 +18,11 @@ module dondolo_run_population
    use dondolo_result_files, only : make_folders
    use dondolo_results, only : results_type
    use dondolo_run_rows, only : run_rows
-   use dondolo_survey, only : check_size, fingerprint_lines
+   use dondolo_study, only : study_type
+   use dondolo_survey, only : check_size, fingerprint_lines, number_of_group
    use dondolo_system, only : cut_file, remove_file
    use dondolo_text, only : to_text
+   use dondolo_threads, only : team_of
    use dondolo_version, only : dondolo_version_text
    use dondolo_work, only : work_type
    implicit none
@@ -148,10 +149,10 @@ contains
       integer :: i
 
       key%walls = case%survey%fingerprint%text()
-      do i = 1, size(case%records)
-         call records%add_text(case%records(i)%name)
-         call records%add_reals([case%records(i)%dt])
-         call records%add_reals(case%records(i)%acceleration)
+      do i = 1, size(case%suite%records)
+         call records%add_text(case%suite%records(i)%name)
+         call records%add_reals([case%suite%records(i)%dt])
+         call records%add_reals(case%suite%records(i)%acceleration)
       end do
       key%records = records%text()
       call add_word('version', dondolo_version_text)
@@ -275,7 +276,7 @@ contains
    !> Run block after block
    subroutine run_blocks(case, file, error, team, progress)
       !> The case
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> The file of counts; complete at the end
       type(counts_file_type), intent(inout) :: file
       !> What cannot be run
@@ -285,6 +286,7 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
+      type(study_type) :: study
       type(population_reader_type) :: reader
       type(member_type), allocatable :: members(:)
       type(counts_type), allocatable :: rows(:)
@@ -293,6 +295,7 @@ contains
       logical :: found
 
       associate (survey => case%survey)
+         call case%make_study(study, team)
          block = block_size(case, team)
          call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
          if (.not. allocated(error)) call reader%skip(file%done, error)
@@ -306,8 +309,13 @@ contains
                if (allocated(error)) exit
             end do
             if (allocated(error)) exit
-            call run_rows(case, members, file%done + 1, rows, work, error, team, int(file%work%histories), progress)
-            if (.not. allocated(error)) call append_counts(file, rows, work, error)
+            call run_rows(study, members, rows, work, error, int(file%work%histories), int(survey%histories), progress)
+            if (allocated(error)) exit
+            do i = 1, count
+               rows(i)%row = file%done + i
+               rows(i)%group = number_of_group(survey%groups, members(i)%group)
+            end do
+            call append_counts(file, rows, work, error)
             deallocate (members)
          end do
          call reader%close()

@@ -5,7 +5,7 @@ module dondolo_stripes_group
    use dondolo_namelist_group, only : group_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_settings, only : settings_type
-   use dondolo_stripes, only : check_levels, check_thresholds
+   use dondolo_study, only : check_levels, check_thresholds
    use dondolo_text, only : to_text
    implicit none
    private

@@ -9,13 +9,10 @@ module dondolo_survey
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
-   use dondolo_record, only : record_type
-   use dondolo_records_group, only : records_input_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
-   use dondolo_solver_group, only : solver_input_type
    use dondolo_stripes, only : plan_stripes, stripes_type
-   use dondolo_stripes_group, only : stripes_input_type
+   use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_typology, only : most_groups
    use dondolo_warnings, only : scale_warning_type
@@ -51,24 +48,15 @@ module dondolo_survey
 contains
 
    !> Survey a population
-   subroutine survey_population(survey, file, records_input, records, values, peaks, stripes_input, solver_input, &
-      & rows, error)
+   subroutine survey_population(survey, file, study, gravity, rows, error)
       !> What is found
       type(survey_type), intent(out) :: survey
       !> Path of the table
       character(len=*), intent(in) :: file
-      !> What is said of the accelerograms
-      type(records_input_type), intent(in) :: records_input
-      !> The accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> Values of the intensity measure for them as they stand
-      real(wp), intent(in) :: values(:)
-      !> Their PGA [m/s2]
-      real(wp), intent(in) :: peaks(:)
-      !> Intensity measure and levels
-      type(stripes_input_type), intent(in) :: stripes_input
-      !> How the motions are computed
-      type(solver_input_type), intent(in) :: solver_input
+      !> What the walls are tried with
+      type(study_type), intent(in) :: study
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
       !> First and last row that are to be run
       integer, intent(in) :: rows(2)
       !> Everything that is wrong with the table, or the first level that asks too much
@@ -80,7 +68,7 @@ contains
       type(problems_type) :: problems
       logical :: found
 
-      call reader%open(file, error, solver_input%gravity)
+      call reader%open(file, error, gravity)
       if (allocated(error)) return
       survey%first = rows(1)
       survey%note = reader%table%note()
@@ -91,19 +79,18 @@ contains
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
             call note_group(survey%groups, member%group, error)
-            if (.not. allocated(error)) call check_limit(solver_input%solver, member%wall%mechanism, error)
-            if (.not. allocated(error)) call check_history(solver_input%solver, member%wall%mechanism, .false., error)
+            if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
+            if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)
             call add_place(error, reader%table%place())
          end if
          if (.not. allocated(error)) then
-            call plan_stripes(plan, member%wall, records, stripes_input%levels, stripes_input%scaling, values, &
-               & peaks, records_input%polarity, solver_input%solver, error)
+            call plan_stripes(plan, member%wall, study, error)
             if (allocated(error)) then
                call add_place(error, reader%table%place())
                call reader%close()
                return
             end if
-            call survey%scales%look(plan, records)
+            call survey%scales%look(plan, study%suite%records)
             call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
                & survey%histories = survey%histories + size(plan%scale)

@@ -2,29 +2,20 @@
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
-   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble, team_of
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_intensity, only : measure_type
+   use dondolo_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
-   use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_text, only : join, to_text
+   use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, measure_records, plan_stripes, planned_work, run_histories
-   public :: check_levels, check_polarity, check_thresholds, polarity_names
-
-   !> Polarities a record can be used with
-   character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
+   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories
 
    !> Memory that a history of the plan takes while it is run, once or twice [bytes]
    real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
@@ -55,110 +46,62 @@ module dondolo_stripes
 contains
 
    !> Run a multiple stripe analysis of one wall
-   subroutine multiple_stripe(stripes, wall, records, levels, im, polarity, solver, threads, error, progress)
+   subroutine multiple_stripe(stripes, wall, study, error, progress)
       !> Result
       type(stripes_type), intent(out) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
-      !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> Levels of intensity, positive and increasing, in the unit of the measure
-      real(wp), intent(in) :: levels(:)
-      !> Intensity measure, one of scaling_names
-      character(len=*), intent(in) :: im
-      !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
-      character(len=*), intent(in) :: polarity
-      !> Engine, tolerances and limit
-      type(solver_type), intent(in) :: solver
-      !> Number of threads; 0: all that OpenMP gives
-      integer, intent(in) :: threads
+      !> What it is tried with
+      type(study_type), intent(in) :: study
       !> What cannot be run: `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
-      type(scaling_type) :: scaling
-      type(record_set_type) :: set
-
-      call new_scaling(scaling, im, error)
-      if (.not. allocated(error)) call plan_stripes(stripes, wall, records, levels, scaling, &
-         & measure_records(scaling%measure, records, threads), records%pga(), polarity, solver, error)
-      if (allocated(error)) return
-      call new_record_set(set, records)
-      call run_histories(stripes, wall, records, set, solver, 1, size(stripes%response), threads, progress)
+      call plan_stripes(stripes, wall, study, error)
+      if (.not. allocated(error)) call run_histories(stripes, wall, study, study%threads, progress=progress)
    end subroutine multiple_stripe
 
-   !> Values of a measure for records as they stand
-   function measure_records(measure, records, threads) result(values)
-      !> The measure
-      type(measure_type), intent(in) :: measure
-      !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> Number of threads; 0: all that OpenMP gives
-      integer, intent(in) :: threads
-      !> Its values
-      real(wp) :: values(size(records))
-
-      integer :: i
-
-      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(records))) default(none) &
-      !$omp & shared(measure, records, values)
-      do i = 1, size(records)
-         values(i) = measure%of(records(i))
-      end do
-      !$omp end parallel do
-   end function measure_records
-
    !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
-   !>
-   !> The values of the measure and the PGAs do not depend on the wall: who runs many walls computes them once.
-   subroutine plan_stripes(stripes, wall, records, levels, scaling, values, peaks, polarity, solver, error)
+   subroutine plan_stripes(stripes, wall, study, error)
       !> Result; the responses have room but no values
       type(stripes_type), intent(out) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
-      !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> Levels of intensity, positive and increasing, in the unit of the measure
-      real(wp), intent(in) :: levels(:)
-      !> What records are scaled by
-      type(scaling_type), intent(in) :: scaling
-      !> Values of its measure for the records as they stand
-      real(wp), intent(in) :: values(:)
-      !> Their PGA [m/s2]
-      real(wp), intent(in) :: peaks(:)
-      !> 'as_recorded', 'reversed' or 'both'; a two-sided wall is symmetric, so that 'both' runs once
-      character(len=*), intent(in) :: polarity
-      !> Engine, tolerances and limit
-      type(solver_type), intent(in) :: solver
+      !> What it is tried with
+      type(study_type), intent(in) :: study
       !> What cannot be run: `variable = value: what is allowed`; or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      call check_levels(levels, error)
-      if (.not. allocated(error)) call check_polarity(polarity, error)
-      if (.not. allocated(error)) call check_solver(solver, error)
-      if (.not. allocated(error)) call check_limit(solver, wall%mechanism, error)
-      if (.not. allocated(error)) call check_engine(solver, wall%mechanism, error)
+      integer :: i, j
+
+      call study%check(wall, error)
       if (allocated(error)) return
-      stripes%im = scaling%name
-      stripes%levels = levels
-      call choose_polarities(stripes, size(records), polarity, wall%mechanism%two_sided)
-      call check_room(merge(bytes_of_two_runs, bytes_of_history, solver%estimate_error) &
-         & *real(size(stripes%record), wp)*real(size(levels), wp), error)
-      if (allocated(error)) return
-      call choose_scales(stripes, wall, records, scaling, values, peaks, error)
-      if (allocated(error)) return
-      allocate(stripes%response(size(stripes%record), size(levels)))
+      stripes%im = study%scaling%name
+      stripes%levels = study%levels
+      call choose_polarities(stripes, size(study%suite%records), study%polarity, wall%mechanism%two_sided)
+      associate (histories => size(stripes%record), levels => size(stripes%levels))
+         call check_room(merge(bytes_of_two_runs, bytes_of_history, study%solver%estimate_error) &
+            & *real(histories, wp)*real(levels, wp), error)
+         if (.not. allocated(error)) call study%check_scales(wall, error)
+         if (allocated(error)) return
+         allocate (stripes%scale(histories, levels), stripes%response(histories, levels))
+         do j = 1, levels
+            do i = 1, histories
+               stripes%scale(i, j) = study%scale_to(wall, stripes%record(i), stripes%levels(j))
+            end do
+         end do
+      end associate
    end subroutine plan_stripes
 
    !> What can be told of a plan's work before it is run: histories, sample intervals, and which histories never move
-   pure function planned_work(stripes, wall, set) result(work)
+   pure function planned_work(stripes, wall, study) result(work)
       !> The plan
       type(stripes_type), intent(in) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
-      !> Accelerograms, joined
-      type(record_set_type), intent(in) :: set
+      !> What it is tried with
+      type(study_type), intent(in) :: study
       !> Histories, still ones and intervals; the other counts are 0
       type(work_type) :: work
 
@@ -171,7 +114,7 @@ contains
       high = merge(trigger, huge(trigger), rest%two_sided)
       do j = 1, size(stripes%levels)
          do i = 1, size(stripes%record)
-            associate (record => stripes%record(i))
+            associate (record => stripes%record(i), set => study%suite%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
                ! The wall moves as soon as a sample lies outside what it can bear at rest.
@@ -182,41 +125,39 @@ contains
       end do
    end function planned_work
 
-   !> Run some of the histories of a plan; they are numbered stripe by stripe, from the lowest level
-   subroutine run_histories(stripes, wall, records, set, solver, first, last, threads, progress)
+   !> Run the histories of a plan, or some of them; they are numbered stripe by stripe, from the lowest level
+   subroutine run_histories(stripes, wall, study, threads, first, last, progress)
       !> The plan; the responses of these histories are set
       type(stripes_type), intent(inout) :: stripes
       !> The wall
       type(wall_type), intent(in) :: wall
-      !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> The same, joined
-      type(record_set_type), intent(in) :: set
-      !> Engine, tolerances and limit
-      type(solver_type), intent(in) :: solver
-      !> The first history to run, from 1
-      integer, intent(in) :: first
-      !> The last history to run
-      integer, intent(in) :: last
-      !> Number of threads; 0: all that OpenMP gives
+      !> What it is tried with
+      type(study_type), intent(in) :: study
+      !> Number of threads instead of the study's; 0: all that OpenMP gives
       integer, intent(in) :: threads
+      !> The first history to run, from 1, and the last; all if absent
+      integer, intent(in), optional :: first, last
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
       type(ensemble_type) :: ensemble
-      integer :: i, j, k, histories
+      integer :: i, j, k, from, to, histories
 
+      from = 1
+      if (present(first)) from = first
+      to = size(stripes%response)
+      if (present(last)) to = last
       histories = size(stripes%record)
-      allocate(ensemble%record(last - first + 1), ensemble%scale(last - first + 1))
-      do k = first, last
+      allocate(ensemble%record(to - from + 1), ensemble%scale(to - from + 1))
+      do k = from, to
          i = modulo(k - 1, histories) + 1
          j = (k - 1)/histories + 1
-         ensemble%record(k - first + 1) = stripes%record(i)
-         ensemble%scale(k - first + 1) = real(stripes%polarity(i), wp)*stripes%scale(i, j)
+         ensemble%record(k - from + 1) = stripes%record(i)
+         ensemble%scale(k - from + 1) = real(stripes%polarity(i), wp)*stripes%scale(i, j)
       end do
-      call run_ensemble(ensemble, wall%mechanism, records, set, solver, threads, progress)
-      do k = first, last
-         stripes%response(modulo(k - 1, histories) + 1, (k - 1)/histories + 1) = ensemble%response(k - first + 1)
+      call run_ensemble(ensemble, wall%mechanism, study%suite, study%solver, threads, progress)
+      do k = from, to
+         stripes%response(modulo(k - 1, histories) + 1, (k - 1)/histories + 1) = ensemble%response(k - from + 1)
       end do
       call stripes%work%add(ensemble%work)
    end subroutine run_histories
@@ -241,102 +182,6 @@ contains
          stripes%polarity = [stripes%polarity, -stripes%polarity]
       end if
    end subroutine choose_polarities
-
-   !> Factors that bring every record to every level; a record without motion stays as it is
-   subroutine choose_scales(stripes, wall, records, scaling, values, peaks, error)
-      !> Result: scale is set
-      type(stripes_type), intent(inout) :: stripes
-      !> The wall
-      type(wall_type), intent(in) :: wall
-      !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> What they are scaled by
-      type(scaling_type), intent(in) :: scaling
-      !> Values of its measure
-      real(wp), intent(in) :: values(:)
-      !> Their PGA [m/s2]
-      real(wp), intent(in) :: peaks(:)
-      !> A record scaled beyond all measure
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i, j, highest
-
-      highest = size(stripes%levels)
-      allocate(stripes%scale(size(stripes%record), highest))
-      do i = 1, size(stripes%record)
-         associate (record => stripes%record(i))
-            do j = 1, highest
-               stripes%scale(i, j) = scaling%factor(stripes%levels(j), values(record), wall)
-            end do
-            if (stripes%scale(i, highest)*peaks(record) <= largest_acceleration) cycle
-            call raise_input(error, 'levels = '//to_text(stripes%levels(highest))//': scales record '// &
-               & records(record)%name//' beyond '//to_text(largest_acceleration)//' m/s2')
-            return
-         end associate
-      end do
-   end subroutine choose_scales
-
-   !> Check levels of intensity
-   subroutine check_levels(levels, error)
-      !> Levels
-      real(wp), intent(in) :: levels(:)
-      !> None at all, or not positive and increasing
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i
-
-      if (size(levels) == 0) then
-         call raise_input(error, 'levels: must be given')
-         return
-      end if
-      do i = 1, size(levels)
-         if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
-            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
-            return
-         end if
-         if (i == 1) cycle
-         if (levels(i) > levels(i - 1)) cycle
-         call raise_input(error, 'levels = '//to_text(levels(i - 1))//', '//to_text(levels(i))// &
-            & ': must increase strictly')
-         return
-      end do
-   end subroutine check_levels
-
-   !> Check thresholds of the EDP, each a damage state
-   subroutine check_thresholds(thresholds, edp_limit, error)
-      !> Thresholds, rotation / capacity
-      real(wp), intent(in) :: thresholds(:)
-      !> Rotation / capacity at which the wall has collapsed
-      real(wp), intent(in) :: edp_limit
-      !> Not positive and increasing, or beyond the limit
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i
-
-      do i = 1, size(thresholds)
-         if (.not. (thresholds(i) > 0.0_wp .and. thresholds(i) <= edp_limit)) then
-            call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i))//': must be positive and at most '// &
-               & 'edp_limit = '//to_text(edp_limit))
-            return
-         end if
-         if (i == 1) cycle
-         if (thresholds(i) > thresholds(i - 1)) cycle
-         call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i - 1))//', '//to_text(thresholds(i))// &
-            & ': must increase strictly')
-         return
-      end do
-   end subroutine check_thresholds
-
-   !> Check the name of a polarity
-   subroutine check_polarity(polarity, error)
-      !> Name
-      character(len=*), intent(in) :: polarity
-      !> Not one of polarity_names
-      type(error_type), allocatable, intent(out) :: error
-
-      if (.not. any(polarity == polarity_names)) &
-         & call raise_input(error, 'polarity = '''//polarity//''': must be one of '//join(polarity_names))
-   end subroutine check_polarity
 
    !> Collapses in each stripe
    pure function collapses(self) result(counts)

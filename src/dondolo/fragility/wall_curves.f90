@@ -11,10 +11,24 @@ module dondolo_wall_curves
    implicit none
    private
 
-   public :: wall_curves_type, new_wall_curves, mechanism_length
+   public :: wall_curves_type, mechanism_counts_type, new_wall_curves, mechanism_length
 
    !> Room for the name of a mechanism
    integer, parameter :: mechanism_length = len(mechanism_names)
+
+   !> What one mechanism of a wall came to
+   type :: mechanism_counts_type
+      !> The mechanism
+      character(len=mechanism_length) :: mechanism = ''
+      !> Probability that it can occur
+      real(wp) :: p_occ = 1.0_wp
+      !> Its curve
+      type(fragility_type) :: curve
+      !> Collapses at each level
+      integer, allocatable :: collapses(:)
+      !> Histories of a stripe
+      integer :: histories = 0
+   end type mechanism_counts_type
 
    !> A wall with the curves of its mechanisms
    type :: wall_curves_type
@@ -51,8 +65,7 @@ module dondolo_wall_curves
 contains
 
    !> A wall from the counts and curves of its mechanisms
-   subroutine new_wall_curves(wall, group, weight, mechanisms, p_occ, curves, collapses, histories, levels, error, &
-      & is_fitted)
+   subroutine new_wall_curves(wall, group, weight, counts, levels, error, is_fitted)
       !> The wall
       type(wall_curves_type), intent(out) :: wall
       !> Name of its group, empty if none was given
@@ -60,15 +73,7 @@ contains
       !> Its weight, >= 0
       real(wp), intent(in) :: weight
       !> Its mechanisms, one at least
-      character(len=*), intent(in) :: mechanisms(:)
-      !> Probability that each can occur
-      real(wp), intent(in) :: p_occ(:)
-      !> Curve of each
-      type(fragility_type), intent(in) :: curves(:)
-      !> Collapses (levels, mechanisms)
-      integer, intent(in) :: collapses(:, :)
-      !> Histories of a stripe of each
-      integer, intent(in) :: histories(:)
+      type(mechanism_counts_type), intent(in) :: counts(:)
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
       !> Counts that cannot be fitted
@@ -76,16 +81,20 @@ contains
       !> Is the wall as a whole to be fitted? Yes if absent
       logical, intent(in), optional :: is_fitted
 
-      real(wp) :: n(size(levels)), part(size(levels), size(mechanisms) + 1)
+      real(wp) :: n(size(levels)), part(size(levels), size(counts) + 1)
+      integer :: i
 
       wall%group = group
       wall%weight = weight
-      wall%mechanism = mechanisms
-      wall%p_occ = p_occ
-      wall%curve = curves
-      wall%fraction = real(collapses, wp)/spread(real(histories, wp), 1, size(levels))
-      wall%histories = histories
-      wall%combined = curves(1)
+      wall%mechanism = counts%mechanism
+      wall%p_occ = counts%p_occ
+      wall%curve = counts%curve
+      wall%histories = counts%histories
+      allocate (wall%fraction(size(levels), size(counts)))
+      do i = 1, size(counts)
+         wall%fraction(:, i) = real(counts(i)%collapses, wp)/real(counts(i)%histories, wp)
+      end do
+      wall%combined = counts(1)%curve
       if (.not. wall%is_mixed()) return
       if (present(is_fitted)) then
          if (.not. is_fitted) return

@@ -3,27 +3,22 @@
 !> Histories are independent, and each is computed by one thread from data that no thread changes: results are the same
 !> to the bit for any number of threads and any grouping.
 module dondolo_ensemble
-   use, intrinsic :: omp_lib, only : omp_get_max_threads
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
-   use dondolo_record, only : record_type
-   use dondolo_record_set, only : record_set_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : perturbed, refined, solver_type
+   use dondolo_suite, only : suite_type
+   use dondolo_threads, only : team_of
    use dondolo_work, only : work_type
    implicit none
    private
 
    public :: ensemble_type, run_ensemble, check_engine, engine_text
-   public :: largest_threads, available_threads, team_of
-
-   !> Most threads that are asked for
-   integer, parameter :: largest_threads = 1024
 
    !> Histories of one wall
    type :: ensemble_type
@@ -40,15 +35,13 @@ module dondolo_ensemble
 contains
 
    !> Run the histories of an ensemble
-   subroutine run_ensemble(ensemble, mechanism, records, set, solver, threads, progress)
+   subroutine run_ensemble(ensemble, mechanism, suite, solver, threads, progress)
       !> The histories: records and factors are given, results and counts set
       type(ensemble_type), intent(inout) :: ensemble
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> The same, joined
-      type(record_set_type), intent(in) :: set
+      type(suite_type), intent(in) :: suite
       !> Engine, tolerances and limit; whether errors are to be estimated
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
@@ -60,24 +53,22 @@ contains
 
       call queue%announce(merge(2, 1, solver%estimate_error)*size(ensemble%record), progress)
       call queue%fill(ensemble%record, ensemble%scale)
-      call run_queue(queue, mechanism, records, set, solver, threads, ensemble%work)
+      call run_queue(queue, mechanism, suite, solver, threads, ensemble%work)
       call move_alloc(queue%response, ensemble%response)
       if (.not. solver%estimate_error) return
       call queue%fill(ensemble%record, perturbed(ensemble%scale))
-      call run_queue(queue, mechanism, records, set, refined(solver), threads, ensemble%work)
+      call run_queue(queue, mechanism, suite, refined(solver), threads, ensemble%work)
       ensemble%response%edp_error = abs(queue%response%edp - ensemble%response%edp)
    end subroutine run_ensemble
 
    !> Run every history in a queue
-   subroutine run_queue(queue, mechanism, records, set, solver, threads, work)
+   subroutine run_queue(queue, mechanism, suite, solver, threads, work)
       !> The histories, and their results
       type(queue_type), intent(inout) :: queue
       !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Accelerograms
-      type(record_type), intent(in) :: records(:)
-      !> The same, joined
-      type(record_set_type), intent(in) :: set
+      type(suite_type), intent(in) :: suite
       !> Engine, tolerances and limit
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
@@ -93,15 +84,15 @@ contains
       variant = build_variant()
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver)
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
-      !$omp & shared(variant, constants, mechanism, records, set, solver, queue, work)
+      !$omp & shared(variant, constants, mechanism, suite, solver, queue, work)
       own = work_type()
       if (constants%form%exists) then
-         call simulate_variant(variant, mechanism, constants, records, set, queue, own)
+         call simulate_variant(variant, mechanism, constants, suite%records, suite%set, queue, own)
       else
          do
             number = queue%next()
             if (number == 0) exit
-            call simulate_rk45(mechanism, records(queue%record(number)), queue%scale(number), solver, &
+            call simulate_rk45(mechanism, suite%records(queue%record(number)), queue%scale(number), solver, &
                & queue%response(number), work=own)
             call queue%report()
          end do
@@ -155,23 +146,5 @@ contains
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
          & 'must be ''auto'' or ''rk45'', or another edp_limit')
    end subroutine check_engine
-
-   !> Threads that share some work
-   integer function team_of(threads, pieces)
-      !> Number of threads that are asked for; 0: all that OpenMP gives
-      integer, intent(in) :: threads
-      !> Pieces of work
-      integer, intent(in) :: pieces
-
-      team_of = threads
-      if (threads == 0) team_of = available_threads()
-      team_of = max(1, min(team_of, pieces))
-   end function team_of
-
-   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
-   integer function available_threads()
-
-      available_threads = min(omp_get_max_threads(), largest_threads)
-   end function available_threads
 
 end module dondolo_ensemble

@@ -9,10 +9,10 @@ module dondolo_simulate
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
-   use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : perturbed, refined, solver_type
+   use dondolo_suite, only : new_suite, suite_type
    implicit none
    private
 
@@ -37,13 +37,15 @@ contains
 
       type(response_type) :: other
       type(ensemble_type) :: ensemble
-      type(record_set_type) :: set
+      type(suite_type) :: suite
+      type(record_type), allocatable :: records(:)
 
       if (solver%engine == 'lanes' .and. .not. present(trace)) then
          ensemble%record = [1]
          ensemble%scale = [scale]
-         call new_record_set(set, [record])
-         call run_ensemble(ensemble, mechanism, [record], set, solver, 1)
+         records = [record]
+         call new_suite(suite, records)
+         call run_ensemble(ensemble, mechanism, suite, solver, 1)
          response = ensemble%response(1)
          return
       end if

@@ -1,0 +1,187 @@
+!> A study: the accelerograms, and how every wall is tried under them.
+!>
+!> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
+module dondolo_study
+   use dondolo_ensemble, only : check_engine
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : largest_acceleration
+   use dondolo_scaling, only : scaling_type
+   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_suite, only : suite_type
+   use dondolo_text, only : join, to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: study_type, new_study
+   public :: check_levels, check_thresholds, polarity_names
+
+   !> Polarities a record can be used with
+   character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
+
+   !> What walls are tried with
+   type :: study_type
+      !> The accelerograms; they belong to who made the study and must outlive it
+      type(suite_type), pointer :: suite => null()
+      !> What they are scaled by
+      type(scaling_type) :: scaling
+      !> Values of its measure for the records as they stand
+      real(wp), allocatable :: values(:)
+      !> Levels of intensity, positive and increasing, in the unit of the measure
+      real(wp), allocatable :: levels(:)
+      !> One of polarity_names; a two-sided wall is symmetric, so that 'both' runs once
+      character(len=:), allocatable :: polarity
+      !> EDP thresholds, each a damage state; the last is the limit of the solver, collapse
+      real(wp), allocatable :: thresholds(:)
+      !> Engine, tolerances and limit
+      type(solver_type) :: solver
+      !> Are all histories kept, or their counts alone?
+      logical :: keeps_histories = .false.
+      !> Number of threads; 0: all that OpenMP gives
+      integer :: threads = 0
+   contains
+      !> Check that a wall can be tried
+      procedure :: check
+      !> Factor that scales a record to a level for a wall
+      procedure :: scale_to
+      !> Check that no record is scaled beyond all measure
+      procedure :: check_scales
+   end type study_type
+
+contains
+
+   !> Make a study, with collapse as its only damage state
+   subroutine new_study(study, suite, scaling, levels, polarity, solver, threads)
+      !> The study
+      type(study_type), intent(out) :: study
+      !> The accelerograms
+      type(suite_type), intent(in), target :: suite
+      !> What they are scaled by
+      type(scaling_type), intent(in) :: scaling
+      !> Levels of intensity, in the unit of the measure
+      real(wp), intent(in) :: levels(:)
+      !> 'as_recorded', 'reversed' or 'both'
+      character(len=*), intent(in) :: polarity
+      !> Engine, tolerances and limit
+      type(solver_type), intent(in) :: solver
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+
+      study%suite => suite
+      study%scaling = scaling
+      study%values = suite%values(scaling%measure, threads)
+      study%levels = levels
+      study%polarity = polarity
+      study%solver = solver
+      study%threads = threads
+      study%thresholds = [solver%edp_limit]
+   end subroutine new_study
+
+   !> Check what does not depend on the records: levels, polarity, and whether the solver can follow the wall
+   subroutine check(self, wall, error)
+      !> The study
+      class(study_type), intent(in) :: self
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_levels(self%levels, error)
+      if (allocated(error)) return
+      if (.not. any(self%polarity == polarity_names)) then
+         call raise_input(error, 'polarity = '''//self%polarity//''': must be one of '//join(polarity_names))
+         return
+      end if
+      call check_solver(self%solver, error)
+      if (.not. allocated(error)) call check_limit(self%solver, wall%mechanism, error)
+      if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error)
+   end subroutine check
+
+   !> Factor that scales a record to a level for a wall
+   pure real(wp) function scale_to(self, wall, record, level) result(scale)
+      !> The study
+      class(study_type), intent(in) :: self
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Level, in the unit of the measure
+      real(wp), intent(in) :: level
+
+      scale = self%scaling%factor(level, self%values(record), wall)
+   end function scale_to
+
+   !> Check that no record is scaled beyond all measure
+   subroutine check_scales(self, wall, error)
+      !> The study
+      class(study_type), intent(in) :: self
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> The first that is, at the highest level
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: highest
+      integer :: i
+
+      highest = self%levels(size(self%levels))
+      do i = 1, size(self%suite%records)
+         if (self%scale_to(wall, i, highest)*self%suite%peaks(i) <= largest_acceleration) cycle
+         call raise_input(error, 'levels = '//to_text(highest)//': scales record '''//self%suite%records(i)%name// &
+            & ''' beyond '//to_text(largest_acceleration)//' m/s2')
+         return
+      end do
+   end subroutine check_scales
+
+   !> Check levels of intensity
+   subroutine check_levels(levels, error)
+      !> Levels
+      real(wp), intent(in) :: levels(:)
+      !> None at all, or not positive and increasing
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (size(levels) == 0) then
+         call raise_input(error, 'levels: must be given')
+         return
+      end if
+      do i = 1, size(levels)
+         if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
+            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
+            return
+         end if
+         if (i == 1) cycle
+         if (levels(i) > levels(i - 1)) cycle
+         call raise_input(error, 'levels = '//to_text(levels(i - 1))//', '//to_text(levels(i))// &
+            & ': must increase strictly')
+         return
+      end do
+   end subroutine check_levels
+
+   !> Check thresholds of the EDP, each a damage state
+   subroutine check_thresholds(thresholds, edp_limit, error)
+      !> Thresholds, rotation / capacity
+      real(wp), intent(in) :: thresholds(:)
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> Not positive and increasing, or beyond the limit
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(thresholds)
+         if (.not. (thresholds(i) > 0.0_wp .and. thresholds(i) <= edp_limit)) then
+            call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i))//': must be positive and at most '// &
+               & 'edp_limit = '//to_text(edp_limit))
+            return
+         end if
+         if (i == 1) cycle
+         if (thresholds(i) > thresholds(i - 1)) cycle
+         call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i - 1))//', '//to_text(thresholds(i))// &
+            & ': must increase strictly')
+         return
+      end do
+   end subroutine check_thresholds
+
+end module dondolo_study

@@ -1,0 +1,149 @@
+!> A suite of accelerograms, with all that histories need of them whatever the wall: their samples joined, their PGAs, and
+!> the values of the measures that were asked for.
+!>
+!> It is made once and then only read, by as many threads as there are. `measure` alone adds to it, and may do so while
+!> others read.
+module dondolo_suite
+   use dondolo_intensity, only : measure_type
+   use dondolo_kinds, only : wp
+   use dondolo_record, only : record_type
+   use dondolo_record_set, only : new_record_set, record_set_type
+   use dondolo_threads, only : team_of
+   implicit none
+   private
+
+   public :: suite_type, new_suite
+
+   !> Measures whose values a suite keeps; those of others are computed whenever they are asked for
+   integer, parameter :: most_measures = 64
+
+   !> Values of a measure
+   type :: measured_type
+      !> Name of the measure; not allocated: the place is free
+      character(len=:), allocatable :: name
+      !> Its values for the records as they stand
+      real(wp), allocatable :: values(:)
+      !> 1: name and values are complete
+      integer :: is_complete = 0
+   end type measured_type
+
+   !> Accelerograms that histories of many walls share
+   type :: suite_type
+      !> The accelerograms
+      type(record_type), allocatable :: records(:)
+      !> The same, joined
+      type(record_set_type) :: set
+      !> Their PGA [m/s2]
+      real(wp), allocatable :: peaks(:)
+      !> Measures that were asked for, and how many places are taken
+      type(measured_type), private :: measured(most_measures)
+      integer, private :: taken = 0
+   contains
+      !> Compute the values of a measure and keep them
+      procedure :: measure
+      !> Values of a measure
+      procedure :: values
+   end type suite_type
+
+contains
+
+   !> Make a suite
+   subroutine new_suite(suite, records)
+      !> The suite
+      type(suite_type), intent(out) :: suite
+      !> Accelerograms, one at least; they are moved into the suite
+      type(record_type), allocatable, intent(inout) :: records(:)
+
+      call move_alloc(records, suite%records)
+      call new_record_set(suite%set, suite%records)
+      suite%peaks = suite%records%pga()
+   end subroutine new_suite
+
+   !> Compute the values of a measure and keep them
+   subroutine measure(self, im, threads)
+      !> The suite
+      class(suite_type), intent(inout) :: self
+      !> The measure
+      type(measure_type), intent(in) :: im
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+
+      real(wp), allocatable :: found(:)
+      integer :: place
+
+      if (place_of(self, im) > 0) return
+      found = computed(self%records, im, threads)
+      ! A place belongs to the thread that took it, and readers see it once it is complete.
+      !$omp atomic capture
+      self%taken = self%taken + 1
+      place = self%taken
+      !$omp end atomic
+      if (place > most_measures) return
+      self%measured(place)%name = im%name
+      call move_alloc(found, self%measured(place)%values)
+      !$omp atomic write seq_cst
+      self%measured(place)%is_complete = 1
+      !$omp end atomic
+   end subroutine measure
+
+   !> Values of a measure for the records as they stand: those that are kept, or computed now
+   function values(self, im, threads)
+      !> The suite
+      class(suite_type), intent(in) :: self
+      !> The measure
+      type(measure_type), intent(in) :: im
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> A value for each record
+      real(wp) :: values(size(self%records))
+
+      integer :: place
+
+      place = place_of(self, im)
+      if (place > 0) then
+         values = self%measured(place)%values
+      else
+         values = computed(self%records, im, threads)
+      end if
+   end function values
+
+   !> Place of a measure among those that are kept; 0: it is not there
+   integer function place_of(suite, im) result(place)
+      !> The suite
+      class(suite_type), intent(in) :: suite
+      !> The measure
+      type(measure_type), intent(in) :: im
+
+      integer :: is_complete
+
+      do place = most_measures, 1, -1
+         !$omp atomic read seq_cst
+         is_complete = suite%measured(place)%is_complete
+         !$omp end atomic
+         if (is_complete == 0) cycle
+         if (suite%measured(place)%name == im%name) return
+      end do
+   end function place_of
+
+   !> Compute the values of a measure
+   function computed(records, im, threads) result(values)
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The measure
+      type(measure_type), intent(in) :: im
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> A value for each record
+      real(wp) :: values(size(records))
+
+      integer :: i
+
+      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(records))) default(none) &
+      !$omp & shared(im, records, values)
+      do i = 1, size(records)
+         values(i) = im%of(records(i))
+      end do
+      !$omp end parallel do
+   end function computed
+
+end module dondolo_suite
