@@ -46,7 +46,9 @@ def test_fortran_sources(root):
 def rooms_of(folder):
     """The rooms in a folder: {file: room} and {module: room}."""
     files = {path: path.relative_to(folder).parts[0] for path in folder.glob("**/*.[fF]90")}
-    homes = {name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)}
+    homes = {
+        name: room for path, room in files.items() for name in re.findall(r"^module (\w+)", path.read_text(), re.M)
+    }
     return files, homes
 
 
