@@ -1,8 +1,8 @@
-"""Measure what docs/city.md says of the illustrative historic centre, and draw its figures into docs/figures.
+"""Compute the numbers of docs/city.md for the illustrative historic centre, and draw its figures into docs/figures.
 
-./run city runs it. Everything is computed on the embedded synthetic accelerograms, and again on recorded ones where
-those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set. Checkpoints in out/city keep what was
-computed; remove the folder to compute everything again.
+Run it by ./run city. Everything is computed with the embedded synthetic accelerograms, and also with recorded ones if
+they are available in the folder DONDOLO_RECORDS (default ../shared/records). Checkpoints in out/city store the results;
+remove the folder to compute everything again.
 """
 
 import functools
@@ -25,13 +25,13 @@ root = Path(__file__).resolve().parents[1]
 figures = root / "docs/figures"
 out = root / "out/city"
 centre = dd.read_population(root / "data/walls/historic_centre.csv")
-LEVELS = 0.1 * np.arange(1, 21)  # those of data/cases/historic_centre.nml
+LEVELS = 0.1 * np.arange(1, 21)  # the levels of data/cases/historic_centre.nml
 MECHANISMS = ("one_sided", "two_block")
 SAMPLES = 1000
 
 
 def main() -> None:
-    """Measure and draw."""
+    """Compute the numbers and draw the figures."""
     warnings.simplefilter("ignore", dd.DondoloWarning)
     out.mkdir(parents=True, exist_ok=True)
     sets = {"synthetic44": dd.read_catalogue(root / "data/records/synthetic44.csv")}
@@ -39,7 +39,7 @@ def main() -> None:
     if (folder / "italy44.csv").is_file():
         sets["recorded"] = dd.read_catalogue(folder / "italy44.csv")
     else:
-        print("no recorded accelerograms here (DONDOLO_RECORDS names their folder): synthetic ones only")
+        print("no recorded accelerograms found (set DONDOLO_RECORDS to their folder): synthetic ones only")
     walls()
     studies = {name: Study(name, records) for name, records in sets.items()}
     for study in studies.values():
@@ -64,9 +64,9 @@ class Study:
     Attributes
     ----------
     events : list of int
-        The recording of each record: its two components stand next to each other.
+        Recording of each record; its two components are adjacent.
     collapsed : list of ndarray, each of shape (levels, histories)
-        Who collapses, row by row; the histories of a one-sided wall are those of all records, and again reversed.
+        Collapse flags, row by row; a one-sided wall has the histories of all records, then of all records reversed.
     """
 
     def __init__(self, name, records):
@@ -77,7 +77,7 @@ class Study:
         self.collapsed = [flags.of([row])[0, -1] for row in range(len(centre))]
 
     def run(self, what, population, levels, progress=False, **options):
-        """A typology that is computed once."""
+        """Compute a typology, or read it from its checkpoint."""
         checkpoint = out / f"{self.name}_{what}.sqlite"
         options = {"polarity": "both", "checkpoint": checkpoint, "progress": progress, **options}
         return dd.typology(population, self.records, levels, **options)
@@ -89,7 +89,7 @@ def rows_of(mechanism):
 
 
 def part(mechanism, **changes):
-    """The rows of a mechanism as a population in which it can occur everywhere, their walls changed."""
+    """Population of the rows of a mechanism, with changed walls and the mechanism possible in all of them."""
     rows = rows_of(mechanism)
     weights = centre.weights[rows] * centre.p_occ[rows]
     return dd.Population(tuple(replace(centre[i], **changes) for i in rows), weights)
@@ -102,12 +102,12 @@ def median(values, weights):
 
 
 def text(fit):
-    """Median and dispersion."""
+    """Median and dispersion of a fit, or its status."""
     return f"theta {fit.theta:.3f}, beta {fit.beta:.3f}" if fit.has_fit else fit.status
 
 
 def curves(study):
-    """Medians, dispersions and the bootstrap of each curve."""
+    """Print medians, dispersions and bootstrap standard errors of each curve."""
     peaks = np.array([record.intensity("pga") for record in study.records])
     factors = LEVELS[-1] / peaks
     velocity = np.median([record.intensity("pgv") for record in study.records] / peaks)
@@ -142,14 +142,14 @@ def curves(study):
 
 
 def states(study):
-    """Damage states."""
+    """Print the curves of the damage states."""
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
         print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state.fit(name))}" for name in (*MECHANISMS, "all")))
 
 
 def walls():
-    """Medians of the walls, weighted by how often a mechanism can occur."""
+    """Print medians of the walls, weighted by the probability that a mechanism can occur."""
     print(centre)
     for mechanism in MECHANISMS:
         rows = rows_of(mechanism)
@@ -168,7 +168,7 @@ def walls():
 
 
 def sizes(study):
-    """Medians against trigger and frequency parameter: ln theta = c + m ln a0 + n ln p."""
+    """Print the regression of medians on trigger and frequency parameter: ln theta = c + m ln a0 + n ln p."""
     for mechanism in MECHANISMS:
         rows = [i for i in rows_of(mechanism) if study.typology.curves[i].has_fit]
         theta = np.array([study.typology.curves[i].theta for i in rows])
@@ -184,31 +184,31 @@ def sizes(study):
             f"{mechanism}: median of theta {median(theta, weights):.3f} g, of a0/p"
             f" {median(9.81 * trigger / p, weights):.3f} m/s, of theta/a0 {median(theta / trigger, weights):.2f};"
             f" ln theta = {coefficient[0]:.2f} + {coefficient[1]:.2f} ln a0 + {coefficient[2]:.2f} ln p,"
-            f" left {spread:.3f} of {study.typology.group(mechanism).beta_walls:.3f}"
+            f" residual {spread:.3f} of {study.typology.group(mechanism).beta_walls:.3f}"
         )
 
 
 def occurrence(study):
-    """What the probabilities of occurrence do."""
+    """Print the influence of the probabilities of occurrence."""
     certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
     for what, typology in (("as assumed", study.typology), ("1 everywhere", certain)):
         means = ", ".join(f"{typology.mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
         frequency = dd.mean_annual_frequency(typology.mean, HAZARD).frequency
         print(
             f"p_occ {what}: {text(typology.fit())}, saturation {typology.group().saturation:.3f}; mean {means};"
-            f" {frequency:.3g} a year; the mean is 0.5 at {level_of(typology.mean, 0.5):.3f} g"
+            f" {frequency:.3g} per year; the mean is 0.5 at {level_of(typology.mean, 0.5):.3f} g"
         )
 
 
 def polarity(study):
-    """One-sided walls under records as they are, and reversed."""
+    """Print curves of one-sided walls under records as recorded and reversed."""
     rows = rows_of("one_sided")
     weights = centre.weights[rows] * centre.p_occ[rows]
     both = np.array([study.collapsed[i] for i in rows])
     for name, chosen in (("as recorded", slice(0, 44)), ("reversed", slice(44, 88)), ("both", slice(0, 88))):
         fraction = np.average(both[:, :, chosen].mean(axis=2), axis=0, weights=weights)
         print(f"one_sided, {name}: {text(fitted(fraction, 44))}")
-    # Of each wall, how far its two medians are apart
+    # Ratio of the two medians of each wall
     medians = [
         [dd.fit_fragility(LEVELS, both[i, :, s].sum(axis=1), 44).theta for s in (slice(0, 44), slice(44, 88))]
         for i in range(len(rows))
@@ -221,19 +221,19 @@ def polarity(study):
 
 
 def fitted(fraction, histories, saturation=1.0, top=None):
-    """The lognormal fitted to a mean fraction / what it tends to, at the lowest `top` levels."""
+    """Fit a lognormal to a mean fraction divided by its saturation, at the lowest `top` levels."""
     n = float(histories)
     return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / saturation * n, 0.0, n), n)
 
 
 def level_of(curve, probability):
-    """Where a curve reaches a probability, to 0.001 g."""
+    """Level at which a curve reaches a probability, to 0.001 g."""
     x = np.arange(0.001, 5.0, 0.001)
     return float(x[np.argmax(curve(x) >= probability)])
 
 
 def restitution(study):
-    """Factors of the two-block rows, and constant speed ratios of the one-sided ones."""
+    """Print curves for factors of the two-block rows and for constant speed ratios of the one-sided ones."""
     for factor in (0.84, 0.87, 0.90, 1.0):
         population = part("two_block", restitution_factor=factor)
         print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS).fit())}")
@@ -244,7 +244,7 @@ def restitution(study):
 
 
 def intensities(study):
-    """What the intensity measure does to the dispersions; levels of each measure reach equally far."""
+    """Print the dispersions for each intensity measure; the levels of all measures cover the same range."""
     reach = np.geomspace(0.03, 4.0, 24)
     trigger = np.median([wall.trigger_acceleration / wall.gravity for wall in centre])
     for im in ("pga", "pgv", "hi", "saavg(0.2:2)", "sa(1)", "pga/a0", "p*pgv/a0"):
@@ -268,7 +268,7 @@ def intensities(study):
 
 
 def dependence(study):
-    """Mechanisms of a wall: independent, under the same record, and never both."""
+    """Print curves of walls with two mechanisms: independent, under the same record, and never both."""
     for what, p_occ in (("p_occ as assumed", centre.p_occ), ("p_occ = 1", np.ones(len(centre)))):
         independent, same, sums, weights = combined(study, p_occ)
         i, j = np.transpose(pairs())
@@ -303,10 +303,10 @@ def pairs():
 
 
 def combined(study, p_occ):
-    """Fractions (walls, levels) of walls with two mechanisms, three ways, and their weights."""
+    """Fractions (walls, levels) of walls with two mechanisms, combined in three ways, and their weights."""
     independent, same, sums = [], [], []
     for i, j in pairs():
-        # A wall that folds does not feel the polarity
+        # A wall that folds does not depend on the polarity
         one, two = study.collapsed[i], np.tile(study.collapsed[j], 2)
         p, q = p_occ[i], p_occ[j]
         independent.append(1.0 - (1.0 - p * one.mean(axis=1)) * (1.0 - q * two.mean(axis=1)))
@@ -317,7 +317,7 @@ def combined(study, p_occ):
 
 
 def centre_mean(study, of_pairs):
-    """Mean over all walls, those with one mechanism too."""
+    """Mean over all walls, including those with one mechanism."""
     paired = {row for pair in pairs() for row in pair}
     alone = [i for i in range(len(centre)) if i not in paired]
     rest = np.array([centre.p_occ[i] * study.collapsed[i].mean(axis=1) for i in alone])
@@ -326,7 +326,7 @@ def centre_mean(study, of_pairs):
 
 
 def mixture(study):
-    """The mean curve against saturation x lognormal, and how that depends on the highest level."""
+    """Compare the mean curve with saturation x lognormal, and show its dependence on the highest level."""
     typology = study.typology
     x = np.linspace(0.01, 20.0, 2000)
     for mechanism in (*MECHANISMS, "all"):
@@ -355,7 +355,7 @@ def mixture(study):
 
 
 def enough(study):
-    """Standard error of ln theta with so many recordings and walls, all drawn with replacement."""
+    """Print the standard error of ln theta for numbers of recordings and walls, drawn with replacement."""
     generator = np.random.default_rng(0)
     names = list(dict.fromkeys(wall.name for wall in centre))
     owner = np.array([names.index(wall.name) for wall in centre])
@@ -375,7 +375,7 @@ def enough(study):
     def error(records, walls):
         medians = []
         for _ in range(SAMPLES // 2):
-            # The two components of a recording, which stand next to each other
+            # The two components of a recording are adjacent
             drawn = (2 * generator.integers(22, size=records // 2)[:, None] + np.arange(2)).ravel()
             times = np.ones(len(names))
             if walls:
@@ -390,18 +390,18 @@ def enough(study):
     print("median under every fourth record:", ", ".join(quarters))
 
 
-# Illustrative, of no real site
+# Illustrative, does not represent a real site
 HAZARD = dd.HazardCurve.power_law(2e-5, 2.5)
 
 
 def risk(study):
-    """Frequencies of collapse under the hazard of an imagined site."""
+    """Print frequencies of collapse under the hazard of a fictitious site."""
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
             curves = (functools.partial(state.mean, mechanism=mechanism), state.fit(mechanism))
             mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
-            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} a year, saturation x lognormal {curve:.4g}")
+            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {curve:.4g}")
     alone = dd.mean_annual_frequency(replace(study.typology.fit(), saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
@@ -409,11 +409,11 @@ def risk(study):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.3f}")
     for years in (50.0, 475.0, 2475.0):
         alike = -np.expm1(-years * one.frequency)
-        print(f"   lost in {years:g} years: {one.probability(years):.4g}; if all walls were alike {alike:.4g}")
+        print(f"   lost in {years:g} years: {one.probability(years):.4g}; if all walls were identical {alike:.4g}")
 
 
 def draw(studies):
-    """The figures, of the synthetic records; the recorded ones beside them where they are."""
+    """Draw the figures for the synthetic records, with the recorded ones for comparison if available."""
     typology = studies["synthetic44"].typology
     with plt.rc_context(style.RC):
         figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9), layout="constrained")
@@ -438,7 +438,7 @@ def draw(studies):
 
 
 def draw_sets(ax, studies):
-    """Mean curves of both mechanisms under each set of records."""
+    """Draw mean curves of both mechanisms under each set of records."""
     x = np.linspace(0.0, 2.0, 101)
     for mechanism, color in zip(MECHANISMS, (style.RED, style.BLUE), strict=True):
         for (name, study), line in zip(studies.items(), ("-", "--"), strict=False):
@@ -449,7 +449,7 @@ def draw_sets(ax, studies):
 
 
 def draw_sizes(ax, typology):
-    """Medians of the walls against what trigger and frequency parameter make of them."""
+    """Draw medians of the walls against the ratio of trigger acceleration and frequency parameter."""
     for mechanism, color, marker in zip(MECHANISMS, (style.RED, style.BLUE), ("o", "^"), strict=True):
         rows = rows_of(mechanism)
         velocity = [centre[i].trigger_acceleration / centre[i].frequency_parameter for i in rows]
@@ -466,7 +466,7 @@ def draw_sizes(ax, typology):
 
 
 def draw_mixture(ax, typology):
-    """The mean curve of all, saturation x lognormal, and a lognormal fitted without the saturation."""
+    """Draw the mean curve of all mechanisms, saturation x lognormal, and a lognormal fitted without saturation."""
     x = np.linspace(0.0, 4.0, 201)
     ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology.group()

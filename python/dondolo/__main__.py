@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import os
 import re
 import sys
@@ -182,11 +183,11 @@ def _plot(options: argparse.Namespace) -> None:
         _save(options, "typology", lambda: dd.plot_typology(people))
         if len(people.groups) > 1:
             _save(options, "combination", lambda: dd.plot_combination(people))
-        for curve in people.groups:
-            if curve.mechanism != "all" and not curve.group and len(people.groups) > 1:
-                name = curve.mechanism
-                _save(options, f"typology_{name}", lambda name=name: dd.plot_typology(people, mechanism=name))
-        if any(curve.group for curve in people.groups):
+        for of in people.groups:
+            if of.mechanism != "all" and not of.group and len(people.groups) > 1:
+                draw = functools.partial(dd.plot_typology, people, mechanism=of.mechanism)
+                _save(options, f"typology_{of.mechanism}", draw)
+        if any(of.group for of in people.groups):
             _save(options, "groups", lambda: dd.plot_groups(people))
         if len(people.edp_thresholds) > 1:
             _save(options, "damage_states", lambda: dd.plot_damage_states(people))

@@ -100,7 +100,7 @@ def test_python_sources(root):
     text = (root / "python/meson.build").read_text()
     listed = set(re.findall(r"'(dondolo/[^']+)'", re.search(r"py\.install_sources\(\[(.*?)\]", text, re.S).group(1)))
     package = root / "python/dondolo"
-    data = [file for suffix in ("py", "html.j2", "css", "typed") for file in package.glob(f"**/*.{suffix}")]
+    data = [file for suffix in ("py", "pyi", "html.j2", "css", "typed") for file in package.glob(f"**/*.{suffix}")]
     there = {f"dondolo/{file.relative_to(package)}" for file in data}
     assert listed == there
 
@@ -129,6 +129,14 @@ def test_python_rooms(root):
                     assert there in rooms, f"{path.name} imports {name}"
                     assert rooms.index(there) <= rooms.index(here), f"{path.name} imports {name}"
     assert seen == set(rooms)
+
+
+def test_types(root):
+    """Every annotation holds: mypy in its strict mode."""
+    pytest.importorskip("mypy", reason="mypy is not installed")
+    command = [sys.executable, "-m", "mypy", "--config-file", root / "pyproject.toml"]
+    done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_no_single_precision_at_the_boundary():

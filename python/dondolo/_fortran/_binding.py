@@ -24,7 +24,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_number, as_path, as
 from dondolo._fortran import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
-_PACKAGE = Path(__file__).parents[1]
+_PACKAGE = str(Path(__file__).parents[1]) + os.sep
 
 WALL_NUMBERS = (
     "height",
@@ -158,8 +158,12 @@ class PopulationData(NamedTuple):
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     defaults, version, statuses = _core.constants()
+    rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
-        *(float(value) for value in defaults),
+        rtol,
+        atol,
+        edp_limit,
+        gravity,
         version=version.decode().strip(),
         statuses=tuple(statuses.decode().split()),
     )
@@ -181,7 +185,7 @@ def build_variant() -> str:
     """
     name, stat, message = _core.variant()
     check(stat, message)
-    return name.decode().strip()
+    return str(name.decode().strip())
 
 
 def check(stat: int, message: bytes) -> None:
@@ -230,7 +234,7 @@ def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
 def warn(found: Iterable[str | DondoloWarning]) -> None:
     """Warn of each, where the user's own line is."""
     frame, depth = sys._getframe(), 1
-    while frame.f_back is not None and _PACKAGE in Path(frame.f_code.co_filename).parents:
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, depth = frame.f_back, depth + 1
     for one in found:
         warnings.warn(one if isinstance(one, DondoloWarning) else DondoloWarning(one), stacklevel=depth)
@@ -327,7 +331,8 @@ def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
         raise InputError("rotation: must be numbers") from None
     terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
     check(stat, message)
-    return terms.T.reshape(6, *shape)
+    found: FloatArray = terms.T.reshape(6, *shape)
+    return found
 
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
@@ -337,7 +342,9 @@ def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, 
     masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
     return [
         WallData(
-            *parcel.lines[lines + 3 * i : lines + 3 * i + 3],
+            parcel.lines[lines + 3 * i],
+            parcel.lines[lines + 3 * i + 1],
+            parcel.lines[lines + 3 * i + 2],
             {
                 what: value if mask else None
                 for what, value, mask in zip(WALL_NUMBERS, row[:known], given[:known], strict=True)
@@ -446,7 +453,8 @@ def describe_measure(im: str, of_record: bool = False) -> MeasureData:
 @functools.cache
 def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
     parcel = receive(*_core.describe_measure(im, int(of_record)))
-    return MeasureData(*parcel.lines, power=int(parcel.integers[0]))
+    name, unit, title = parcel.lines
+    return MeasureData(name, unit, title, int(parcel.integers[0]))
 
 
 def unit_of(im: str) -> str:
@@ -459,6 +467,7 @@ def unit_of(im: str) -> str:
 
 def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0) -> FloatArray:
     """Intensities of records, in the unit of the levels."""
+    values: FloatArray
     values, stat, message = _core.intensities(as_text("im", im), *records, gravity, threads)
     check(stat, message)
     return values
@@ -466,6 +475,7 @@ def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0)
 
 def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
     """The values that records are scaled by."""
+    values: FloatArray
     values, stat, message = _core.scaling_values(as_text("im", im), *records, threads)
     check(stat, message)
     return values
@@ -508,9 +518,15 @@ def fit_walls(
         mean_fraction, mean_curve, fractiles, curve = np.split(row[6:], np.cumsum([m, m, 3 * m]))
         together.append(
             GroupData(
-                *parcel.lines[2 * i : 2 * i + 2],
+                parcel.lines[2 * i],
+                parcel.lines[2 * i + 1],
                 int(walls[i]),
-                *(float(number) for number in row[:6]),
+                float(row[0]),
+                float(row[1]),
+                float(row[2]),
+                float(row[3]),
+                float(row[4]),
+                float(row[5]),
                 mean_fraction,
                 mean_curve,
                 np.ascontiguousarray(fractiles.reshape(m, 3).T),
@@ -546,4 +562,5 @@ def warnings_of_errors(
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
-    return _core.probability(theta, beta, x)
+    found: FloatArray = _core.probability(theta, beta, x)
+    return found

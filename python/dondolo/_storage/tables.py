@@ -12,7 +12,8 @@ from dondolo._base.files import whole_file
 from dondolo._fortran import _binding
 from dondolo.errors import DondoloError, InputError
 
-Table = dict[str, Sequence[Any]]
+# Columns of equal length, arrays or lists
+Table = dict[str, Any]
 
 
 def digits(value: float) -> str:
@@ -85,4 +86,5 @@ def choose(tables: Mapping[str, Any], name: str) -> Table:
     """One of several tables of an object, made when it is asked for."""
     if name not in tables:
         raise InputError(f"table = {name!r}: must be one of {', '.join(map(repr, tables))}")
-    return tables[name]()
+    table: Table = tables[name]()
+    return table

@@ -90,7 +90,8 @@ def _rectangle(width: float, height: float) -> Points:
 def _turned(points: Points, centre: Points, angle: float) -> Points:
     """Points turned about a centre, counter-clockwise."""
     cos, sin = np.cos(angle), np.sin(angle)
-    return (points - centre) @ np.array([[cos, sin], [-sin, cos]]) + centre
+    turned: Points = (points - centre) @ np.array([[cos, sin], [-sin, cos]]) + centre
+    return turned
 
 
 def _mirrored(points: Points, width: float) -> Points:

@@ -203,9 +203,9 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
     start = _SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)
     tried = {start: collapses_at(start)}
-    for step, is_end in ((1.0 / factor, lambda z, n: z == 0), (factor, lambda z, n: z >= moving.sum())):
+    for step, last in ((1.0 / factor, 0), (factor, int(moving.sum()))):
         level = start
-        while not is_end(*tried[level]) and len(tried) < _LONGEST_SEARCH:
+        while (tried[level][0] > 0 if step < 1.0 else tried[level][0] < last) and len(tried) < _LONGEST_SEARCH:
             level *= step
             tried[level] = collapses_at(level)
     x = np.array(sorted(tried))

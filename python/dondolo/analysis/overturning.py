@@ -156,7 +156,7 @@ class OverturningSpectrum(Shown):
             "map": lambda: {
                 "frequency_hz": np.repeat(self.frequencies, count),
                 "amplitude_g": np.tile(self.amplitudes, len(self.frequencies)),
-                "state": [State(value).name.lower() for value in self.state.T.ravel()],
+                "state": [State(int(value)).name.lower() for value in self.state.T.ravel()],
                 "edp": self.edp.T.ravel(),
                 "impacts": self.impacts.T.ravel(),
             },
@@ -281,7 +281,8 @@ def overturning_spectrum(
     ]
     if not stopped:
         brackets, stopped = _bisect(runner, brackets, width, f"{wall.name}: boundaries")
-    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in outcome[:3])
+    flat: tuple[Any, ...] = tuple(outcome[:3])
+    states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in flat)
     scanned = frequency[:complete].copy()
     for array in (scanned, amplitude, states, edp, impacts):
         array.flags.writeable = False

@@ -23,6 +23,8 @@ from dondolo.errors import DondoloWarning
 from dondolo.records.record import Record, flatten
 from dondolo.walls.wall import Wall
 
+IntArray = np.ndarray[Any, np.dtype[np.int32]]
+
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
 _FIRST_SAMPLES = 200_000
@@ -89,13 +91,13 @@ class Request:
         scale = parcel.reals.reshape(len(self.levels), count)
         return Plan(parcel.integers[:walls], record - 1, polarity, scale, _binding.unpack_warnings(parcel.lines))
 
-    def run(self, histories: Sequence[int], progress: bool, label: str) -> tuple[Outcome, bool]:
+    def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
         with progress_bar(total, progress, label, "history") as bar:
             return self.advance(histories, Pace(float(self.records.lengths.mean())), bar.update)
 
-    def advance(self, histories: Sequence[int], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
+    def advance(self, histories: IntArray, pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, and with a report of how many histories were done in each call."""
         ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
         total = int(ends[-1])

@@ -86,7 +86,7 @@ class Response(Shown):
         return facts
 
     def _table(self) -> tables.Table:
-        if self.time is None:
+        if self.time is None or self.rotation is None:
             raise DondoloError("this response has no time history: simulate with history=True")
         return history_table(self)
 
@@ -208,7 +208,7 @@ def history_table(response: Response) -> tables.Table:
         "ground_acceleration_m_s2": response.ground_acceleration,
         "rotation_rad": response.rotation,
         "velocity_rad_s": response.velocity,
-        "edp": np.abs(response.rotation) / response.wall.capacity_angle,
+        "edp": np.abs(np.asarray(response.rotation)) / response.wall.capacity_angle,
         "side": np.asarray(response.side, dtype=int),
         "after_impact": np.asarray(response.after_impact, dtype=int),
     }

@@ -87,7 +87,8 @@ class Stripes(Shown):
     @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Collapses in each stripe, shape (levels,)."""
-        return self.collapsed.sum(axis=1)
+        counts: np.ndarray[Any, np.dtype[np.int64]] = self.collapsed.sum(axis=1)
+        return counts
 
     @property
     def histories(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -119,7 +120,8 @@ class Stripes(Shown):
         threshold = as_number("edp", edp)
         if not 0.0 < threshold <= self.edp_limit:
             raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
-        return (self.edp >= threshold).sum(axis=1)
+        counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
+        return counts
 
     def fit(self, edp: float | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood.
@@ -287,16 +289,20 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     """The stripes up to a level."""
     shape = (complete, len(plan.record))
     size = complete * len(plan.record)
-    *rows, error = (values[:size].reshape(shape) for values in outcome[:5])
+    flat: tuple[Any, ...] = outcome[:5]
+    edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
     levels, scale = request.levels[:complete], plan.scale[:complete]
-    for array in (*rows, error, scale, plan.polarity):
+    for array in (edp, collapsed, impacts, time_of_peak, error, scale, plan.polarity):
         array.flags.writeable = False
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     return Stripes(
         request.walls[0],
         request.im,
         levels,
-        *rows,
+        edp,
+        collapsed,
+        impacts,
+        time_of_peak,
         scale,
         tuple(records[i].name for i in plan.record),
         plan.polarity,
@@ -349,12 +355,13 @@ def stripes_table(
     walls: Sequence[Wall],
     im: str,
     levels: FloatArray,
-    edp_thresholds: Sequence[float],
+    edp_thresholds: ArrayLike,
     exceedances: np.ndarray[Any, Any],
-    histories: Sequence[int],
+    histories: ArrayLike,
 ) -> tables.Table:
     """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls)."""
-    states, number = len(edp_thresholds), len(levels)
+    thresholds = np.asarray(edp_thresholds)
+    states, number = len(thresholds), len(levels)
     counts = exceedances.transpose(2, 0, 1).ravel()
     sizes = np.repeat(np.asarray(histories), states * number)
     return {
@@ -365,5 +372,5 @@ def stripes_table(
         "histories": sizes,
         "collapses": counts,
         "fraction": counts / sizes,
-        "edp_threshold": np.tile(np.repeat(np.asarray(edp_thresholds), number), len(walls)),
+        "edp_threshold": np.tile(np.repeat(thresholds, number), len(walls)),
     }

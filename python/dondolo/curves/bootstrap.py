@@ -86,10 +86,11 @@ class Bootstrap:
             No sample has a fit.
         """
         ends = tails(level)
-        return {
-            name: tuple(float(end) for end in np.quantile(values, ends))
-            for name, values in zip(("theta", "beta"), self._fitted(), strict=True)
-        }  # type: ignore[return-value]
+        found = {}
+        for name, values in zip(("theta", "beta"), self._fitted(), strict=True):
+            low, high = np.quantile(values, ends)
+            found[name] = (float(low), float(high))
+        return found
 
     def _ends(self) -> FloatArray:
         """What the curve of each sample tends to."""
@@ -119,7 +120,8 @@ def draw_records(number: int, n: int, seed: Any, events: Sequence[Any] | None = 
         raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
     drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
-    return drawn * (number / drawn.sum(axis=1, keepdims=True))
+    times: FloatArray = drawn * (number / drawn.sum(axis=1, keepdims=True))
+    return times
 
 
 def _labels(number: int, events: Sequence[Any] | None) -> list[Any]:

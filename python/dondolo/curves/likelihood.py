@@ -45,7 +45,8 @@ class Likelihood:
     def _height(self, eta: FloatArray) -> FloatArray:
         from scipy.special import log_ndtr
 
-        return (self.collapses * log_ndtr(eta) + self.survivals * log_ndtr(-eta)).sum(axis=-1)
+        found: FloatArray = (self.collapses * log_ndtr(eta) + self.survivals * log_ndtr(-eta)).sum(axis=-1)
+        return found
 
     def _along(self, offset: FloatArray, direction: FloatArray, start: FloatArray, positive: bool) -> FloatArray:
         """Maxima of the likelihood over c of eta = offset + c direction, row by row; Newton with halved steps."""

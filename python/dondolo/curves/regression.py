@@ -110,7 +110,8 @@ class Logistic:
 
         if self.status == "ok":
             with np.errstate(divide="ignore"):
-                return expit(self.b0 + self.b1 * np.log(x))
+                found: FloatArray = expit(self.b0 + self.b1 * np.log(x))
+                return found
         if self.status == "separated":
             low, high = self.bracket
             return np.where(x >= high, 1.0, np.where(x > low, gap, 0.0))
@@ -121,7 +122,7 @@ def regress(x: FloatArray, y: FloatArray) -> Regression:
     """Line by least squares."""
     n = len(x)
     if n < 3 or x.min() == x.max():
-        return Regression(*[np.nan] * 5, n, "too_few")
+        return Regression(np.nan, np.nan, np.nan, np.nan, np.nan, n, "too_few")
     from scipy.stats import linregress
 
     line = linregress(x, y)
@@ -138,7 +139,8 @@ def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
     if count in (0, n):
         return Logistic(np.nan, np.nan, "all" if count else "none", (0.0, np.inf), n, count)
     here, there = x[kind], x[~kind]
-    bracket = tuple(sorted((float(here.min()), float(there.max()))))
+    low, high = sorted((float(here.min()), float(there.max())))
+    bracket = (low, high)
     if here.max() <= there.min():
         return Logistic(np.nan, np.nan, "decreasing", bracket, n, count)
     if here.min() >= there.max():
@@ -155,11 +157,13 @@ def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
         return float(np.logaddexp(0.0, eta).sum() - eta[kind].sum())
 
     def gradient(b: FloatArray) -> FloatArray:
-        return design @ (expit(b @ design) - kind)
+        found: FloatArray = design @ (expit(b @ design) - kind)
+        return found
 
     def hessian(b: FloatArray) -> FloatArray:
         p = expit(b @ design)
-        return (design * (p * (1.0 - p))) @ design.T
+        found: FloatArray = (design * (p * (1.0 - p))) @ design.T
+        return found
 
     found = minimize(height, np.zeros(2), jac=gradient, hess=hessian, method="trust-exact", options={"gtol": 1e-9})
     b1 = float(found.x[1] / unit)

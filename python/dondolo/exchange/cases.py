@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import Any
 
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._fortran import _binding, _core
@@ -73,12 +74,23 @@ class Case:
         -------
         Results
         """
-        solver = {"engine": self.engine, "rtol": self.rtol, "atol": self.atol, "edp_limit": self.edp_limit}
+        solver: dict[str, Any] = {
+            "engine": self.engine,
+            "rtol": self.rtol,
+            "atol": self.atol,
+            "edp_limit": self.edp_limit,
+        }
         if self.task == "history":
             record = self.records[self.record]
             response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, **solver)
             return Results(self, response=response)
-        ensemble = {"im": self.im, "polarity": self.polarity, "threads": self.threads, "progress": progress, **solver}
+        ensemble: dict[str, Any] = {
+            "im": self.im,
+            "polarity": self.polarity,
+            "threads": self.threads,
+            "progress": progress,
+            **solver,
+        }
         if self.task == "stripes":
             ensemble["estimate_error"] = self.estimate_error
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
@@ -141,7 +153,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         task,
         title,
         output,
-        Population(tuple(people), weight, groups, p_occ),
+        Population(tuple(people), weight, tuple(groups), p_occ),
         tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
         im,
         polarity,

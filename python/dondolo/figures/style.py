@@ -18,7 +18,9 @@ GREY = "#8C8C8C"
 LIGHT = "#D9D9D9"
 BRICK = "#E8C9A8"
 
-RC = {
+_DPI = 110.0
+
+RC: dict[Any, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
@@ -29,7 +31,7 @@ RC = {
     "axes.titlesize": 10.5,
     "legend.frameon": False,
     "legend.fontsize": 8.5,
-    "figure.dpi": 110,
+    "figure.dpi": _DPI,
     "savefig.dpi": 160,
     "savefig.bbox": "tight",
     "lines.linewidth": 1.4,
@@ -66,7 +68,7 @@ def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), columns: int
 
     # Not within rc_context: the first figure of a session chooses the backend, which turns interactive mode on, and
     # leaving the context would turn it off again. Without it a notebook shows no further figure.
-    figure = plt.figure(figsize=size, dpi=RC["figure.dpi"], layout="constrained")
+    figure = plt.figure(figsize=size, dpi=_DPI, layout="constrained")
     with plt.rc_context(RC):
         return figure.subplots(rows, columns, **options)
 

@@ -38,7 +38,7 @@ def combine(
     if len(chosen) < len(people.walls):
         if not people.weights[chosen].any():
             raise Interrupted("interrupted: no wall of any weight is complete")
-        people = people._chosen(chosen)
+        people = people._chosen(chosen.tolist())
     counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
     sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
     return combine_rows(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
@@ -101,7 +101,16 @@ def combine_rows(
         )
     for array in (edp_thresholds, exceedances, histories):
         array.flags.writeable = False
-    found = {"warnings": tuple(data.warnings)}
     return Typology(
-        people, im, levels, edp_thresholds, exceedances, histories, own, combined, tuple(together), work, **found
+        people,
+        im,
+        levels,
+        edp_thresholds,
+        exceedances,
+        histories,
+        own,
+        combined,
+        tuple(together),
+        work,
+        warnings=tuple(data.warnings),
     )

@@ -79,7 +79,7 @@ class Task(NamedTuple):
     """A block as it is sent, with the number of its task and the time."""
 
     first: int
-    count: int
+    count: int  # type: ignore[assignment]
     block: bytes
     number: int = -1
     sent: float = 0.0

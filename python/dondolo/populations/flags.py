@@ -57,10 +57,7 @@ class Flags:
     def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
         """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
         states, levels, walls = exceedances.shape
-        bits = [
-            np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None])  # type: ignore[operator]
-            for i in range(walls)
-        ]
+        bits = [np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None]) for i in range(walls)]
         return cls(histories, levels, states, 1, np.concatenate(bits))
 
     @functools.cached_property

@@ -51,7 +51,7 @@ class Members:
         from scipy.special import ndtr
 
         with np.errstate(divide="ignore"):
-            found = ndtr((np.log(x) - np.log(self.theta[rows])[:, None]) / self.beta[rows][:, None])
+            found: FloatArray = ndtr((np.log(x) - np.log(self.theta[rows])[:, None]) / self.beta[rows][:, None])
         for i in np.flatnonzero(np.isnan(self.theta[rows])):
             found[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, rows[i]]))
         return found

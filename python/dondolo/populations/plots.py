@@ -194,8 +194,10 @@ def plot_damage_states(
     import matplotlib.pyplot as plt
 
     if edp is None:
-        wall = isinstance(states, Stripes)
-        edp = [share * states.edp_limit for share in (0.1, 0.4, 1.0)] if wall else list(states.edp_thresholds)
+        if isinstance(states, Stripes):
+            edp = [share * states.edp_limit for share in (0.1, 0.4, 1.0)]
+        else:
+            edp = list(states.edp_thresholds)
     ax = _axes(ax, len(edp) + 1)
     grid = _grid(states.levels)
     means: list[Group] = []

@@ -105,8 +105,8 @@ def typology(
         raise Interrupted("interrupted: no wall is complete")
     work = Work.total(run.works)
     result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
-    known = {"flags": run.flags.chosen(np.flatnonzero(rows)), "warnings": (*plan.warnings, *result.warnings)}
-    result = dataclasses.replace(result, **known)
+    flags, told = run.flags.chosen(np.flatnonzero(rows)), (*plan.warnings, *result.warnings)
+    result = dataclasses.replace(result, flags=flags, warnings=told)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     _binding.warn(result.warnings)

@@ -149,7 +149,8 @@ class Typology(Shown):
     @property
     def collapses(self) -> IntArray:
         """Collapses of each row, shape (levels, rows)."""
-        return self.exceedances[-1]
+        collapses: IntArray = self.exceedances[-1]
+        return collapses
 
     @property
     def weight(self) -> float:
@@ -245,8 +246,8 @@ class Typology(Shown):
         if len(self.edp_thresholds) == 1:
             return self
         if value not in self._states and place[0] == len(self.edp_thresholds) - 1:
-            last = {"edp_thresholds": self.edp_thresholds[-1:], "exceedances": self.exceedances[-1:]}
-            self._states[value] = dataclasses.replace(self, **last, _states={})
+            last, counts = self.edp_thresholds[-1:], self.exceedances[-1:]
+            self._states[value] = dataclasses.replace(self, edp_thresholds=last, exceedances=counts, _states={})
         if value not in self._states:
             counts, threshold = self.exceedances[place], self.edp_thresholds[place]
             # These two modules need each other: curves make a typology, which makes those of its states.
@@ -432,7 +433,7 @@ class Typology(Shown):
             "typology": lambda: typology_table(self),
             "fragility": self._curves_table,
             "stripes": lambda: stripes_table(
-                self.walls, self.im, self.levels, self.edp_thresholds, self.exceedances, list(self.histories)
+                self.walls, self.im, self.levels, self.edp_thresholds, self.exceedances, self.histories
             ),
             "walls": lambda: self.population._table(),
         }

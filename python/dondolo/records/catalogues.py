@@ -91,7 +91,7 @@ def build_catalogue(
             if mark:
                 problems.append(f"{path}: a vertical component, by its {mark}")
                 continue
-            row = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
+            row: tuple[str, ...] = (place, record.metadata.get("channel", ""), f"{record.dt:.12g}")
             row += (record.metadata.get("units", given_units),)
             row += tuple(record.metadata.get(key, "") for key in _KEYS)
             for column, text in zip(columns, row, strict=True):

@@ -411,7 +411,8 @@ def _component(first: FloatArray, second: FloatArray, angle: float) -> FloatArra
     """Of two components, in a direction [degrees]; quarters of a circle are exact."""
     turn = np.radians(angle % 360.0)
     cosine, sine = (np.cos(turn), np.sin(turn)) if angle % 90.0 else np.round((np.cos(turn), np.sin(turn)))
-    return cosine * first + sine * second
+    component: FloatArray = cosine * first + sine * second
+    return component
 
 
 def _of(record: Any) -> FloatArray:

@@ -118,7 +118,8 @@ class Record:
     @property
     def time(self) -> FloatArray:
         """Times of the samples [s]."""
-        return self.dt * np.arange(len(self.acceleration))
+        time: FloatArray = self.dt * np.arange(len(self.acceleration), dtype=np.float64)
+        return time
 
     def intensity(self, im: str, gravity: float | None = None) -> float:
         """An intensity measure of the record as it stands.

@@ -266,7 +266,9 @@ class Risk(Shown):
             return np.zeros(len(x) - 1)
         if isinstance(self.fragility, Fragility):
             curve = self.fragility
-            parts = curve.saturation * lognormal_integrals(curve.theta, curve.beta, self.hazard, np.log(cuts))
+            parts = curve.saturation * lognormal_integrals(
+                np.asarray(curve.theta), np.asarray(curve.beta), self.hazard, np.log(cuts)
+            )
         else:
             probability = functools.partial(_probability, self.fragility)
             parts, _ = integrals(lambda u: integrand(probability, self.hazard, u), np.log(cuts))
@@ -376,7 +378,8 @@ def _is_mean(fragility: Curve) -> bool:
 def _curve_behind(fragility: Curve) -> Group:
     """Of what mechanism and group the mean of a typology is."""
     options = fragility.keywords if isinstance(fragility, functools.partial) else {}
-    return _object_of(fragility).group(options.get("mechanism"), options.get("group", ""))
+    typology: Typology = _object_of(fragility)
+    return typology.group(options.get("mechanism"), options.get("group", ""))
 
 
 def _probability(fragility: Curve, x: FloatArray) -> FloatArray:

@@ -206,6 +206,7 @@ def integrals(function: Callable[[FloatArray], FloatArray], cuts: FloatArray) ->
     owner = np.arange(len(low))
     coarse = gauss(low, high)
     done, error = np.zeros(coarse.shape), np.zeros(coarse.shape[:-1])
+    by_panel = np.moveaxis(done, -1, 0)
     for _ in range(_HALVINGS):
         if len(low) > _MOST_PANELS:
             raise DondoloError("fragility: is too rough to be integrated")
@@ -219,7 +220,7 @@ def integrals(function: Callable[[FloatArray], FloatArray], cuts: FloatArray) ->
         share = np.maximum((high - low) / (cuts[-1] - cuts[0]), _SMALLEST_SHARE)
         enough = (off <= _TOLERANCE * total[..., None] * share) | np.isinf(fine)
         settled = enough.reshape(-1, len(low)).all(axis=0)
-        np.add.at(done, (..., owner[settled]), fine[..., settled])
+        np.add.at(by_panel, owner[settled], np.moveaxis(fine[..., settled], -1, 0))
         error += off[..., settled].sum(axis=-1)
         rough = ~settled
         if not rough.any():
@@ -227,5 +228,5 @@ def integrals(function: Callable[[FloatArray], FloatArray], cuts: FloatArray) ->
         owner, coarse = np.tile(owner[rough], 2), halves[..., np.tile(rough, 2)]
         low, high = np.append(low[rough], middle[rough]), np.append(middle[rough], high[rough])
     # What is left are panels about jumps, too narrow to matter
-    np.add.at(done, (..., owner), coarse)
+    np.add.at(by_panel, owner, np.moveaxis(coarse, -1, 0))
     return done, error + np.abs(coarse).sum(axis=-1)

@@ -182,7 +182,7 @@ def plot_risk(risk: Risk, axes: Sequence[Axes] | None = None) -> Any:
         wide = np.linspace(-20.0, 20.0, 4001)
         density = risk.density(np.exp(wide))
         ends = wide[density > 1e-3 * density.max()][[0, -1]] if density.max() > 0.0 else ends
-    grid = np.exp(np.linspace(*ends, _POINTS))
+    grid = np.exp(np.linspace(ends[0], ends[1], _POINTS))
     grid[[0, -1]] = np.exp(ends) if hazard.endless else hazard.im_levels[[0, -1]]
     above.plot(grid, hazard(grid), color=style.BLACK)
     if not hazard.endless:

@@ -89,7 +89,8 @@ class Triangular(Distribution):
         from scipy import stats
 
         width = self.high - self.low
-        return stats.triang((self.mode - self.low) / width, self.low, width).ppf(probability)
+        quantiles: FloatArray = stats.triang((self.mode - self.low) / width, self.low, width).ppf(probability)
+        return quantiles
 
 
 @dataclass(frozen=True)
@@ -209,7 +210,10 @@ def _cut_normal(probability: FloatArray, low: float | None, high: float | None) 
     """Quantiles of the standard normal distribution between two ends."""
     from scipy import stats
 
-    return stats.truncnorm(-np.inf if low is None else low, np.inf if high is None else high).ppf(probability)
+    quantiles: FloatArray = stats.truncnorm(-np.inf if low is None else low, np.inf if high is None else high).ppf(
+        probability
+    )
+    return quantiles
 
 
 def _check_numbers(distribution: Any) -> None:

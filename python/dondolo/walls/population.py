@@ -301,7 +301,7 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
     """
     walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)
-    return Population(tuple(wall_from(data) for data in walls), weights, groups, p_occ, origin)
+    return Population(tuple(wall_from(data) for data in walls), weights, tuple(groups), p_occ, origin)
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
@@ -367,7 +367,7 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
-    names = ("name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value")
-    names += ("restitution_factor", "overburden", "eccentricity")
+    names = ["name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value"]
+    names += ["restitution_factor", "overburden", "eccentricity"]
     table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

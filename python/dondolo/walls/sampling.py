@@ -215,7 +215,7 @@ def _draw(
     probabilities = hypercube.random(n)
     if n > len(names) > 1:
         # A few walls may come in orders of which one follows from the others
-        while _is_singular(np.corrcoef(_scores(probabilities), rowvar=False)):
+        while _is_singular(_correlation(_scores(probabilities))):
             probabilities = hypercube.random(n)
         probabilities = _reorder(probabilities, matrix)
     elif correlation:
@@ -269,7 +269,7 @@ def _reorder(probabilities: FloatArray, matrix: FloatArray) -> FloatArray:
     factor, ordered = np.linalg.cholesky(matrix), np.sort(probabilities, axis=0)
     for _ in range(_PASSES):
         scores = _scores(probabilities)
-        own = np.corrcoef(scores, rowvar=False)
+        own = _correlation(scores)
         if _is_singular(own):
             # So few walls that two columns have got one order
             break
@@ -278,11 +278,17 @@ def _reorder(probabilities: FloatArray, matrix: FloatArray) -> FloatArray:
     return probabilities
 
 
+def _correlation(scores: FloatArray) -> FloatArray:
+    """Correlation of the columns, shape (columns, columns)."""
+    return np.atleast_2d(np.corrcoef(scores, rowvar=False))
+
+
 def _scores(values: FloatArray) -> FloatArray:
     """Normal scores of each column: what the normal distribution has at the ranks."""
     from scipy import stats
 
-    return stats.norm.ppf((_ranks(values) + 1.0) / (len(values) + 1.0))
+    scores: FloatArray = stats.norm.ppf((_ranks(values) + 1.0) / (len(values) + 1.0))
+    return scores
 
 
 def _ranks(values: FloatArray) -> Any:

@@ -15,6 +15,9 @@ from dondolo._base.shown import html_of
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 
+# What is left out gets its value from Fortran; from then on it is there.
+_DEFAULT: Any = None
+
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
 
@@ -53,12 +56,12 @@ class Wall:
 
     height: float
     thickness: float
-    density: float | None = None
-    restitution: str | None = None
+    density: float = _DEFAULT
+    restitution: str = _DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
-    gravity: float | None = None
-    name: str | None = None
+    gravity: float = _DEFAULT
+    name: str = _DEFAULT
 
     def __post_init__(self, *bearing: Any) -> None:
         if not self.mechanism:
@@ -93,40 +96,44 @@ class Wall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
         return _binding.flat_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity)
 
+    def _static(self, place: int) -> float:
+        """One of the static quantities, in the order of Fortran."""
+        return float(self.__dict__["_statics"][place])
+
     @property
     def radius(self) -> float:
         """Half diagonal R [m], of the lower block of a two-block wall."""
-        return self._statics[0]
+        return self._static(0)
 
     @property
     def slenderness_angle(self) -> float:
         """Slenderness angle alpha [rad], of the lower block of a two-block wall."""
-        return self._statics[1]
+        return self._static(1)
 
     @property
     def frequency_parameter(self) -> float:
         """Frequency parameter p [rad/s]; p^2 = 3 g/(4 R) for one block."""
-        return self._statics[2]
+        return self._static(2)
 
     @property
     def trigger_acceleration(self) -> float:
         """Ground acceleration at which the wall begins to rock [m/s2]."""
-        return self._statics[3]
+        return self._static(3)
 
     @property
     def capacity_angle(self) -> float:
         """Rotation at which the restoring moment vanishes [rad]."""
-        return self._statics[4]
+        return self._static(4)
 
     @property
     def restitution_coefficient(self) -> float:
         """Speed after an impact / speed before it, 0 <= e < 1."""
-        return self._statics[5]
+        return self._static(5)
 
     @property
     def two_sided(self) -> bool:
         """Does it rock to both sides?"""
-        return self._two_sided
+        return bool(self.__dict__["_two_sided"])
 
     def terms(self, rotation: ArrayLike) -> Terms:
         """Terms of the equation of motion at given rotations.
@@ -183,7 +190,8 @@ class Wall:
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
         """
-        return _binding.wall_terms(self._flat, rotation)[5]
+        energy: FloatArray = _binding.wall_terms(self._flat, rotation)[5]
+        return energy
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
@@ -299,9 +307,9 @@ class TwoBlockWall(Wall):
 
     mechanism: ClassVar[str] = "two_block"
 
-    hinge: float | None = None
-    overburden: float | None = None
-    eccentricity: float | None = None
+    hinge: float = _DEFAULT
+    overburden: float = _DEFAULT
+    eccentricity: float = _DEFAULT
     bearing: InitVar[str | None] = None
     bearing_distance: InitVar[float | None] = None
 
