@@ -170,7 +170,7 @@ def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = No
 
 def _all(content: Mapping[str, Any], name: str, kind: type) -> list[Any]:
     """A list whose elements must be of a type."""
-    values = _member(content, name, list, [])
+    values: list[Any] = _member(content, name, list, [])
     for value in values:
         if type(value) is not kind:
             raise ValueError(f"{name}: {value!r}: must be of type {kind.__name__}")

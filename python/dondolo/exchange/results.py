@@ -89,7 +89,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     names = {"history": "history", "stripes": "histories", "typology": "stripes"}
     if task not in names:
         raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, names))}")
-    result, gravity = run.history, run.setting("solver", "gravity", 9.81)
+    gravity = run.setting("solver", "gravity", 9.81)
+    result = run.history if task == "history" else None
     if task == "history" and result is None:
         raise InputError(f"{run.path}: no 'history'")
     try:
@@ -97,7 +98,7 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     except TypeError as error:
         raise InputError(f"{run.path}: work: {error}") from error
     limit = run.setting("solver", "edp_limit", 1.0)
-    tolerances = [run.setting("solver", name, np.nan) for name in ("rtol", "atol")]
+    tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
     engine = run.setting("solver", "engine", "auto")
     walls = ResultFile(prefix + "_walls.csv")
     with walls.reading():
@@ -105,7 +106,7 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     stored = StoredResults(population, run)
     table = ResultFile(f"{prefix}_{names[task]}.csv")
     with table.reading():
-        if task == "history":
+        if result is not None:
             return replace(stored, response=_response(table, population.walls[0], result, limit))
         if task == "stripes":
             stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)

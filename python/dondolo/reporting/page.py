@@ -92,7 +92,7 @@ def report(
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
     # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
-    plt.draw_if_interactive()
+    plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
     version, template = _binding.constants().version, _environment().get_template("page.html.j2")

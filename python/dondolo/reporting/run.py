@@ -147,7 +147,7 @@ def _of_case(results: Results) -> Run:
         ("edp_limit", f"{case.edp_limit:g}"),
     ]
     if case.task == "stripes" and len(case.edp_thresholds) > 1:
-        run.thresholds = case.edp_thresholds
+        run.thresholds = case.edp_thresholds.tolist()
     return run
 
 

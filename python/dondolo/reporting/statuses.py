@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -28,7 +28,7 @@ STATUSES = {
 }
 
 
-def status_table(states: dict[str, Sequence[Fragility]]) -> Table:
+def status_table(states: Mapping[str, Sequence[Fragility]]) -> Table:
     """How many curves have which status, a column for each damage state."""
     counts = {name: Counter(curve.status for curve in curves) for name, curves in states.items()}
     found = [status for status in STATUSES if any(count[status] for count in counts.values())]
@@ -39,7 +39,7 @@ def status_table(states: dict[str, Sequence[Fragility]]) -> Table:
 
 
 def crossings(
-    curves: dict[str, Sequence[Callable[[FloatArray], FloatArray]]],
+    curves: Mapping[str, Sequence[Callable[[FloatArray], FloatArray]]],
     names: Sequence[str],
     levels: FloatArray,
     im: str,
@@ -48,7 +48,7 @@ def crossings(
 
     Parameters
     ----------
-    curves : dict
+    curves : mapping
         Whose -> functions of the intensity, from the least severe state to collapse.
     names : sequence of str
         Of the states.

@@ -176,14 +176,9 @@ def uncertainty(people: Typology) -> dict[str, Any]:
     except DondoloError as error:
         return {"problem": str(error)}
     low, high = samples.mean_interval()
-    rows = [
-        ((THETA, f" [{level_unit(people.im)}]"), curve.fit.theta, *intervals["theta"]),
-        (BETA, curve.fit.beta, *intervals["beta"]),
-    ]
-    parameters: dict[Piece, Sequence[Piece]] = {"parameter": [row[0] for row in rows]}
-    parameters |= {
-        head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"), start=1)
-    }
+    rows = [(curve.fit.theta, *intervals["theta"]), (curve.fit.beta, *intervals["beta"])]
+    parameters: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
+    parameters |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
     levels: dict[Piece, Sequence[Piece]] = {
         level_head(people.im): [number(x) for x in people.levels],
         "mean of fractions": [probability(p) for p in curve.mean_fraction],

@@ -68,7 +68,7 @@ contains
       call put_input('case', case%file)
       call put_input('catalogue', beside(case%records_input%catalogue, case%file))
       do i = 1, size(case%suite%records)
-         if (allocated(case%suite%records(i)%file)) call put_input('record', case%records(i)%file)
+         if (allocated(case%suite%records(i)%file)) call put_input('record', case%suite%records(i)%file)
       end do
       if (allocated(case%population_file)) call put_input('population', case%population_path())
       call json%close_array()
