@@ -148,7 +148,7 @@ def damaged(executable, root, tmp_path_factory):
         ("history", "run.json", r'"record": ".*",', "", "record = None: must be of type str"),
         ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "no JSON: .*line"),
         ("history", "run.json", r'"impacts": ', '"impacts": 1.5, "i": ', "impacts = 1.5: must be of type int"),
-        ("history", "run.json", r'"history": {', '"none": {', "no 'history'"),
+        ("history", "run.json", r'^  "history": {$', '"none": {', "no 'history'"),
         ("parapet", "run.json", r"dondolo run 1", "dondolo run 0", "no file of a run: format must be 'dondolo run 1'"),
         (
             "parapet",

@@ -467,7 +467,7 @@ def test_scale_factors_of_a_population_are_known(people, records, tmp_path):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a")]
     with pytest.warns(dd.DondoloWarning) as caught:
         large = dd.typology(walls, records, [0.4, 0.8, 1.2, 1.6], progress=False)
-    assert list(large.warnings) == [str(one.message) for one in caught]
+    assert list(large.warnings) == [one.message for one in caught]
     dd.report(large, tmp_path / "report.html")
     page = read(tmp_path / "report.html")
     many, histories, most = re.search(r"above 10 in (\d+) of (\d+) histories, the largest (\S+)", page.text).groups()

@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.fragility import Fragility
+from dondolo.populations.series import in_series
 
 # Numbers that curves of many walls are computed at together: a few tens of MB
 _NUMBERS = 2_000_000
@@ -27,7 +28,7 @@ class Members:
         first: np.ndarray[Any, Any],
     ) -> None:
         self.levels, self.fractions = levels, fractions
-        self.weights, self.p_occ = weights, p_occ
+        self.weights, self.p_occ, self.first = weights, p_occ, first
         self.theta = np.array([curve.theta for curve in curves])
         self.beta = np.array([curve.beta for curve in curves])
         # Of each wall its first row, its second row, ...
@@ -41,10 +42,7 @@ class Members:
     def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Probabilities (walls, x) and weights (walls,)."""
         rows = self.rows_at(np.arange(len(self.theta)), x) * self.p_occ[:, None]
-        whole = np.zeros((len(self.weights), len(x)))
-        for walls, row in self.rows:
-            whole[walls] += (1.0 - whole[walls]) * rows[row]
-        return whole, self.weights
+        return in_series(rows, self.first), self.weights
 
     def rows_at(self, rows: np.ndarray[Any, Any], x: FloatArray) -> FloatArray:
         """Probabilities (rows, x) of some rows, if their mechanisms can occur."""
