@@ -51,7 +51,7 @@ contains
       arguments%task = 'stripes'
       i = 1
       do while (i <= command_argument_count())
-         word = argument(i)
+         call get_argument(i, word)
          i = i + 1
          if (word == '--check') then
             call set_action('check')
@@ -237,7 +237,7 @@ contains
          value = word(index(word, '=') + 1:)
          return
       end if
-      value = argument(i)
+      call get_argument(i, value)
       if (i > command_argument_count() .or. index(value, '--') == 1) then
          deallocate (value)
       else
@@ -246,11 +246,11 @@ contains
    end subroutine take_value
 
    !> One argument
-   function argument(i) result(word)
+   subroutine get_argument(i, word)
       !> Its number
       integer, intent(in) :: i
       !> Its text, empty if there is none
-      character(len=:), allocatable :: word
+      character(len=:), allocatable, intent(out) :: word
 
       integer :: length
 
@@ -258,6 +258,6 @@ contains
       if (i <= command_argument_count()) call get_command_argument(i, length=length)
       allocate (character(len=length) :: word)
       if (length > 0) call get_command_argument(i, value=word)
-   end function argument
+   end subroutine get_argument
 
 end module dondolo_arguments

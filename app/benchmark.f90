@@ -4,7 +4,7 @@ module dondolo_benchmark
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
    use dondolo_case, only : case_type
    use dondolo_counts, only : counts_type
-   use dondolo_ensemble, only : engine_text
+   use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
@@ -12,7 +12,7 @@ module dondolo_benchmark
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
    use dondolo_study, only : study_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : counted, rounded, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names
    use dondolo_work, only : work_type
@@ -25,7 +25,7 @@ module dondolo_benchmark
    integer, parameter :: times = 3
 
    !> What the work gives, once
-   type :: fingerprint_type
+   type :: outcome_type
       !> Collapses and histories of each mechanism
       integer :: collapses(size(mechanism_names)) = 0, histories(size(mechanism_names)) = 0
       !> Sum of all EDPs, each rounded to a millionth [1e-6]
@@ -33,7 +33,7 @@ module dondolo_benchmark
       !> What was computed, and multiplications and additions of its steps
       type(work_type) :: work
       real(wp) :: operations = 0.0_wp
-   end type fingerprint_type
+   end type outcome_type
 
 contains
 
@@ -50,7 +50,7 @@ contains
 
       type(case_type) :: work
       type(member_type), allocatable :: walls(:)
-      type(fingerprint_type) :: fingerprint
+      type(outcome_type) :: fingerprint
       character(len=160) :: line
       real(wp) :: once, alone, strong, weak, histories, arithmetic
       integer :: copies, team
@@ -78,7 +78,7 @@ contains
       end do
       if (.not. quiet) write (output_unit, '(a)') ''
       write (output_unit, '(a)') 'figure of merit: '//to_text(nint(histories*real(team, wp)/weak))// &
-         & ' histories a second on '//to_text(team)//threads_of(team)//', '//to_text(nint(histories/weak))//' on each'
+         & ' histories a second on '//counted(team, 'thread')//', '//to_text(nint(histories/weak))//' on each'
       if (quiet) return
       arithmetic = best_arithmetic(team, 0.1_wp*seconds)
       write (output_unit, '(a)') 'arithmetic of the steps: '//rounded(1.0e-9_wp*rate_of(fingerprint, once=weak, &
@@ -96,7 +96,7 @@ contains
       !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> What it gives
-      type(fingerprint_type), intent(out) :: fingerprint
+      type(outcome_type), intent(out) :: fingerprint
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
@@ -173,7 +173,7 @@ contains
    !> Multiplications and additions of steps a second
    pure real(wp) function rate_of(fingerprint, once, copies)
       !> What the work gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
       !> Time of a measurement [s]
       real(wp), intent(in) :: once
       !> How many times over the work was done in it
@@ -189,15 +189,18 @@ contains
       !> Number of its walls
       integer, intent(in) :: walls
       !> What it gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
       !> How many times over it is done
       integer, intent(in) :: copies
 
+      character(len=:), allocatable :: engines
+
+      call name_engines(fingerprint%work, engines)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
-         & 'processor: '//processor_name(), &
+         & 'processor: '//trim(processor_name()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
          & 'options: '//compiler_options(), &
-         & 'engine: '//engine_text(fingerprint%work)
+         & 'engine: '//engines
       associate (work => fingerprint%work)
          write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
             & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
@@ -214,7 +217,7 @@ contains
    !> Print what can be compared with other machines
    subroutine print_fingerprint(fingerprint)
       !> What the work gives
-      type(fingerprint_type), intent(in) :: fingerprint
+      type(outcome_type), intent(in) :: fingerprint
 
       integer :: i
 
@@ -227,16 +230,5 @@ contains
          & 'Collapses agree between machines, compilers and variants, but for histories on the edge of collapse; the', &
          & 'sum may differ by some hundreds, since rocking amplifies rounding errors, and in a few histories they show.'
    end subroutine print_fingerprint
-
-   !> The word thread in the number that follows a count
-   pure function threads_of(number) result(word)
-      !> The count
-      integer, intent(in) :: number
-      !> Blank and word
-      character(len=:), allocatable :: word
-
-      word = ' threads'
-      if (number == 1) word = ' thread'
-   end function threads_of
 
 end module dondolo_benchmark

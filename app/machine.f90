@@ -15,8 +15,8 @@ contains
 
    !> Name of the processor, where the system tells it
    function processor_name() result(name)
-      !> Name, or 'unknown'
-      character(len=:), allocatable :: name
+      !> Name, or 'unknown'; filled up with blanks
+      character(len=256) :: name
 
       character(len=256) :: line
       integer :: unit, stat
@@ -28,7 +28,7 @@ contains
          read (unit, '(a)', iostat=stat) line
          if (stat /= 0) exit
          if (index(line, 'model name') /= 1) cycle
-         name = trim(adjustl(line(index(line, ':') + 1:)))
+         name = adjustl(line(index(line, ':') + 1:))
          exit
       end do
       close (unit)

@@ -65,9 +65,9 @@ contains
          return
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
-         & list(case%stripes%levels)//case%stripes%scaling%unit_after_blank()
+         & trim(list(case%stripes%levels))//case%stripes%scaling%unit_after_blank()
       if (size(case%stripes%thresholds) > 1) &
-         & write (output_unit, '(a)') 'EDP thresholds:'//list(case%stripes%thresholds)
+         & write (output_unit, '(a)') 'EDP thresholds:'//trim(list(case%stripes%thresholds))
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
@@ -172,15 +172,15 @@ contains
       write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%input%name, width), &
          & wall%input%mechanism, wall%input%height, wall%input%thickness, &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
-         & wall%mechanism%capacity, wall%mechanism%restitution, load_of(wall%input)
+         & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall%input))
    end subroutine print_row
 
    !> The load on a wall, and where it bears
    pure function load_of(input) result(text)
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
-      !> Blanks and a few words, empty without a load
-      character(len=:), allocatable :: text
+      !> Blanks and a few words, filled up with blanks; empty without a load
+      character(len=160) :: text
 
       real(wp) :: half
 
@@ -188,13 +188,13 @@ contains
       if (.not. allocated(input%overburden)) return
       if (.not. input%overburden > 0.0_wp) return
       half = 0.5_wp*input%thickness
-      text = '  load '//rounded(input%overburden)//' N/m, '
+      text = '  load '//rounded(input%overburden)//' N/m'
       if (input%eccentricity < 0.0_wp) then
-         text = text//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
+         text = trim(text)//', '//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
       else if (input%eccentricity > 0.0_wp) then
-         text = text//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
+         text = trim(text)//', '//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
       else
-         text = text//'on the centreline'
+         text = trim(text)//', on the centreline'
       end if
    end function load_of
 
@@ -225,14 +225,14 @@ contains
    pure function list(values) result(text)
       !> Numbers
       real(wp), intent(in) :: values(:)
-      !> Their texts
-      character(len=:), allocatable :: text
+      !> Their texts, filled up with blanks
+      character(len=48*size(values)) :: text
 
       integer :: i
 
       text = ''
       do i = 1, size(values)
-         text = text//' '//to_text(values(i))
+         text = trim(text)//' '//to_text(values(i))
       end do
    end function list
 

@@ -48,7 +48,8 @@ contains
       filled = int(real(width)*(real(done)/real(max(total, 1))))
       elapsed = real(now - clock_start)/real(rate)
       left = ''
-      if (done > done_start) left = ', '//duration(elapsed*(real(total - done)/real(done - done_start)))//' left'
+      if (done > done_start) left = ', '// &
+         & trim(duration(elapsed*(real(total - done)/real(done - done_start))))//' left'
       write (text, '(a, i3, a, i0, a, i0, a)') '['//repeat('#', filled)//repeat('.', width - filled)//'] ', &
          & int(100.0*(real(done)/real(max(total, 1)))), ' %  ', done, ' of ', total, ' histories'//left
       write (error_unit, '(a)', advance='no') achar(13)//trim(text)//achar(27)//'[K'
@@ -59,21 +60,19 @@ contains
    function duration(seconds) result(text)
       !> Duration [s]
       real, intent(in) :: seconds
-      !> Its text
-      character(len=:), allocatable :: text
+      !> Its text, filled up with blanks
+      character(len=24) :: text
 
-      character(len=24) :: buffer
       integer :: minutes
 
       minutes = nint(min(seconds, 1.0e8)/60.0)
       if (seconds < 100.0) then
-         write (buffer, '(i0, a)') nint(seconds), ' s'
+         write (text, '(i0, a)') nint(seconds), ' s'
       else if (minutes < 100) then
-         write (buffer, '(i0, a)') minutes, ' min'
+         write (text, '(i0, a)') minutes, ' min'
       else
-         write (buffer, '(i0, a, i0, a)') minutes/60, ' h ', modulo(minutes, 60), ' min'
+         write (text, '(i0, a, i0, a)') minutes/60, ' h ', modulo(minutes, 60), ' min'
       end if
-      text = trim(buffer)
    end function duration
 
    !> Leave the line empty

@@ -7,7 +7,7 @@ module dondolo_summary
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_wall
    use dondolo_results, only : results_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : counted, rounded, to_text
    use dondolo_typology, only : whole_population
    implicit none
    private
@@ -73,26 +73,23 @@ contains
       !> Number of threads
       integer, intent(in) :: threads
 
-      character(len=:), allocatable :: crew
       integer(int64) :: histories
 
       histories = results%work%histories
       if (case%solver%solver%estimate_error) histories = histories/2
-      crew = ' threads'
-      if (threads == 1) crew = ' thread'
       if (results%resumed > 0) then
          write (output_unit, '(a)') to_text(histories)//' histories, those of rows '//to_text(case%survey%first)//' to '// &
             & to_text(results%resumed)//' by an earlier run, engine '//results%engine()
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
-            & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//to_text(threads)//crew// &
+            & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//counted(threads, 'thread')// &
             & ', engine '//results%engine()
       else
          write (output_unit, '(a)') to_text(histories)//' histories, engine '//results%engine()
       end if
       associate (work => results%work)
-         write (output_unit, '(a)') 'never moved: '//share(work%still, work%histories)//' histories; rocking: '// &
-            & share(work%rocked, work%intervals)//' sample intervals'
+         write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &
+            & trim(share(work%rocked, work%intervals))//' sample intervals'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
             & '(to estimate errors every history was run a second time, with halved steps)'
       end associate
@@ -104,8 +101,8 @@ contains
       integer(int64), intent(in) :: part
       !> The whole
       integer(int64), intent(in) :: whole
-      !> Text that the name of what is counted can follow
-      character(len=:), allocatable :: text
+      !> Text that the name of what is counted can follow, filled up with blanks
+      character(len=56) :: text
 
       character(len=8) :: percent
 
@@ -125,10 +122,10 @@ contains
             & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
          if (response%collapsed) then
             write (output_unit, '(a)') 'collapse: EDP reaches its limit '//rounded(response%edp)//' at '// &
-               & rounded(response%time_of_peak)//' s, after '//impacts(response%impacts)
+               & rounded(response%time_of_peak)//' s, after '//counted(response%impacts, 'impact')
          else if (response%edp > 0.0_wp) then
             write (output_unit, '(a)') 'no collapse: largest EDP '//rounded(response%edp)//' at '// &
-               & rounded(response%time_of_peak)//' s, '//impacts(response%impacts)
+               & rounded(response%time_of_peak)//' s, '//counted(response%impacts, 'impact')
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
@@ -141,17 +138,6 @@ contains
          end if
       end associate
    end subroutine print_history
-
-   !> A number of impacts
-   pure function impacts(number) result(text)
-      !> Number
-      integer, intent(in) :: number
-      !> Text
-      character(len=:), allocatable :: text
-
-      text = to_text(number)//' impacts'
-      if (number == 1) text = '1 impact'
-   end function impacts
 
    !> Print the stripes of the one wall
    subroutine print_stripes(case, results)
@@ -166,7 +152,7 @@ contains
       real(wp) :: fraction
       integer :: j, k, histories
 
-      head = head_of_levels(case)
+      call make_head(case, head)
       histories = results%row%histories
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
@@ -202,7 +188,7 @@ contains
          write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
             & ' (standard error of ln theta '//rounded(curve%se_ln_theta())//'), beta = '//rounded(curve%beta)// &
             & ' (standard error '//rounded(curve%se_beta())//'), status '//trim(curve%status), &
-            & case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '//fractiles(case, curve, 1.0_wp)
+            & case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '//trim(fractiles(case, curve, 1.0_wp))
       else
          write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
       end if
@@ -216,22 +202,21 @@ contains
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse
-      character(len=:), allocatable :: text
+      !> The levels and their unit; a dash where so many cannot collapse; filled up with blanks
+      character(len=100) :: text
 
       real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
       integer :: i
 
       text = ''
       do i = 1, size(shares)
-         if (i > 1) text = text//', '
          if (shares(i) < saturation) then
-            text = text//rounded(curve%level(shares(i)/saturation))
+            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))//','
          else
-            text = text//'-'
+            text = trim(text)//' -,'
          end if
       end do
-      text = text//case%stripes%scaling%unit_after_blank()
+      text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
    end function fractiles
 
    !> Print the curves of a population
@@ -278,7 +263,7 @@ contains
       character(len=120) :: line
       integer :: i, j, k, thresholds
 
-      head = head_of_levels(case)
+      call make_head(case, head)
       thresholds = size(results%typologies, 2)
       associate (typology => results%typologies(whole_population(results%typologies(:, thresholds)), thresholds))
          write (output_unit, '(a, a15, a12)') head, 'mean fraction', 'mean curve'
@@ -302,7 +287,7 @@ contains
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
                      & '), status '//trim(typology%fit%status)//'; at 16, 50, 84 %: '// &
-                     & fractiles(case, typology%fit, typology%saturation)
+                     & trim(fractiles(case, typology%fit, typology%saturation))
                else
                   write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
                end if
@@ -316,21 +301,21 @@ contains
       !> Fraction, 0 to 1
       real(wp), intent(in) :: fraction
       !> Bar
-      character(len=:), allocatable :: bar
+      character(len=nint(fraction*real(bar_width, wp))) :: bar
 
-      bar = repeat('#', nint(fraction*real(bar_width, wp)))
+      bar = repeat('#', len(bar))
    end function bar
 
-   !> Head of a column of levels: the measure and its unit
-   pure function head_of_levels(case) result(head)
+   !> Make the head of a column of levels: the measure and its unit
+   pure subroutine make_head(case, head)
       !> The case
       type(case_type), intent(in) :: case
       !> Head, at least as wide as a number
-      character(len=:), allocatable :: head
+      character(len=:), allocatable, intent(out) :: head
 
       head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
       head = right(head, max(12, len(head) + 1))
-   end function head_of_levels
+   end subroutine make_head
 
    !> A text at the right of a column
    pure function right(text, width)

@@ -1,6 +1,6 @@
 """Run the benchmark: python compare.py EXECUTABLE RECORDS [--quick].
 
-Tables go into out/benchmark; without --quick docs/performance.md is written from them.
+Tables are written to out/benchmark, and without --quick docs/performance.md from them.
 """
 
 import os
@@ -26,7 +26,7 @@ def compare(executable, records, quick):
     for wall in SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS:
         each = problem(wall, records)
         say(f"{wall}, {len(each)} histories under {each.name} accelerograms")
-        # Slow peers and those of no second wall run on the first wall only.
+        # Slow peers, and peers that support only one wall, run on the first wall only.
         peers = [peer for peer in PEERS if wall == SINGLE_BLOCKS[0] or peer.part == 1]
         shares = weights(executable, each, 3)
         found += run_engines(executable, each, repeats, quick)
@@ -39,7 +39,7 @@ def compare(executable, records, quick):
 
 
 def machine():
-    """Processor, memory, compiler: lines of text."""
+    """Lines that describe processor, system and compiler."""
     lines = []
     information = Path("/proc/cpuinfo")
     model = platform.processor() or platform.machine()
@@ -53,7 +53,7 @@ def machine():
 
 
 def main():
-    """Run everything."""
+    """Run the whole benchmark."""
     executable, records = sys.argv[1:3]
     quick = "--quick" in sys.argv
     start = time.monotonic()

@@ -11,7 +11,7 @@ from matplotlib.ticker import NullFormatter
 from problem import ROOT
 
 FOLDER = ROOT / "docs" / "figures"
-LOWEST = 1e-17  # errors of zero are drawn here
+LOWEST = 1e-17  # errors of zero are drawn at this value
 OPEN = {"markerfacecolor": "white"}
 LOOKS = {
     "dondolo, rk45": {"color": RED, "marker": "o", "linewidth": 2.2},
@@ -43,14 +43,14 @@ MEASURES = (
 
 
 def save(figure, name):
-    """Write a figure; the page that shows it needs its name."""
+    """Write a figure under the name used in the page."""
     FOLDER.mkdir(exist_ok=True)
     figure.savefig(FOLDER / f"performance_{name}.png", dpi=100)
     plt.close(figure)
 
 
 def work(results):
-    """Error against time per history, for every program."""
+    """Draw error against time per history, for every program."""
     with plt.rc_context(RC):
         figure, axes = plt.subplots(2, 2, figsize=(9.6, 9.6), sharex=True, layout="constrained")
         for name, look in LOOKS.items():
@@ -77,7 +77,7 @@ def work(results):
 
 
 def scaling(rows):
-    """Time against threads, walls, levels, length and sampling of the records; memory against histories."""
+    """Draw time against threads, walls, levels, length and sampling of the records; memory against histories."""
     panels = (
         ("threads", "threads", "speed-up"),
         ("walls", "walls", "time per wall / of one"),
@@ -113,7 +113,7 @@ def scaling(rows):
 
 
 def sped_up(rows, kind):
-    """Threads, and histories a second / those of one thread."""
+    """Threads, and the rate of histories relative to one thread."""
     own = [row for row in rows if row["kind"] == kind]
     rate = np.array([row["histories"] / row["value"] for row in own])
     return np.array([row["size"] for row in own]), rate / rate[0]

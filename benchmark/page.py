@@ -9,7 +9,7 @@ from sections_scaling import scaling
 
 
 def write(folder):
-    """The page and its figures."""
+    """Write the page and its figures."""
     results = read_results(folder / "programs.csv")
     machine = (folder / "machine.txt").read_text(encoding="utf-8").splitlines()
     with open(folder / "scaling.csv", newline="", encoding="utf-8") as file:
@@ -18,7 +18,7 @@ def write(folder):
     lines = [
         "# Performance",
         "",
-        "Time against error, on the histories of [verification.md](verification.md). Written by `./run benchmark`.",
+        "Time against error for the histories of [verification.md](verification.md). Written by `./run benchmark`.",
         "",
         *programs(results, machine),
         *scaling(rows),

@@ -1,4 +1,4 @@
-"""What everyone computes: the histories of one wall under one set of accelerograms, as a file for the peers."""
+"""The problem that all programs solve: histories of one wall under a set of accelerograms, as a file for the peers."""
 
 import sys
 import tempfile
@@ -11,13 +11,14 @@ import dondolo as dd
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# The histories, their reference and the count of errors are those of docs/verification; modules here come first.
+# The histories, their reference and the count of errors are those of docs/verification; modules of this folder have
+# priority.
 sys.path.append(str(ROOT / "docs" / "verification"))
 
 from cases import TABLES, Motions, motions, read_table, write_case  # noqa: E402
 from histories import Errors, Histories  # noqa: E402
 
-SINGLE_BLOCKS = ("one_sided", "free_standing")  # walls that the peers know
+SINGLE_BLOCKS = ("one_sided", "free_standing")  # walls that the peers support
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Problem:
 
     wall: str
     motions: Motions
-    name: str  # of the set of accelerograms
+    name: str  # name of the set of accelerograms
     exact: Histories
 
     def __len__(self):
@@ -34,26 +35,26 @@ class Problem:
 
     @property
     def stride(self):
-        """Every so manieth history makes 55."""
+        """Stride that selects 55 histories."""
         return len(self) // 55
 
     def part(self, every):
-        """Every so manieth of the exact histories."""
+        """Every n-th of the exact histories."""
         exact = self.exact
         return Histories(
             exact.record[::every], exact.level[::every], exact.edp[::every], exact.collapsed[::every], None
         )
 
     def errors(self, every, edp, collapsed):
-        """How far results of a peer are from the reference."""
+        """Errors of the results of a peer relative to the reference."""
         exact = self.part(every)
         return Errors(Histories(exact.record, exact.level, edp, collapsed, None), exact)
 
     def write(self, path):
         """Write the file, float64 throughout.
 
-        The wall, the numbers of records and histories, time step and number of samples of each record, all samples
-        [m/s2], record (from 0) and scale of each history.
+        It contains the wall, the numbers of records and histories, time step and number of samples of each record,
+        all samples [m/s2], and record (from 0) and scale of each history.
         """
         case = self.case()
         wall, records = case.population[0], case.records
@@ -75,6 +76,6 @@ class Problem:
 
 
 def problem(wall, records):
-    """The histories of a wall: under the recorded accelerograms where these are, else under the synthetic ones."""
+    """Histories of a wall under the recorded accelerograms if available, else under the synthetic ones."""
     name, chosen = next(iter(motions(records).items()))
     return Problem(wall, chosen, name, Histories.of(read_table(Path(TABLES) / f"{wall}_{name}.csv")))

@@ -1,4 +1,4 @@
-"""The programs that are compared, their settings, and how each is run: dondolo's engines and the peers."""
+"""The programs compared (dondolo's engines and the peers), their settings, and functions to run them."""
 
 import csv
 import re
@@ -16,12 +16,12 @@ FOLDER = Path(__file__).resolve().parent
 BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
 PYTHON = ENVIRONMENT / "bin" / "python"
 PATIENCE = 400  # seconds for one setting of a peer
-LARGE = 1e-6  # an EDP that is off by more is counted
+LARGE = 1e-6  # EDPs with larger errors are counted
 
 
 @dataclass(frozen=True)
 class Peer:
-    """A program that is not dondolo's.
+    """A program other than dondolo.
 
     Its command is called with PROBLEM METHOD SETTING REPEATS EVERY and prints its version, the seconds of the
     integration of each repeat, and EDP, collapse and impacts of every history.
@@ -30,12 +30,12 @@ class Peer:
     name: str
     command: tuple
     methods: dict  # {method: settings, the cheapest first}
-    needs: str  # what to install where it is missing
-    part: int = 1  # of the histories: 1, all; 16, every 16th of 880
+    needs: str  # requirements, for the message if it is missing
+    part: int = 1  # part of the histories: 1, all; 16, every 16th of 880
     repeats: int = 3
 
     def quick(self):
-        """The same with one setting a method, run once."""
+        """The same peer with one setting per method, run once."""
         middle = {method: settings[len(settings) // 2 :][:1] for method, settings in self.methods.items()}
         return Peer(self.name, self.command, middle, self.needs, self.part, repeats=1)
 
@@ -57,13 +57,13 @@ PEERS = [
         "heyoka",
         (PYTHON, FOLDER / "peers" / "heyoka_taylor.py"),
         {"scalar": (1e-9, 1e-12, 1e-15), "batch": (1e-9, 1e-12, 1e-15)},
-        "heyoka from Python's index, for this processor and Python",
+        "heyoka from PyPI, for this processor and Python",
     ),
     Peer(
         "numbalsoda",
         (PYTHON, FOLDER / "peers" / "numbalsoda_ivp.py"),
         {"dop853": FEW, "lsoda": FEW},
-        "numbalsoda from Python's index",
+        "numbalsoda from PyPI",
     ),
     Peer(
         "SciPy",
@@ -75,7 +75,7 @@ PEERS = [
             "RK45/record": (1e-6, 1e-9),
             "LSODA/record": (1e-6, 1e-9),
         },
-        "scipy and numba from Python's index",
+        "scipy and numba from PyPI",
         part=16,
         repeats=1,
     ),
@@ -94,7 +94,7 @@ ENGINES = {"rk45": TOLERANCES, "lanes": TOLERANCES}
 
 @dataclass(frozen=True)
 class Result:
-    """One program at one setting."""
+    """Result of one program at one setting."""
 
     wall: str
     accelerograms: str
@@ -105,16 +105,16 @@ class Result:
     histories: int
     seconds: float  # of the integration, median of the repeats
     ms: float  # per history
-    ms_of_all: float  # per history, were all run; see `weights`
-    flags: int  # wrong ones
-    above: int  # EDPs off by more than LARGE
+    ms_of_all: float  # per history, estimated for all histories; see `weights`
+    flags: int  # number of wrong flags
+    above: int  # EDPs with an error above LARGE
     worst: float
     median: float  # of the histories that rock and do not collapse
-    most: float  # 99 % of them are no worse
+    most: float  # 99 % quantile of their errors
 
     @property
     def share(self):
-        """Part of the histories with an EDP off by more than LARGE."""
+        """Share of the histories with an error of the EDP above LARGE."""
         return self.above / self.histories
 
     @property
@@ -124,12 +124,12 @@ class Result:
 
 
 def say(text):
-    """Tell the user how far the benchmark is."""
+    """Print a progress message."""
     print(f"benchmark: {text}", file=sys.stderr, flush=True)
 
 
 def result(problem, every, weight, program, version, method, setting, seconds, edp, collapsed):
-    """Count the errors."""
+    """Result of a run, with its errors counted."""
     errors = problem.errors(every, edp, collapsed)
     median = statistics.median(seconds)
     ms = 1e3 * median / len(edp)
@@ -138,14 +138,14 @@ def result(problem, every, weight, program, version, method, setting, seconds, e
         *(errors.flags(), errors.above(LARGE), errors.worst(), errors.quantile(0.5), errors.quantile(0.99)),
     )
     say(
-        f"{found.name}, {setting:g}: {ms:.4g} ms a history, wrong flags {found.flags}, "
-        f"off {found.above} of {len(edp)}, worst {found.worst:.1e}, median {found.median:.1e}"
+        f"{found.name}, {setting:g}: {ms:.4g} ms per history, wrong flags {found.flags}, "
+        f"errors above 1e-6 {found.above} of {len(edp)}, worst {found.worst:.1e}, median {found.median:.1e}"
     )
     return found
 
 
 def run_peer(peer, problem, path, weights):
-    """All settings of a peer; none, with a word why, where it cannot run."""
+    """Run all settings of a peer; those that cannot run are skipped with a message."""
     found = []
     every = len(problem) * peer.part // 880 or 1
     for method, settings in peer.methods.items():
@@ -154,14 +154,14 @@ def run_peer(peer, problem, path, weights):
             try:
                 done = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=PATIENCE)
             except OSError:
-                say(f"{peer.name} is skipped: it is not here, and needs {peer.needs}")
+                say(f"{peer.name} is skipped: not found; it needs {peer.needs}")
                 return found
             except subprocess.TimeoutExpired:
-                say(f"{peer.name}, {method}, {setting:g} is skipped: not done after {PATIENCE} s")
+                say(f"{peer.name}, {method}, {setting:g} is skipped: not finished after {PATIENCE} s")
                 continue
             if done.returncode:
                 why = " ".join(done.stderr.strip().splitlines()[-1:])
-                say(f"{peer.name}, {method}, {setting:g} is skipped: it fails with '{why}'; it needs {peer.needs}")
+                say(f"{peer.name}, {method}, {setting:g} is skipped: failed with '{why}'; it needs {peer.needs}")
                 continue
             version, seconds, outcomes = parse(done.stdout)
             weight = weights[every]
@@ -171,7 +171,7 @@ def run_peer(peer, problem, path, weights):
 
 
 def parse(printed):
-    """Version, seconds of each repeat, and the rows of the histories."""
+    """Version, seconds of each repeat, and the rows of the histories, from the output of a peer."""
     version, seconds, rows = "", [], []
     for line in printed.splitlines():
         first, _, rest = line.partition(" ")
@@ -185,7 +185,7 @@ def parse(printed):
 
 
 def run_dondolo(executable, wall, motions, rtol, engine, repeats):
-    """Seconds of each repeat, and the histories; None where there is no such engine."""
+    """Seconds of each repeat, and the histories; None if the engine does not exist."""
     seconds = []
     with tempfile.TemporaryDirectory() as folder:
         case = write_case(folder, wall, motions, rtol, threads=1, solver=f"engine = '{engine}'")
@@ -199,14 +199,14 @@ def run_dondolo(executable, wall, motions, rtol, engine, repeats):
 
 
 def run_engines(executable, problem, repeats, quick):
-    """Both engines of dondolo on all histories."""
+    """Run both engines of dondolo on all histories."""
     version = subprocess.run([executable, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
     found = []
     for engine, settings in ENGINES.items():
         for rtol in settings[1::2] if quick else settings:
             run = run_dondolo(executable, problem.wall, problem.motions, rtol, engine, repeats)
             if run is None:
-                say(f"dondolo here has no engine {engine}: skipped")
+                say(f"this build of dondolo has no engine {engine}: skipped")
                 break
             seconds, each = run
             arguments = (seconds, each.edp, each.collapsed)
@@ -215,9 +215,9 @@ def run_engines(executable, problem, repeats, quick):
 
 
 def weights(executable, problem, repeats):
-    """{every: how much longer than the mean of all a history takes on average if only every so manieth is run}.
+    """Ratio of the mean time per history of every n-th history to that of all, as {n: ratio}.
 
-    By rk45, which runs history by history.
+    Measured with rk45, which runs history by history.
     """
     strides = {len(problem) * peer.part // 880 or 1 for peer in PEERS}
     seconds, _ = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
@@ -231,7 +231,7 @@ def weights(executable, problem, repeats):
 
 
 def seconds_of(executable, problem, chosen, repeats):
-    """Time of some histories: of the records that share their levels at once."""
+    """Time of some histories, measured together for records that share their levels."""
     levels = np.unique(problem.exact.level)
     records = len(problem) // len(levels)
     by_levels = {}
@@ -265,6 +265,6 @@ def write_results(path, results):
 
 
 def read_results(path):
-    """Read it again."""
+    """Read a table of results."""
     with open(path, newline="", encoding="utf-8") as file:
         return [Result(**{f.name: f.type(row[f.name]) for f in fields(Result)}) for row in csv.DictReader(file)]

@@ -1,6 +1,6 @@
-"""How the cost of dondolo grows: with threads, walls, levels, the length of records and their sampling, and its memory.
+"""Cost of dondolo against threads, walls, levels, and the length and sampling of records, and its memory.
 
-The engine is left to dondolo. Accelerograms are the embedded synthetic ones.
+The engine is the default one. Accelerograms are the embedded synthetic ones.
 """
 
 import csv
@@ -25,7 +25,7 @@ WALL = dd.OneSidedWall(height=3.0, thickness=0.25)
 
 
 def walls(count):
-    """Walls of heights from 2 to 4 m."""
+    """Walls with heights from 2 to 4 m."""
     return [dd.OneSidedWall(height=float(h), thickness=0.25, name=f"w{i}") for i, h in enumerate(heights(count))]
 
 
@@ -51,7 +51,7 @@ def typology(executable, count, threads, folder, variant=None):
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
     with subprocess.Popen([executable, case], text=True, env=environment, **streams) as process:
         while process.poll() is None:
-            # What the process itself had at most; that of children in getrusage knows Python's own memory too.
+            # Peak memory of the process itself; that of children in getrusage includes Python's own memory.
             held = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{process.pid}/status").read_text())
             peak = int(held.group(1)) / 1024.0 if held else peak
             time.sleep(0.005)
@@ -60,7 +60,7 @@ def typology(executable, count, threads, folder, variant=None):
 
 
 def threads(executable, repeats):
-    """Strong scaling, on a fixed population, and weak scaling, on one that grows with the threads."""
+    """Measure strong scaling, with a fixed population, and weak scaling, with one that grows with the threads."""
     cores = os.cpu_count()
     counts = sorted({*(2**k for k in range(20) if 2**k <= cores), cores})
     rows = []
@@ -74,7 +74,7 @@ def threads(executable, repeats):
 
 
 def memory(executable):
-    """Peak memory against the number of histories."""
+    """Measure peak memory against the number of histories."""
     rows = []
     for count in (1, 4, 16, 64, 256):
         with tempfile.TemporaryDirectory() as folder:
@@ -85,7 +85,7 @@ def memory(executable):
 
 
 def variants(executable, repeats):
-    """Every build variant that this processor runs, on one thread."""
+    """Measure every build variant that this processor supports, on one thread."""
     rows = []
     for place, name in enumerate(VARIANTS):
         with tempfile.TemporaryDirectory() as folder:
@@ -106,7 +106,7 @@ def timed(wall, records, levels, repeats):
 
 
 def costs(repeats):
-    """Time against number of walls, number of levels, length and time step of the records."""
+    """Measure time against number of walls, number of levels, length and time step of the records."""
     records = dd.read_catalogue(CATALOGUE)
     rows = []
 
@@ -119,11 +119,11 @@ def costs(repeats):
     for count in (5, 10, 20, 40, 80):
         add("levels", count, count * len(records), timed(WALL, records, np.linspace(0.05, 1.0, count), repeats))
     for times in (1, 2, 4, 8):
-        # The same motion again and again: a record of so many shocks
+        # The same motion repeated: a record of several shocks
         longer = [dd.Record(np.tile(r.acceleration, times), r.dt, name=r.name) for r in records]
         add("shocks", times, len(records) * len(LEVELS), timed(WALL, longer, LEVELS, repeats))
     for parts in (1, 2, 4, 8):
-        # Linear in between, as the record itself is: the same input, and the same motion
+        # Linear interpolation, like the record itself: the same input, and the same motion
         finer = [dd.Record(refined(r.acceleration, parts), r.dt / parts, name=r.name) for r in records]
         add("samples", parts, len(records) * len(LEVELS), timed(WALL, finer, LEVELS, repeats))
     say("walls, levels, length and sampling of records")
@@ -131,13 +131,13 @@ def costs(repeats):
 
 
 def refined(acceleration, parts):
-    """Samples in between, on the straight lines."""
+    """Refine samples by linear interpolation."""
     places = np.arange(parts * (len(acceleration) - 1) + 1) / parts
     return np.interp(places, np.arange(len(acceleration)), acceleration)
 
 
 def measure(executable, path, repeats):
-    """Measure all, into a table: kind, size, histories, value [s, or MiB for memory]."""
+    """Measure everything and write a table: kind, size, histories, value [s, or MiB for memory]."""
     rows = threads(executable, repeats) + variants(executable, repeats) + costs(repeats) + memory(executable)
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, ["kind", "size", "histories", "value"])

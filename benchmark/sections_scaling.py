@@ -1,4 +1,4 @@
-"""Threads, sizes, memory."""
+"""Scaling with threads and sizes, and memory."""
 
 import figures
 from markdown import paragraph, table
@@ -6,19 +6,19 @@ from scaling import VARIANTS
 
 
 def scaling(rows):
-    """The section."""
+    """Section 2."""
     figures.scaling(rows)
     lines = [
         "## 2. Threads, sizes, memory",
         "",
         *paragraph(
-            "The default engine on the embedded synthetic accelerograms, 20 levels unless said otherwise. Strong: a "
-            "fixed population of walls; weak: one that grows with the threads."
+            "The default engine is run with the embedded synthetic accelerograms, at 20 levels unless stated "
+            "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads."
         ),
         "![threads, sizes, memory](figures/performance_scaling.png)",
         "",
     ]
-    head = ["scaling", "threads", "histories", "s", "histories a second", "efficiency"]
+    head = ["scaling", "threads", "histories", "s", "histories per second", "efficiency"]
     body = []
     for kind in ("strong", "weak"):
         size, gain = figures.sped_up(rows, kind)
@@ -31,20 +31,20 @@ def scaling(rows):
     names = {
         "walls": "walls",
         "levels": "levels",
-        "shocks": "the record so many times in a row",
-        "samples": "so many samples for one of the record, on the same straight lines",
+        "shocks": "repetitions of the record",
+        "samples": "samples for each one of the record, interpolated linearly",
     }
     body = [
         [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", f"{1e3 * r['value'] / r['histories']:.3g}"]
         for r in rows
         if r["kind"] in names
     ]
-    lines += table(["what grows", "size", "histories", "ms a history"], body)
+    lines += table(["parameter", "size", "histories", "ms per history"], body)
     own = [row for row in rows if row["kind"] == "variant"]
     body = [
         [VARIANTS[int(r["size"])], f"{1e3 * r['value'] / r['histories']:.3g}", f"{own[0]['value'] / r['value']:.3g}"]
         for r in own
     ]
-    lines += table(["build variant", "ms a history", "times as fast"], body)
+    lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
     return lines + table(["histories", "peak memory, MiB"], body)

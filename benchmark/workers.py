@@ -1,7 +1,7 @@
-"""What Dask costs: blocks of walls in this process against the same blocks by workers of a cluster on this machine.
+"""Overhead of Dask: blocks of walls in this process against the same blocks by workers of a cluster on this machine.
 
-Every run has one thread a worker; kinds of runs alternate, so that a machine that slows down slows all of them. Call:
-python benchmark/workers.py [RUNS] [BLOCKS]
+Every run has one thread per worker; the kinds of runs alternate, so that a machine that slows down affects all of
+them. Usage: python benchmark/workers.py [RUNS] [BLOCKS]
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ import dondolo as dd
 
 ROOT = Path(__file__).resolve().parents[1]
 LEVELS = np.linspace(0.1, 2.0, 20)
-# Walls of a block: with 44 records about 100 000 histories, more than a second of one thread
+# Walls per block: with 44 records about 100 000 histories, more than a second on one thread
 WALLS = 130
 
 
 def seconds(population: dd.Population, records: list[dd.Record], executor: Executor | None) -> float:
-    """Time of a typology in blocks of WALLS walls, one thread each."""
+    """Time a typology in blocks of WALLS walls, one thread each."""
     start = time.perf_counter()
     dd.typology(population, records, LEVELS, threads=1, block=WALLS, executor=executor, progress=False)
     return time.perf_counter() - start
 
 
 def main(runs: int = 5, blocks: int = 8) -> None:
-    """Time all kinds of runs, and print a table."""
+    """Time all kinds of runs and print a table."""
     warnings.simplefilter("ignore", dd.DondoloWarning)
     records = dd.read_catalogue(ROOT / "data/records/synthetic44.csv")
     heights = np.random.default_rng(0).uniform(1.5, 4.5, WALLS * blocks)
@@ -59,7 +59,7 @@ def main(runs: int = 5, blocks: int = 8) -> None:
         }
         times: dict[str, list[float]] = {name: [] for name in kinds}
         for executor, _ in kinds.values():
-            # Processes start and get the records.
+            # Start the processes and send them the records.
             seconds(dd.Population(population.walls[:WALLS]), records, executor)
         print(f"load average before: {os.getloadavg()[0]:.2f}")
         for _ in range(runs):

@@ -1,7 +1,7 @@
 """Draw the figures of the README and of docs into docs/figures.
 
-The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only where
-those are: DONDOLO_RECORDS names their folder, ../shared/records if it is not set.
+The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only if
+these are available in the folder DONDOLO_RECORDS (default ../shared/records).
 """
 
 import os
@@ -24,7 +24,7 @@ root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")
 figures = root / "docs/figures"
 
-# The model of the synthetic records as the tests have it
+# The model of the synthetic records, as implemented in the tests
 sys.path.insert(0, str(root / "python/tests"))
 from sabetta_pugliese import Model, mean_frequency  # noqa: E402
 
@@ -43,13 +43,13 @@ def main() -> None:
 
 
 def new_axes(rows, columns, size, **options):
-    """A figure of several axes in the style of dondolo."""
+    """Create a figure of several axes in the style of dondolo."""
     with plt.rc_context(style.RC):
         return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
 
 
 def quick_start():
-    """Stripes and curve of the README's first example."""
+    """Draw stripes and curve of the README's first example."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
     figure, axes = new_axes(1, 2, (9.6, 3.8))
@@ -59,7 +59,7 @@ def quick_start():
 
 
 def intensities():
-    """How well each intensity measure predicts collapse."""
+    """Draw the comparison of intensity measures."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
     axes = dd.plot_intensities(dd.compare_intensities(wall, records, ims))
@@ -67,7 +67,7 @@ def intensities():
 
 
 def mechanisms():
-    """Three walls, rotated."""
+    """Draw three rotated walls."""
     walls = [
         (dd.OneSidedWall(height=1.5, thickness=0.25, name="one_sided"), 0.6),
         (dd.FreeStandingWall(height=1.8, thickness=0.45, name="free_standing"), -0.6),
@@ -81,7 +81,7 @@ def mechanisms():
 
 
 def bearing():
-    """The same joists on a wall that folds outwards, about the outer edge of its top, and on one that folds inwards."""
+    """Draw joists on a wall that folds outwards, about the outer edge of its top, and on one that folds inwards."""
     load = {"overburden": 8000.0, "bearing": "inner", "bearing_distance": 0.06}
     wall = dd.TwoBlockWall(height=1.2, thickness=0.25, hinge=0.6, **load)
     figure, axes = new_axes(1, 2, (8.4, 4.6))
@@ -105,7 +105,7 @@ def bearing():
 
 
 def processing():
-    """A record with a shifted zero and long-period noise, before and after."""
+    """Draw a record with an offset and long-period noise, before and after processing."""
     clean = next(record for record in records if "friuli_1976_sep_15" in record.name)
     time = clean.time
     noise = 0.01 + 0.03 * np.sin(2.0 * np.pi * 0.04 * time)
@@ -134,7 +134,7 @@ def processing():
 
 
 def pulses():
-    """The four pulses: acceleration and velocity."""
+    """Draw acceleration and velocity of the four pulses."""
     shown = [
         (dd.one_sine(1.0, 1.0), "one_sine"),
         (dd.one_cosine(1.0, 1.0), "one_cosine"),
@@ -155,7 +155,7 @@ def pulses():
 
 
 def overturning():
-    """Overturning spectra of Zhang and Makris' block under a sine and under a Ricker wavelet."""
+    """Draw overturning spectra of Zhang and Makris' block under a sine and under a Ricker wavelet."""
     radius, alpha, p = 0.75 * 9.81 / 2.14**2, 0.25, 2.14
     wall = dd.FreeStandingWall(
         height=2.0 * radius * np.cos(alpha),
@@ -190,7 +190,7 @@ def overturning():
 
 
 def statistics():
-    """200 realisations against the model."""
+    """Draw the statistics of 200 realisations against the model."""
     scenario = (6.0, 10.0, "rock")
     made, model = dd.synthetic_records(*scenario, count=200, seed=2024), Model(*scenario)
     time, step = made[0].time, made[0].dt
@@ -225,10 +225,10 @@ def statistics():
 
 
 def spectra():
-    """Response spectra of the synthetic suite beside those of recorded Italian accelerograms."""
+    """Draw response spectra of the synthetic suite and of recorded Italian accelerograms."""
     folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
     if not (folder / "italy44.csv").is_file():
-        print("synthetic_spectra.png: not drawn, no recorded accelerograms here (DONDOLO_RECORDS names their folder)")
+        print("synthetic_spectra.png: not drawn, no recorded accelerograms found (set DONDOLO_RECORDS to their folder)")
         return
     periods = np.geomspace(0.04, 4.0, 60)
     sets = [

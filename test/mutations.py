@@ -67,8 +67,8 @@ EDITS = [
     # Bootstrap over records
     Edit(
         "bootstrap weights are not normalised for events of unequal size",
-        "return drawn * (number / drawn.sum(axis=1, keepdims=True))",
-        "return drawn * 1.0",
+        "times: FloatArray = drawn * (number / drawn.sum(axis=1, keepdims=True))",
+        "times: FloatArray = drawn * 1.0",
         "test_typology_bootstrap.py::test_events_of_unequal_size",
     ),
     Edit(
@@ -243,8 +243,8 @@ EDITS = [
     ),
     Edit(
         "rotation turns in the wrong sense",
-        "return cosine * first + sine * second",
-        "return cosine * first - sine * second",
+        "component: FloatArray = cosine * first + sine * second",
+        "component: FloatArray = cosine * first - sine * second",
         "test_processing.py::test_directions_of_a_line_and_a_circle",
     ),
     Edit(

@@ -1,7 +1,7 @@
-"""heyoka: Taylor's method with its own events, one step from sample to sample where the tolerance allows.
+"""heyoka: Taylor's method with its own events, one step from sample to sample if the tolerance allows it.
 
-Methods: scalar; batch: histories in the lanes of a vector, each at its own time, refilled when one ends. What is not
-integration is compiled by Numba. The setting is the tolerance.
+Methods: scalar; batch: histories in the lanes of a vector, each at its own time, refilled when one ends. Everything
+except the integration is compiled by Numba. The setting is the tolerance.
 """
 
 import heyoka as hy
@@ -11,13 +11,13 @@ from wall import IMPACT, LIMIT, NONE, PEAK, SHORTEST, next_start, peak_after, ru
 
 hy.set_logger_level_error()  # its warnings of multiple roots would go to standard output
 
-LOWEST = 1e-20  # a rotation [rad] that stands still below this is rest
-LANES = 32  # several vectors, to spread what a step costs in Python
+LOWEST = 1e-20  # a stationary rotation [rad] below this is rest
+LANES = 32  # several vectors, to distribute the overhead of a step in Python
 OUTCOMES = {hy.taylor_outcome(-1): IMPACT, hy.taylor_outcome(-2): PEAK, hy.taylor_outcome(-3): LIMIT}
 
 
 def system(wall, event):
-    """The equation of motion and its events; par: present value and slope of the ground's acceleration."""
+    """Equation of motion and its events; par: present value and slope of the ground acceleration."""
     q, v = hy.make_vars("q", "v")
     x = wall.capacity - q
     push = hy.par[0] + hy.par[1] * hy.time
@@ -28,9 +28,10 @@ def system(wall, event):
 
 
 def starter(equations, tolerance):
-    """The motion from rest to the next sample: the ground pushes ever more, so that nothing can happen there.
+    """Function for the motion from rest to the next sample, in which the push of the ground increases monotonically.
 
-    Events are not looked for: at the start they have multiple roots, which root finding does not like.
+    No event can occur there, and none is searched for: at the start they have multiple roots, at which root finding
+    fails.
     """
     integrator = hy.taylor_adaptive(equations, [0.0, 0.0], tol=tolerance)
     state, pars, step = integrator.state, integrator.pars, integrator.step
@@ -47,7 +48,7 @@ def starter(equations, tolerance):
 
 
 def scalar(wall, tolerance):
-    """Run histories one by one."""
+    """Function that runs histories one by one."""
     equations, events = system(wall, hy.t_event)
     start = starter(equations, tolerance)
     integrator = hy.taylor_adaptive(equations, [0.0, 0.0], t_events=events, tol=tolerance)
@@ -71,7 +72,7 @@ def scalar(wall, tolerance):
                 q, v = float(state[0]), float(state[1])
                 outcome, h = step(remaining)
                 while state[0] < 0.0 and outcome not in OUTCOMES and h > SHORTEST * dt:
-                    # Root finding failed, and missed an impact: again, with half the step.
+                    # Root finding failed and missed an impact: repeat with half the step.
                     state[0], state[1] = q, v
                     integrator.time = 0.0
                     outcome, h = step(0.5 * h)
@@ -79,7 +80,7 @@ def scalar(wall, tolerance):
                 q = float(state[0])
                 if q > peak:
                     peak = q
-                # Half of half of a step: the impact is now, to rounding.
+                # The step has been halved down to rounding: the impact is at this time.
                 event = OUTCOMES.get(outcome, IMPACT if q < 0.0 else NONE)
                 if event == PEAK and h == 0.0 and q < LOWEST:
                     event = IMPACT
@@ -105,14 +106,14 @@ LANE = np.dtype(
         ("collapsed", np.bool_),
         ("first", np.int64),  # interval and time of the last start
         ("start", np.float64),
-        ("halved", np.bool_),  # is the next step half of one that missed an impact?
+        ("halved", np.bool_),  # whether the next step is half of one that missed an impact
     ]
 )
 
 
 @njit
 def rest(wall, lane, a, dt, state, k):
-    """A lane at rest goes to its next start; false: its history is over."""
+    """Advance a lane at rest to its next start; false if its history is over."""
     lane["interval"], lane["time"], lane["side"] = next_start(wall, a, dt, lane["interval"], lane["time"])
     lane["first"], lane["start"] = lane["interval"], lane["time"]
     state[:, k] = 0.0
@@ -121,7 +122,7 @@ def rest(wall, lane, a, dt, state, k):
 
 @njit
 def follow(wall, lane, a, dt, state, k, event, whole, h):
-    """What a step means for its lane; false: its history is over."""
+    """Apply the result of a step to its lane; false if its history is over."""
     q, v = state[0, k], state[1, k]
     lane["peak"] = max(lane["peak"], q)
     lane["time"] = dt if whole else min(lane["time"] + h, dt)
@@ -151,7 +152,7 @@ def follow(wall, lane, a, dt, state, k, event, whole, h):
 
 @njit
 def prepare(lane, a, dt, pars, remaining, k):
-    """The ground as the next step of a lane sees it."""
+    """Set the ground motion for the next step of a lane."""
     i, t, side = lane["interval"], lane["time"], lane["side"]
     slope = side * (a[i + 1] - a[i]) / dt
     pars[0, k], pars[1, k] = side * a[i] + slope * t, slope
@@ -160,7 +161,7 @@ def prepare(lane, a, dt, pars, remaining, k):
 
 @njit
 def turn(wall, lanes, samples, ends, steps, before, state, pars, remaining, done, events, outcomes, following):
-    """After a step of all lanes: what it means, new histories for lanes that end; the next history to begin."""
+    """Apply a step of all lanes, refill lanes that have ended, and return the next history to start."""
     for k in range(len(lanes)):
         lane = lanes[k]
         n = lane["history"]
@@ -168,12 +169,12 @@ def turn(wall, lanes, samples, ends, steps, before, state, pars, remaining, done
         if alive:
             a, dt = samples[ends[n] : ends[n + 1]], steps[n]
             if events[k] == NONE and state[0, k] < 0.0 and done[k] > SHORTEST * dt:
-                # Root finding failed, and missed an impact: again, with half the step.
+                # Root finding failed and missed an impact: repeat with half the step.
                 state[:, k] = before[:, k]
                 lane["halved"] = True
                 remaining[k] = 0.5 * done[k]
                 continue
-            # Half of half of a step: the impact is now, to rounding.
+            # The step has been halved down to rounding: the impact is at this time.
             event = IMPACT if events[k] == NONE and state[0, k] < 0.0 else events[k]
             if event == PEAK and done[k] == 0.0 and state[0, k] < LOWEST:
                 event = IMPACT
@@ -197,14 +198,14 @@ def turn(wall, lanes, samples, ends, steps, before, state, pars, remaining, done
         if alive:
             prepare(lane, a, dt, pars, remaining, k)
         else:
-            # An idle lane stands still.
+            # An idle lane does not move.
             state[:, k] = 0.5 * wall.capacity, 0.0
             remaining[k] = 0.0
     return following
 
 
 def batch(wall, tolerance):
-    """Run histories in lanes."""
+    """Function that runs histories in lanes."""
     equations, events = system(wall, hy.t_event_batch)
     anywhere = np.full((2, LANES), 0.5 * wall.capacity)
     integrator = hy.taylor_adaptive_batch(
@@ -230,7 +231,7 @@ def batch(wall, tolerance):
             if following == len(steps) and (lanes["history"] < 0).all():
                 return outcomes
             for k in np.flatnonzero((state[1] == 0.0) & (state[0] == 0.0)):
-                # From rest to the sample by itself; in this round the lane stands still.
+                # Integrate from rest to the sample separately; the lane does not move in this round.
                 state[:, k] = start_one(pars[0, k], pars[1, k], remaining[k])
                 remaining[k] = 0.0
             before[:] = state
@@ -247,7 +248,7 @@ def batch(wall, tolerance):
 
 
 def make(wall, method, tolerance):
-    """Run histories, after one to compile."""
+    """Function that runs histories, compiled by a first history."""
     run_all = batch(wall, tolerance) if method == "batch" else scalar(wall, tolerance)
     run_all([(np.array([0.0, -1.0, 0.0]), np.float64(0.01))])
     return run_all

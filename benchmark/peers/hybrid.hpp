@@ -1,17 +1,17 @@
 // The hybrid motion of theory.md, section 4: rest, rocking, impacts, the end of a chain of bounces, the motion after the
-// record. What a peer adds is a Flight, which integrates the rocking between two impacts.
+// record. A peer adds a Flight, which integrates the rocking between two impacts.
 #pragma once
 
 #include <cmath>
 
 #include "problem.hpp"
 
-// The ground acceleration as a wall on one side feels it, in gravities
+// The ground acceleration in the sense of the active side, in units of g
 struct Ground {
    const Record &record;
    double scale;
    double side = 1.0;
-   double start = 0.0, slope = 0.0;  // in the interval entered last
+   double start = 0.0, slope = 0.0;  // of the interval entered last
 
    int last() const { return static_cast<int>(record.a.size()) - 1; }
    double sample(int i) const { return scale * record.a[i]; }
@@ -37,7 +37,7 @@ struct Motion {
    State now{0.0, 0.0, 0.0};
    double peak = 0.0;
    int impacts = 0;
-   int tiny_bounces = 0;  // in a row
+   int tiny_bounces = 0;  // consecutive
 };
 
 enum class Event { none, impact, peak, limit };
@@ -45,11 +45,11 @@ enum class Event { none, impact, peak, limit };
 // Flights shorter than this part of a sample interval are rounding
 constexpr double shortest = 2.2e-13;
 
-// So many bounces in a row that would rise less than this part of q_c in still ground are rest
+// Number of consecutive bounces treated as rest, and their height in still ground as a part of q_c
 constexpr int most_tiny_bounces = 1000;
 constexpr double tiny_height = 1e-12;
 
-// The wall at rest, and what may return it there
+// The wall at rest, and the conditions under which it returns to rest
 class Rest {
  public:
    explicit Rest(const Wall &wall) : wall(wall), trigger(std::tan(wall.capacity)) {
@@ -62,7 +62,7 @@ class Rest {
       }
    }
 
-   // Go to the instant at which rocking begins, in closed form inside its interval; false: it never does
+   // Advance to the start of rocking, in closed form within its interval; false if there is none
    bool next_start(Ground &ground, Motion &m) const {
       if (m.interval >= ground.last()) return false;
       const double dt = ground.record.dt;
@@ -82,7 +82,7 @@ class Rest {
       }
    }
 
-   // Does the chain of bounces after an impact end at rest, whatever happens in between?
+   // Whether the chain of bounces after an impact provably ends at rest
    bool chain_ends(const Ground &ground, const Motion &m) const {
       const double dt = ground.record.dt, e = wall.restitution, w = m.now.v;
       const int last = ground.last();
@@ -106,7 +106,7 @@ class Rest {
       }
    }
 
-   // After an impact: is the wall at rest?
+   // Whether the wall is at rest after an impact
    bool ends(const Ground &ground, Motion &m) const {
       const bool tiny = 0.5 * m.now.v * m.now.v < tiny_height * wall.capacity * moment;
       m.tiny_bounces = tiny ? m.tiny_bounces + 1 : 0;
@@ -132,7 +132,7 @@ class Rest {
    double trigger, moment, lever, height, slack;
 };
 
-// The motion after the record, by its energy: the peak, or the capacity for a collapse
+// Peak of the motion after the record from its energy; the capacity for a collapse
 inline double peak_after(const Wall &wall, const State &end) {
    const double rest = wall.p2 * std::cos(wall.capacity);
    double energy = 0.5 * end.v * end.v + wall.p2 * std::cos(wall.capacity - end.q);
@@ -142,7 +142,7 @@ inline double peak_after(const Wall &wall, const State &end) {
 }
 
 // One history. A Flight has begin(ground, motion), called at the start of rocking and after each impact, and
-// fly(ground, motion), which goes on to the next event or to a sample, the last one at the latest.
+// fly(ground, motion), which advances to the next event or to a sample, at most to the last one.
 template <class Flight>
 Outcome simulate(const Wall &wall, const Rest &rest, const History &history, Flight &flight) {
    Ground ground{*history.record, history.scale};
@@ -173,7 +173,7 @@ Outcome simulate(const Wall &wall, const Rest &rest, const History &history, Fli
             if (rocking) flight.begin(ground, m);
          }
       }
-      // A start on the very edge that rounding undoes at once is not tried again.
+      // A start exactly at the threshold that rounding undoes at once is not repeated.
       if (m.interval == first && m.time - start <= shortest * dt) {
          ++m.interval;
          m.time = 0.0;
@@ -182,8 +182,8 @@ Outcome simulate(const Wall &wall, const Rest &rest, const History &history, Fli
    return {m.peak / wall.capacity, false, m.impacts};
 }
 
-// Where within (0, h] a gap, positive at the start, falls to zero: Newton's method in a bracket.
-// after(x) gives the state after x, gap(state) the gap and its rate.
+// Root within (0, h] of a gap that is positive at the start, by Newton's method in a bracket.
+// after(x) returns the state after x, gap(state) the gap and its rate.
 template <class After, class Gap>
 State find_root(const After &after, const Gap &gap, double &h) {
    double low = 0.0, high = h, x = h;
@@ -195,7 +195,7 @@ State find_root(const After &after, const Gap &gap, double &h) {
       if (value == 0.0 || high - low <= 4e-16 * high) break;
       const double change = rate < 0.0 ? -value / rate : 0.0;
       if (rate < 0.0 && std::fabs(change) <= 1e-8 * x) {
-         // One more Newton step needs no more evaluation: its error is the square of the change.
+         // The last Newton step needs no evaluation: its error is the square of the change.
          state.q += change * (state.v + 0.5 * change * state.f);
          state.v += change * state.f;
          x += change;
@@ -208,14 +208,14 @@ State find_root(const After &after, const Gap &gap, double &h) {
    return state;
 }
 
-// What happens first in a step of length h from one state to another; the step is cut there.
+// First event in a step of length h from one state to another; the step is shortened to it.
 template <class After>
 Event find_event(const Wall &wall, const After &after, const State &from, double peak, State &to, double &h) {
    const auto falls = [](const State &s) { return std::pair(s.q, s.v); };
    const auto turns_in = [](const State &s) { return std::pair(s.v, s.f); };
    const auto turns_out = [](const State &s) { return std::pair(-s.v, -s.f); };
    const auto reaches = [&](const State &s) { return std::pair(wall.capacity - s.q, -s.v); };
-   // Outwards and back within the step: where a new peak is possible it comes first.
+   // Outwards and back within the step: a new peak, if possible, comes first.
    if (from.v > 0.0 && to.v < 0.0 && std::max(from.q + h * from.v, to.q - h * to.v) > peak) {
       double x = h;
       const State top = find_root(after, turns_in, x);
@@ -233,7 +233,7 @@ Event find_event(const Wall &wall, const After &after, const State &from, double
       return Event::limit;
    }
    if (from.q > 0.0 && from.v < 0.0 && to.v > 0.0 && to.q > 0.0) {
-      // Inwards and out again: did it dip below zero in between?
+      // Inwards and out again: check for a dip below zero in between.
       if (std::min(from.q + h * from.v, to.q - h * to.v) > 0.0) return Event::none;
       double x = h;
       if (find_root(after, turns_out, x).q > 0.0) return Event::none;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Get and compile the peers of the benchmark: install.sh BUILD_FOLDER ENVIRONMENT. What cannot be had is said, and skipped.
+# Install and compile the peers of the benchmark: install.sh BUILD_FOLDER ENVIRONMENT. Unavailable ones are reported and skipped.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 build=$1 environment=$2
@@ -7,7 +7,7 @@ flags=(-O3 -std=c++17)
 
 say() { printf 'benchmark: %s\n' "$*" >&2; }
 
-# Debian's packages, asked for by the file that shows that they are there
+# Debian's packages, each detected by a file or command that it contains
 packages=()
 echo '#include <boost/numeric/odeint.hpp>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libboost-dev)
 echo '#include <cvode/cvode.h>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libsundials-dev)

@@ -1,7 +1,7 @@
 """numbalsoda: DOP853 and LSODA from sample to sample, the whole program compiled by Numba. Methods: dop853, lsoda.
 
-It has no events that cost no allocation, so that they are found by steps of a fitting length, as in C++. The setting is
-the relative tolerance; its absolute one is a single number.
+It has no event location without allocations, so events are found by steps of adjusted length, as in C++. The setting is
+the relative tolerance; the absolute tolerance is a single number.
 """
 
 import math
@@ -19,7 +19,7 @@ FALLS, TURNS_IN, TURNS_OUT, REACHES = range(4)
 
 @cfunc(lsoda_sig)
 def right_side(t, y, dy, data):
-    """Rotation and velocity; data holds capacity, p2, and present value and slope of the ground's acceleration."""
+    """Derivatives of rotation and velocity; data: capacity, p2, present value and slope of the ground acceleration."""
     data = carray(data, (4,))
     x = data[0] - y[0]
     dy[0] = y[1]
@@ -30,11 +30,11 @@ address = right_side.address
 
 
 def compiled(solver, rtol):
-    """One history, compiled for a solver and a tolerance."""
+    """Function of one history, compiled for a solver and a tolerance."""
 
     @njit
     def after(data, q, v, h):
-        # The end is left out where the last step misses it by rounding: then go on a little, and interpolate.
+        # The end is omitted if the last step misses it by rounding: then integrate slightly further, and interpolate.
         y0, t, y, flag = np.array([q, v]), np.array([0.0, h, 1.001 * h]), np.full((3, 2), np.nan), np.zeros(1, np.int32)
         for points in (2, 3):
             solver(
@@ -68,7 +68,7 @@ def compiled(solver, rtol):
 
     @njit
     def root(kind, data, q, v, h):
-        """Where within (0, h] a gap falls to zero: Newton's method in a bracket."""
+        """Root of a gap within (0, h], by Newton's method in a bracket."""
         low, high, x = 0.0, h, h
         for _ in range(60):
             q_new, v_new = after(data, q, v, x)
@@ -81,7 +81,7 @@ def compiled(solver, rtol):
                 break
             change = -gap / rate if rate < 0.0 else 0.0
             if rate < 0.0 and abs(change) <= 1e-8 * x:
-                # One more Newton step needs no more evaluation: its error is the square of the change.
+                # The last Newton step needs no evaluation: its error is the square of the change.
                 _, rate = gap_of(TURNS_IN, data, x, q_new, v_new)
                 q_new += change * (v_new + 0.5 * change * rate)
                 v_new += change * rate
@@ -94,7 +94,7 @@ def compiled(solver, rtol):
 
     @njit
     def event_in(data, q, v, h, q_new, v_new, peak):
-        """The first event of a step, its place, and the state there."""
+        """First event of a step, its position, and the state there."""
         capacity = data[0]
         if v > 0.0 and v_new < 0.0 and max(q + h * v, q_new - h * v_new) > peak:
             x, top, _ = root(TURNS_IN, data, q, v, h)
@@ -122,7 +122,7 @@ def compiled(solver, rtol):
         while i < len(a) - 1:
             data[3] = side * (a[i + 1] - a[i]) / dt
             while t < dt:
-                data[2] = side * a[i] + data[3] * t  # time counts from the start of a step
+                data[2] = side * a[i] + data[3] * t  # time is measured from the start of a step
                 h = dt - t
                 q_new, v_new = after(data, q, v, h)
                 event, x, q, v = event_in(data, q, v, h, q_new, v_new, peak)
@@ -141,7 +141,7 @@ def compiled(solver, rtol):
 
 
 def make(wall, method, rtol):
-    """Run histories one by one, after one to compile."""
+    """Function that runs histories one by one, compiled by a first history."""
     history = compiled(dop853_wrapper if method == "dop853" else lsoda_wrapper, rtol)
     history(wall, np.array([0.0, -1.0, 0.0]), 0.01)
     return lambda histories: [history(wall, a, float(dt)) for a, dt in histories]

@@ -1,8 +1,8 @@
-% GNU Octave's ode45 with its events, as a MATLAB program of the field does it.
-% Methods: ode45, from an event to the next over the rest of the record; ode45/sample: with steps no longer than a
+% GNU Octave's ode45 with its events, as in typical MATLAB programs of the field.
+% Methods: ode45, from one event to the next over the rest of the record; ode45/sample: with steps no longer than a
 % sample interval. The setting is the relative tolerance. Physics: theory.md, sections 1 to 4.
 1;
-warning ("off", "all");  % ode45 warns of every event that ends it
+warning ("off", "all");  % ode45 warns at every terminal event
 
 function [i, t, side] = next_start (wall, a, dt, i, t)
   last = numel (a);
@@ -31,7 +31,7 @@ function [i, t, side] = next_start (wall, a, dt, i, t)
 endfunction
 
 function ends = stays (wall, a, dt, i, t, side, speed, peak)
-  % After an impact: is the wall at rest, or does its chain of bounces end there, whatever happens in between?
+  % Whether the wall is at rest after an impact, or its chain of bounces provably ends at rest
   ends = true;
   last = numel (a);
   e = wall.restitution;
@@ -151,7 +151,7 @@ function [edp, collapsed, impacts] = simulate (wall, a, dt, rtol, by_sample)
         break;
       endif
     endwhile
-    % A start on the very edge that rounding undoes at once is not tried again.
+    % A start exactly at the threshold that rounding undoes at once is not repeated.
     if (i == first && t - start <= 2.2e-13 * dt)
       i += 1;
       t = 0;

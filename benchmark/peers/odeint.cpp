@@ -1,6 +1,6 @@
 // Boost.odeint: its Dormand-Prince stepper of order five, by two methods.
-// cut: controlled steps that end on every sample; events by steps of a fitting length.
-// free: dense output, steps as long as the error allows, across samples; events by the interpolant.
+// cut: controlled steps that end on every sample; events by steps of adjusted length.
+// free: dense output, steps limited only by the error, across samples; events by the interpolant.
 // The setting is the relative tolerance.
 #include <array>
 #include <boost/numeric/odeint.hpp>
@@ -107,7 +107,7 @@ class Free {
          State to = after(h);
          const Event event = find_event(wall, after, from, m.peak, to, h);
          if (event == Event::peak) {
-            // The step goes on behind the peak.
+            // The step continues after the peak.
             m.peak = to.q;
             h = std::min(t_new, end) - t;
             from = to;

@@ -1,4 +1,4 @@
-// The histories that problem.py wrote, and how every compiled peer reports what it made of them.
+// The histories written by problem.py, and the report of the results common to all compiled peers.
 #pragma once
 
 #include <algorithm>
@@ -40,18 +40,18 @@ struct Outcome {
    int impacts;
 };
 
-// What the command line asks for: PROBLEM METHOD SETTING REPEATS EVERY
+// Arguments of the command line: PROBLEM METHOD SETTING REPEATS EVERY
 struct Request {
    std::string method;
-   double setting;  // tolerance, or steps a sample
+   double setting;  // tolerance, or steps per sample
    int repeats;
-   int every;  // run every so manieth history
+   int every;  // stride: run every n-th history
 };
 
 inline Problem read_problem(const char *path) {
    std::ifstream file(path, std::ios::binary | std::ios::ate);
    if (!file) {
-      std::fprintf(stderr, "no file %s\n", path);
+      std::fprintf(stderr, "file %s not found\n", path);
       std::exit(2);
    }
    std::vector<double> numbers(file.tellg() / sizeof(double));
@@ -80,8 +80,8 @@ inline Problem read_problem(const char *path) {
    return problem;
 }
 
-// Run all histories as often as asked; print the version, the seconds of each repeat, and a line a history.
-// make(request, problem) gives a function of a history.
+// Run all histories as often as required; print version, seconds of each repeat, and one line per history.
+// make(request, problem) returns a function of a history.
 template <class Make>
 int run_peer(int argc, char **argv, const std::string &version, Make make) {
    if (argc != 6) {

@@ -1,5 +1,5 @@
-// A program as it is written by hand: one Nystrom step of order four, or several, from sample to sample.
-// The setting is the number of steps a sample.
+// A hand-written program: one or several Nystrom steps of order four from sample to sample.
+// The setting is the number of steps per sample.
 #include "hybrid.hpp"
 
 namespace {
@@ -35,7 +35,7 @@ class Nystrom {
    }
 
  private:
-   // Nystrom (1925), three evaluations, the last of which is the first of the next step
+   // Nystrom (1925), three evaluations, the last of which is reused as the first of the next step
    State step(const Ground &ground, double t, const State &s, double h) const {
       const double middle = acceleration(wall, s.q + 0.5 * h * (s.v + 0.25 * h * s.f), ground.push(t + 0.5 * h));
       const double push = ground.push(t + h);

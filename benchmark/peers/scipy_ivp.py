@@ -1,4 +1,4 @@
-"""SciPy's solve_ivp with its events.
+"""SciPy's solve_ivp with its event location.
 
 Methods: RK45, DOP853, LSODA, from sample to sample; with /record: over the whole record. The right-hand side is
 compiled by Numba. The setting is the relative tolerance.
@@ -14,7 +14,7 @@ from wall import IMPACT, LIMIT, NONE, run_peer, simulate
 
 
 def make(wall, method, rtol):
-    """Run histories one by one."""
+    """Function that runs histories one by one."""
     method, _, whole = method.partition("/")
     capacity, p2 = wall.capacity, wall.p2
     atol = [0.01 * rtol * capacity, 0.01 * rtol * capacity * math.sqrt(p2)]

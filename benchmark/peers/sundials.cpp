@@ -1,7 +1,7 @@
 // SUNDIALS with its own root finding, by three methods.
-// adams: CVODE (Adams, fixed-point iteration), told to stop at every sample, restarted after impacts.
-// adams_free: the same, stopping nowhere.
-// dopri5: ARKODE's explicit Dormand-Prince pair, told to stop at every sample.
+// adams: CVODE (Adams, fixed-point iteration), stopped at every sample, restarted after impacts.
+// adams_free: the same without stops at samples.
+// dopri5: ARKODE's explicit Dormand-Prince pair, stopped at every sample.
 // The setting is the relative tolerance.
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
@@ -21,11 +21,11 @@ void check(int flag, const char *what) {
    std::exit(1);
 }
 
-// What the right-hand side sees
+// Data of the right-hand side
 struct Scene {
    const Wall &wall;
    const Ground *ground = nullptr;
-   double entered = 0.0;  // time of the sample at which the present interval begins
+   double entered = 0.0;  // time of the sample at the start of the present interval
    bool free = false;
 
    double push(double t) const {
@@ -52,7 +52,7 @@ int roots(double, N_Vector y, double *gap, void *data) {
    gap[1] = state[1];
    const double capacity = static_cast<Scene *>(data)->wall.capacity;
    gap[2] = state[0] - capacity;
-   // A root at the start hides those that follow at once: a wall that starts on the very edge and falls back.
+   // A root at the start hides those that follow at once: a wall that starts exactly at the threshold and falls back.
    gap[3] = state[0] + 1e-9 * capacity;
    return 0;
 }
@@ -94,7 +94,7 @@ class ErkStep {
       check(ERKStepSetRootDirection(memory, directions), "ERKStepSetRootDirection");
       check(ERKStepSetNoInactiveRootWarn(memory), "ERKStepSetNoInactiveRootWarn");
       check(ERKStepSetMaxNumSteps(memory, 1000000), "ERKStepSetMaxNumSteps");
-      // Its steps end where it is asked for results, and it knows an interpolant of order five.
+      // Its steps end at the requested output times, and it has an interpolant of order five.
       check(ERKStepSetInterpolantDegree(memory, 5), "ERKStepSetInterpolantDegree");
    }
    void restart(double t, N_Vector y) { check(ERKStepReset(memory, t, y), "ERKStepReset"); }
@@ -107,7 +107,7 @@ class ErkStep {
    void *memory;
 };
 
-// The solver lives as long as the program.
+// The solver exists for the lifetime of the program.
 template <class Solver>
 class Flight {
  public:
@@ -136,7 +136,7 @@ class Flight {
       const double end = (scene->free ? ground.last() : m.interval + 1) * dt;
       const double remaining = end - (m.interval * dt + m.time);
       if (fresh && remaining <= 1e-15 * end) {
-         // Too short for SUNDIALS to start: on to the sample, to rounding.
+         // Too short for SUNDIALS to start: advance to the sample, which is exact to rounding.
          m.now.q = std::max(0.0, m.now.q + remaining * m.now.v);
          ++m.interval;
          m.time = 0.0;
@@ -167,7 +167,7 @@ class Flight {
 
  private:
    std::unique_ptr<Scene> scene;
-   bool fresh = true;  // restarted, and not gone on since?
+   bool fresh = true;  // restarted and not advanced since
    N_Vector y;
    std::unique_ptr<Solver> solver;
 };

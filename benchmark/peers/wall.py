@@ -1,7 +1,7 @@
-"""The histories, and the physics that all peers in Python share: theory.md, sections 1 to 4.
+"""The histories, and the physics common to all peers in Python: theory.md, sections 1 to 4.
 
-Rest, the end of a chain of bounces and the motion after the record; what integrates the rocking between two impacts is
-a peer's own. Numba compiles all this. Accelerations of the ground are in gravities.
+Rest, the end of a chain of bounces and the motion after the record; the integration of rocking between two impacts is
+specific to each peer. Everything is compiled by Numba. Ground accelerations are in units of g.
 """
 
 import math
@@ -14,7 +14,7 @@ from numba import njit
 from numba.extending import register_jitable
 
 SHORTEST = 2.2e-13  # flights shorter than this part of a sample interval are rounding
-TINY_HEIGHT, MOST_TINY = 1e-12, 1000  # so many bounces in a row that rise less, in units of q_c, are rest
+TINY_HEIGHT, MOST_TINY = 1e-12, 1000  # height, in units of q_c, and number of consecutive bounces treated as rest
 NONE, IMPACT, PEAK, LIMIT = 0, 1, 2, 3  # events
 
 
@@ -27,12 +27,12 @@ class Wall(NamedTuple):
     two_sided: bool
     moment: float
     lever: float
-    height: float  # up to which the bounds of a chain hold
-    slack: float  # change of the terms up to there
+    height: float  # height up to which the bounds of a chain hold
+    slack: float  # change of the terms up to that height
 
 
 def new_wall(capacity, p2, restitution, two_sided):
-    """Everything that follows from the four numbers."""
+    """Wall with all quantities derived from the four numbers."""
     height = 1e-3 * capacity
     while True:
         slack = abs(math.sin(capacity - height) / math.sin(capacity) - 1.0)
@@ -46,7 +46,7 @@ def new_wall(capacity, p2, restitution, two_sided):
 
 @njit
 def next_start(wall, a, dt, i, t):
-    """Interval, time in it and side at which a wall at rest begins to rock, in closed form; no side: it never does."""
+    """Interval, time within it and side at which a wall at rest starts to rock, in closed form; side 0: never."""
     last = len(a) - 1
     if i >= last:
         return i, t, 0.0
@@ -69,7 +69,7 @@ def next_start(wall, a, dt, i, t):
 
 @njit
 def stays(wall, a, dt, i, t, side, speed, peak):
-    """After an impact: is the wall at rest, or does its chain of bounces end there, whatever happens in between?"""
+    """Whether the wall is at rest after an impact, or its chain of bounces provably ends at rest."""
     if speed == 0.0:
         return True
     last = len(a) - 1
@@ -107,7 +107,7 @@ def stays(wall, a, dt, i, t, side, speed, peak):
 
 @njit
 def peak_after(wall, q, v):
-    """Peak of the motion after the record, by its energy; the capacity for a collapse."""
+    """Peak of the motion after the record from its energy; the capacity for a collapse."""
     rest = wall.p2 * math.cos(wall.capacity)
     energy = 0.5 * v * v + wall.p2 * math.cos(wall.capacity - q)
     if v <= 0.0:
@@ -146,13 +146,13 @@ def simulate(wall, a, dt, flight):
             tiny = tiny + 1 if 0.5 * v * v < TINY_HEIGHT * wall.capacity * wall.moment else 0
             if tiny > MOST_TINY or stays(wall, a, dt, i, t, side, v, peak):
                 break
-        # A start on the very edge that rounding undoes at once is not tried again.
+        # A start exactly at the threshold that rounding undoes at once is not repeated.
         if i == first and t - start <= SHORTEST * dt:
             i, t = i + 1, 0.0
 
 
 def read_problem(path):
-    """The wall, and accelerogram (scaled, in gravities) and time step of every history."""
+    """Read the wall, and accelerogram (scaled, in units of g) and time step of every history."""
     numbers = np.fromfile(path)
     capacity, p2, gravity, restitution, two_sided = numbers[:5]
     records, histories = numbers[5:7].astype(int)
@@ -165,10 +165,9 @@ def read_problem(path):
 
 
 def run_peer(version, make):
-    """Run all histories as often as asked: PROBLEM METHOD SETTING REPEATS EVERY.
+    """Run all histories the required number of times, with arguments PROBLEM METHOD SETTING REPEATS EVERY.
 
-    make(wall, method, setting) gives a function of accelerogram and time step, or of all of them at once (heyoka's
-    batches); it is warmed up before.
+    make(wall, method, setting) returns a function of all histories (accelerogram and time step), already compiled.
     """
     path, method, setting, repeats, every = sys.argv[1:]
     wall, histories = read_problem(path)

@@ -1,6 +1,6 @@
-"""A first wall: its properties, one motion, a picture.
+"""A first wall: its properties, one time history, and its figures.
 
-Run it as a script, or cell by cell (# %%) in an editor that knows notebooks. Figures go to out/examples.
+Run it as a script, or cell by cell (# %%) in an editor that supports notebooks. Figures are written to out/examples.
 """
 
 # %%
@@ -12,18 +12,18 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% A brick parapet that leans on the roof behind it: it can only fall outwards.
+# %% A brick parapet that leans against the roof behind it: it can only overturn outwards
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 print(wall)
-print(f"it begins to rock at {wall.trigger_acceleration / wall.gravity:.3f} g")
+print(f"rocking starts at {wall.trigger_acceleration / wall.gravity:.3f} g")
 
-# %% A synthetic accelerogram of the embedded suite, scaled to twice its strength
+# %% A synthetic accelerogram of the embedded suite, scaled by a factor of two
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 record = next(record for record in records if "friuli_1976_sep_15" in record.name)
 motion = dd.simulate(wall, record, scale=2.0)
 print(motion)
 
-# %% The motion, and the wall at its peak
+# %% Plots of the time history, and of the wall at its peak
 axes = dd.plot_history(motion)
 axes[0].figure.savefig(out / "first_wall_history.png")
 dd.plot_wall(motion).figure.savefig(out / "first_wall_peak.png")

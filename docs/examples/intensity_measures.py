@@ -1,4 +1,4 @@
-"""Which intensity measure tells best whether a wall collapses? The less records scatter by it, the fewer are needed."""
+"""Comparison of intensity measures: the smaller the dispersion between records, the fewer records are needed."""
 
 # %%
 from pathlib import Path
@@ -9,7 +9,7 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% Intensities of a record, in the unit of their levels, and its response spectrum, in SI units
+# %% Intensity measures of a record, in the units of the levels, and its response spectrum, in SI units
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 record = records[0]
 print(f"PGV {record.intensity('pgv'):.3f} m/s, Sa(0.5 s) {record.intensity('sa(0.5)'):.3f} g")
@@ -20,7 +20,7 @@ wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 stripes = dd.multiple_stripe(wall, records, levels=[0.8, 1.1, 1.4, 1.7, 2.0], im="sa(0.5)")
 print(stripes.fit())
 
-# %% Every measure with an analysis of its own
+# %% A separate analysis for every measure
 ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
 comparison = dd.compare_intensities(wall, records, ims)
 print(comparison)

@@ -1,4 +1,4 @@
-"""Overturning spectrum: which amplitudes and frequencies of a pulse overturn a pinnacle (Zhang and Makris 2001)."""
+"""Overturning spectrum: amplitudes and frequencies of a pulse that overturn a pinnacle (Zhang and Makris 2001)."""
 
 # %%
 from pathlib import Path
@@ -14,13 +14,13 @@ out.mkdir(parents=True, exist_ok=True)
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
 print(dd.simulate(pinnacle, dd.ricker(4.0, 1.0), edp_limit=5.0))
 
-# %% All amplitudes are scanned, since a stronger pulse may be a safer one.
+# %% Scan of all amplitudes, since a stronger pulse may be safer
 spectrum = dd.overturning_spectrum(
     pinnacle, dd.one_sine, frequencies=np.linspace(0.2, 3.0, 57), amplitudes=np.linspace(0.1, 2.4, 47)
 )
 print(spectrum)
 
-# %% Where the state changes at 1 Hz, in g; the two ends of every bracket are runs of their own
+# %% Amplitudes in g at which the state changes at 1 Hz; both ends of every bracket have been run
 for boundary in spectrum.boundaries:
     if np.isclose(boundary.frequency, 1.0):
         print(f"{boundary.lower:.5f} {boundary.below.name:26} {boundary.upper:.5f} {boundary.above.name}")

@@ -11,17 +11,17 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% 24 kinds of walls of an imagined historic centre; a weight says how many of each there are
+# %% 24 types of walls of a fictitious historic centre; the weight is the number of walls of each type
 population = dd.read_population(data / "walls" / "population.csv")
 print(population)
 
-# %% Each of them under the synthetic suite
+# %% Analysis of each wall under the synthetic suite
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 centre = dd.typology(population, records, levels=np.linspace(0.2, 2.0, 10))
 print(centre)
 print(f"P(collapse | 0.5 g) of a wall of this centre: {centre.mean(0.5):.3f}")
 
-# %% As tables: CSV always, a DataFrame where pandas is installed
+# %% Tables: CSV, or a DataFrame if pandas is installed
 centre.to_csv(out / "population_fragility.csv", table="fragility")
 
 # %%

@@ -1,4 +1,4 @@
-"""Baseline, filter, time step, length and direction of records: every step leaves its trace in the new record."""
+"""Baseline, filter, time step, length and direction of records: every step is documented in the new record."""
 
 # %%
 from pathlib import Path
@@ -9,26 +9,26 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% Two horizontal components of a synthetic motion, with a zero that is not quite zero
+# %% Two horizontal components of a synthetic motion, the first with an offset
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 first, second = (record for record in records if "friuli_1976_sep_15" in record.name)
 first = first.processed(first.acceleration + 0.02, "zero shifted by 0.02 m/s2")
 
-# %% Nothing is corrected by itself. What is done is done by name, and kept.
+# %% Records are never corrected implicitly; explicit processing is documented in the record
 clean = dd.trim(dd.band_pass(dd.correct_baseline(first), low=0.1, high=25.0))
 print(clean)
 print(*clean.processing, sep="\n")
 
-# %% Half the time step changes nothing: the motion between samples is a straight line. 0.01 s needs a filter.
+# %% Half the time step changes nothing, since the motion is linear between samples; 0.01 s requires a filter
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 for record in (first, dd.resample(first, 0.0025), dd.resample(first, 0.01)):
     print(f"EDP {dd.simulate(wall, record, scale=2.0).edp:.6f}", *record.processing[1:])
 
-# %% A facade is shaken by the component normal to it: here its normal lies 30 degrees from the first component.
+# %% A facade responds to the component along its normal, here at 30 degrees from the first component
 normal = dd.rotate(first, second, 30.0)
 print(dd.simulate(wall, normal, scale=2.0))
 
-# %% The peak in all directions: its median and its largest value, and the same of the EDP of a two-sided wall
+# %% Median and largest value over all directions, of the peak acceleration and of the EDP of a two-sided wall
 peaks = dd.rotd(first, second)
 print(f"PGA: RotD50 {peaks.rotd50:.3f}, RotD100 {peaks.rotd100:.3f} m/s2 at {peaks.angle:.0f} degrees")
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")

@@ -11,7 +11,7 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% Stripes that are close to each other, read record by record
+# %% Closely spaced stripes, evaluated record by record
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 stripes = dd.multiple_stripe(wall, records, levels=0.05 * np.arange(2, 33), polarity="both")
@@ -21,14 +21,14 @@ print("fitted to first collapses:", ida.fit())
 print("fitted to stripes:        ", stripes.fit())
 dd.plot_incremental(ida).figure.savefig(out / "incremental.png")
 
-# %% The records with one factor for all, as a cloud of points
+# %% Cloud analysis with one scale factor for all records
 cloud = dd.cloud(wall, records, scale=2.5, polarity="both")
 print(cloud)
 print("P(EDP > 0.4 | 0.6 g) =", round(cloud.probability(0.6, 0.4), 3))
 print("the same against the PGV:", cloud.against("pgv"))
 dd.plot_cloud(cloud).figure.savefig(out / "cloud.png")
 
-# %% How often does the wall collapse? The hazard of an imagined site, as frequencies of exceedance a year
+# %% Annual frequency of collapse for the hazard of a fictitious site, given as annual frequencies of exceedance
 hazard = dd.HazardCurve([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6], [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6], im="pga")
 curve = stripes.fit()
 risk = dd.mean_annual_frequency(curve, hazard)
@@ -39,6 +39,6 @@ for low, high in ((0.02, 0.4), (0.4, 0.8), (0.8, 1.6)):
 print(f"{100 * risk.above[0] / risk.frequency:.0f} % of it, at least, from above")
 dd.plot_risk(risk)[0].figure.savefig(out / "risk.png")
 
-# %% The curve for OpenQuake, with rotations of 0.4 of the capacity as a lighter state
+# %% The curve for OpenQuake, with rotations of 0.4 of the capacity as a less severe damage state
 reached = dd.fit_fragility(stripes.levels, (stripes.edp >= 0.4).sum(axis=1), stripes.edp.shape[1], im="pga")
 dd.write_nrml(out / "parapet.xml", {"parapets": {"rotated": reached, "collapse": curve}}, id="parapets")

@@ -1,4 +1,4 @@
-"""Walls that nobody has surveyed one by one: a population sampled from what is known of a town."""
+"""A population of walls sampled from distributions, for a town without a survey of individual walls."""
 
 # %%
 from pathlib import Path
@@ -11,8 +11,8 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% Facades of two or three storeys. As a whole they overturn where nothing ties them, and their top storey folds where
-# floors hold it; how often each is the case is said by p_occ. Thick walls stand under high storeys more often.
+# %% Facades of two or three storeys. They overturn as a whole if they are not tied, and their top storey folds if it is
+# held by floors; p_occ is the probability of each case. Thickness and height of the storey are positively correlated.
 facades = dd.sample_population(
     {
         "one_sided": {"p_occ": 0.4, "height": lambda samples: samples["storeys"] * samples["storey"]},
@@ -47,7 +47,7 @@ parapets = dd.sample_population(
 town = facades + parapets
 print(town)
 
-# %% The table that the executable reads; its head says how the walls were sampled
+# %% The table for the executable; its header documents the sampling
 town.to_csv(out / "town.csv")
 assert dd.read_population(out / "town.csv").walls == town.walls
 

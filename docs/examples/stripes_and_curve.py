@@ -11,14 +11,14 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% Every record, both ways round, at ten levels of peak ground acceleration
+# %% Every record with both polarities at ten levels of peak ground acceleration
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.2, 1.1, 10), polarity="both")
 print(stripes)
 print("collapses", stripes.collapses, "of", stripes.histories)
 
-# %% The curve, and how sure it is
+# %% The fragility curve and its confidence intervals
 curve = stripes.fit()
 print(curve)
 print("95 % intervals by the delta method:      ", curve.parameter_interval())

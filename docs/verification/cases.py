@@ -1,4 +1,4 @@
-"""The histories that accuracy is judged on: three walls, two sets of accelerograms, and how to run them."""
+"""Histories on which accuracy is assessed: three walls, two sets of accelerograms, and functions to run them."""
 
 import csv
 import subprocess
@@ -15,21 +15,21 @@ WALLS = {
     "free_standing": "mechanism = 'free_standing' height = 2.0 thickness = 0.5",
 }
 
-# Walls of the dense grid of levels, where a run at a tight tolerance stands for the truth
+# Walls of the dense grid of levels, where a run at a tight tolerance replaces the reference
 DENSE_WALLS = WALLS | {"two_block, factor 1": "mechanism = 'two_block' height = 3.0 thickness = 0.25 hinge = 0.6"}
 DENSE_LEVELS = "first = 0.02 last = 1.0 count = 50"
 
 
 @dataclass(frozen=True)
 class Motions:
-    """A set of accelerograms and the levels of peak ground acceleration, in g, that they are scaled to."""
+    """A set of accelerograms and the levels of peak ground acceleration, in g, to which they are scaled."""
 
     catalogue: Path
     stripes: str
 
 
 def motions(records):
-    """The sets that are here: synthetic ones are part of dondolo, recorded ones lie in a folder of the user's."""
+    """Available sets: synthetic ones are part of dondolo, recorded ones are in a folder provided by the user."""
     sets = {"synthetic": Motions(ROOT / "data" / "records" / "synthetic44.csv", "first = 0.1 last = 1.0 count = 10")}
     if (Path(records) / "italy44.csv").is_file():
         recorded = Motions((Path(records) / "italy44.csv").resolve(), "first = 0.05 last = 1.0 count = 20")
@@ -38,7 +38,7 @@ def motions(records):
 
 
 def write_case(folder, wall, motions, rtol, threads=1, solver=""):
-    """Write the case of all histories of a wall into a folder; its path."""
+    """Write the case of all histories of a wall into a folder, and return its path."""
     path = Path(folder) / "case.nml"
     path.write_text(
         f"&job task = 'stripes' output = '{folder}/result' threads = {threads} /\n"
@@ -52,7 +52,7 @@ def write_case(folder, wall, motions, rtol, threads=1, solver=""):
 
 
 def run(executable, wall, motions, rtol, threads=1, solver=""):
-    """Run all histories of a wall; the rows of the tables of histories, stripes and fit, and what was printed."""
+    """Run all histories of a wall; return the rows of the tables of histories, stripes and fit, and the output."""
     with tempfile.TemporaryDirectory() as folder:
         case = write_case(folder, wall, motions, rtol, threads, solver)
         printed = subprocess.run([executable, case], check=True, capture_output=True, text=True).stdout
@@ -61,6 +61,6 @@ def run(executable, wall, motions, rtol, threads=1, solver=""):
 
 
 def read_table(path):
-    """Rows of one of dondolo's tables."""
+    """Read the rows of one of dondolo's tables."""
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))

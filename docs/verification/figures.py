@@ -11,7 +11,7 @@ from dondolo.figures.style import BLACK, BLUE, GREY, RC, RED
 from study import DEFAULT, TOLERANCES
 
 FOLDER = ROOT / "docs" / "figures"
-LOWEST = 1e-17  # errors of zero are drawn here
+LOWEST = 1e-17  # errors of zero are drawn at this value
 LOOKS = {
     "one_sided": {"color": BLUE, "marker": "o"},
     "two_block": {"color": RED, "marker": "s"},
@@ -25,19 +25,19 @@ QUANTILES = {
 
 
 def save(figure, name):
-    """Write a figure; the markdown that shows it needs its name."""
+    """Write a figure under the name used in the page."""
     FOLDER.mkdir(exist_ok=True)
     figure.savefig(FOLDER / f"verification_{name}.png", dpi=100)
     plt.close(figure)
 
 
 def shown(errors):
-    """Errors on a logarithmic axis."""
+    """Errors bounded from below for a logarithmic axis."""
     return np.maximum(errors, LOWEST)
 
 
 def work(study):
-    """Error against tolerance, and against time per history."""
+    """Draw error against tolerance, and against time per history."""
     with plt.rc_context(RC):
         figure, axes = plt.subplots(2, 3, figsize=(9.6, 6.4), sharey=True, layout="constrained")
         for column, (wall, name) in enumerate(study.recorded()):
@@ -77,7 +77,7 @@ def work(study):
 
 
 def boundary(study, nearest):
-    """Errors of the histories nearest the limit, and the margin of all against the error."""
+    """Draw errors of the histories nearest to the limit, and the error of all against their margin."""
     with plt.rc_context(RC):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 4.2), layout="constrained")
         for wall, name, i in nearest:
@@ -117,7 +117,7 @@ def boundary(study, nearest):
 
 
 def estimate(study):
-    """Estimated against true error."""
+    """Draw estimated against true error."""
     with plt.rc_context(RC):
         figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6), sharey=True, layout="constrained")
         line = np.array([LOWEST, 1.0])
@@ -146,7 +146,7 @@ def estimate(study):
 
 
 def shortcuts(table):
-    """Wrong flags and spoiled EDPs of each shortcut; the table holds {wall: {shortcut: errors}}."""
+    """Draw wrong flags and wrong EDPs of each shortcut; the table is {wall: {shortcut: errors}}."""
     names = list(next(iter(table.values())))
     with plt.rc_context(RC):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), sharey=True, layout="constrained")

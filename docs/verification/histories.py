@@ -1,4 +1,4 @@
-"""Histories of one run or one table of test/reference, and how far one is from the other."""
+"""Histories of one run or one table of test/reference, and the differences between the two."""
 
 import warnings
 from dataclasses import dataclass
@@ -20,7 +20,7 @@ class Histories:
 
     @classmethod
     def of(cls, rows):
-        """From the rows of a table."""
+        """Histories from the rows of a table."""
         numbers = {name: np.array([float(row[name]) for row in rows]) for name in ("im_level", "edp")}
         spread = next((name for name in ("edp_error", "edp_change") if name in rows[0]), None)
         return cls(
@@ -43,20 +43,20 @@ class Histories:
     def fit(self):
         """Fragility curve."""
         with warnings.catch_warnings():
-            # The page says itself where a curve extrapolates.
+            # The page itself reports extrapolated curves.
             warnings.simplefilter("ignore", dd.DondoloWarning)
             return dd.fit_fragility(*self.collapses(), im="pga")
 
 
 class Errors:
-    """How far the histories of a run are from the reference."""
+    """Errors of the histories of a run relative to the reference."""
 
     def __init__(self, run, exact):
         if run.record != exact.record or not np.allclose(run.level, exact.level):
-            raise SystemExit("verification: a table of test/reference holds other histories; ./run reference makes it")
+            raise SystemExit("verification: a table of test/reference has different histories; run ./run reference")
         self.edp = np.abs(run.edp - exact.edp)
         self.wrong_flag = run.collapsed != exact.collapsed
-        # The others have an EDP of 0, or of the limit in both, without any error.
+        # The others have an EDP of 0, or the limit in both, without any error.
         self.moving = (exact.edp > 0.0) & ~(exact.collapsed & run.collapsed)
 
     def above(self, size):

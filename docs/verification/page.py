@@ -1,7 +1,7 @@
 """Write docs/verification.md and its figures: python page.py EXECUTABLE SHORTCUTS RECORDS.
 
-EXECUTABLE is dondolo, SHORTCUTS dondolo-shortcuts, RECORDS the folder that holds italy44.csv. Every number of the page
-comes from a run or from test/reference. It takes some minutes on one core.
+EXECUTABLE is dondolo, SHORTCUTS dondolo-shortcuts, RECORDS the folder that contains italy44.csv. Every number of the
+page is computed in a run or read from test/reference. The script takes some minutes on one core.
 """
 
 import sys
@@ -15,7 +15,7 @@ from study import DEFAULT, TIGHT, collect
 
 
 def summary(study, missed):
-    """What the page says, in ten lines."""
+    """Summary of the page in ten lines."""
     pairs = study.pairs()
     total = sum(len(study.exact[pair]) for pair in pairs)
     change = max(study.exact[pair].spread.max() for pair in pairs)
@@ -31,40 +31,39 @@ def summary(study, missed):
     times = ", ".join(f"{study.milliseconds[wall, name, DEFAULT]:.2f} ms ({wall})" for wall, name in study.recorded())
     rows = wrong_flags(study)
     exactly = "the exact ones" if shift == 0.0 else f"within {shift:.2g} standard errors of the exact ones"
-    off = "off by more than 1e-6"
+    off = "with an error above 1e-6"
     return bullets(
         [
-            f"Reference: {total} histories of three walls in 33 digits; none moves by more than {small(change)} at a "
-            "hundredfold tolerance.",
+            f"Reference: {total} histories of three walls in 33 digits; none changes by more than {small(change)} if "
+            "the tolerance is relaxed a hundredfold.",
             f"Defaults: {many(sum(e.flags() for e in by_default), 'wrong collapse flag')}; "
-            f"{many(sum(e.above(LARGE) for e in by_default), 'EDP')} {off}, the worst by "
+            f"{many(sum(e.above(LARGE) for e in by_default), 'EDP')} {off}, the largest "
             f"{small(max(e.worst() for e in by_default))}.",
             "Median error of the histories that rock and do not collapse: at most "
-            f"{small(max(e.quantile(0.5) for e in by_default))}, for each wall and set.",
-            f"rtol = {power(TIGHT)}: {many(sum(e.above(LARGE) for e in by_tight), 'EDP')} {off}, the worst by "
-            f"{small(max(e.worst() for e in by_tight))}, at {percent(cost(study, TIGHT, DEFAULT))} time.",
+            f"{small(max(e.quantile(0.5) for e in by_default))} for each wall and set.",
+            f"rtol = {power(TIGHT)}: {many(sum(e.above(LARGE) for e in by_tight), 'EDP')} {off}, the largest "
+            f"{small(max(e.worst() for e in by_tight))}, for {percent(cost(study, TIGHT, DEFAULT))} time.",
             f"Targets (section 3): met in {len(pairs) - missed} of {len(pairs)} combinations of wall and set.",
             f"Time per recorded history at the defaults, on one thread: {times}.",
-            f"Fragility: θ and β at the defaults are {exactly}; between rtol = {power(ORDINARY[0])} and "
-            f"{power(ORDINARY[-1])} {many(len(rows), 'wrong flag')}, and shifts of at most {widest:.2g} standard "
-            "errors.",
-            f"The estimated error finds {counts[1]} of the {many(counts[0], 'EDP')} {off}, with "
+            f"Fragility: θ and β at the defaults are {exactly}; {many(len(rows), 'wrong flag')} between rtol = "
+            f"{power(ORDINARY[0])} and {power(ORDINARY[-1])}, and shifts of at most {widest:.2g} standard errors.",
+            f"The estimated error detects {counts[1]} of the {many(counts[0], 'EDP')} {off}, with "
             f"{many(counts[3], 'false alarm')}.",
-            f'The costliest single shortcut, "{worst}": {single[worst]} wrong flags of {recorded}, '
-            f"{sum(e.above(1e-3) for e in spoiled[worst])} EDPs off by more than 1e-3.",
+            f'The worst single shortcut, "{worst}": {single[worst]} wrong flags of {recorded}, '
+            f"{sum(e.above(1e-3) for e in spoiled[worst])} EDPs with an error above 1e-3.",
             f"All shortcuts together: {sum(e.flags() for e in spoiled[ALL])} wrong flags, "
-            f"{sum(e.above(1e-3) for e in spoiled[ALL])} EDPs off by more than 1e-3.",
+            f"{sum(e.above(1e-3) for e in spoiled[ALL])} EDPs with an error above 1e-3.",
         ]
     )
 
 
 def write(study):
-    """The page and its figures."""
+    """Write the page and its figures."""
     missed, third = targets(study)
     lines = [
         "# Verification",
         "",
-        "How far dondolo's results are from the exact solution of its own equations. Written by `./run verification`.",
+        "Error of dondolo's results relative to the exact solution of its equations. Written by `./run verification`.",
         "",
         *summary(study, missed),
     ]
@@ -73,7 +72,7 @@ def write(study):
 
 
 def main():
-    """Run everything and write the page."""
+    """Run the study and write the page."""
     executable, shortcuts_executable, records = sys.argv[1:4]
     write(collect(executable, shortcuts_executable, records))
 

@@ -1,7 +1,7 @@
 """Write the tables of test/reference: python reference.py EXECUTABLE RECORDS, with an executable built in real128.
 
-Every history is run at two tolerances a hundred apart; how far its EDP moves between them bounds the error of the
-table. A table takes up to half an hour on two cores.
+Every history is run at two tolerances that differ by a factor of a hundred; the change of its EDP bounds the error of
+the table. A table takes up to half an hour on two cores.
 """
 
 import os
@@ -11,13 +11,13 @@ from decimal import Decimal
 
 from cases import TABLES, WALLS, motions, run
 
-# Errors of the one-sided wall are amplified most, by up to 1e11, so it is followed most closely.
+# Errors of the one-sided wall are amplified most, by up to 1e11, so it has the tightest tolerance.
 RTOL = {"one_sided": 1e-20, "two_block": 1e-18, "free_standing": 1e-18}
 COLUMNS = "record,im_level,edp,collapsed,impacts,time_of_peak_s,edp_change"
 
 
 def table(executable, wall, motions):
-    """Lines of one table."""
+    """Yield the lines of one table."""
     rtol = RTOL[wall]
     exact, wider = (
         run(executable, wall, motions, tolerance, os.cpu_count(), "engine = 'rk45'")["histories"]
@@ -40,7 +40,7 @@ def table(executable, wall, motions):
 
 
 def main():
-    """Write every table whose accelerograms are here."""
+    """Write every table whose accelerograms are available."""
     executable, records = sys.argv[1:3]
     TABLES.mkdir(exist_ok=True)
     for name, each in motions(records).items():

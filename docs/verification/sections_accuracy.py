@@ -1,4 +1,4 @@
-"""What truth is, how far the motion is from it at what cost, and whether the targets are met."""
+"""Reference solution, error of the motion against its cost, and the targets."""
 
 import re
 import sys
@@ -8,19 +8,19 @@ from cases import WALLS
 from markdown import bullets, many, paragraph, percent, power, small, table
 from study import DEFAULT, REPEATS, TIGHT, TOLERANCES
 
-LARGE = 1e-6  # an EDP that is off by more is counted
+LARGE = 1e-6  # EDPs with larger errors are counted
 SHARE = 0.01  # of the histories, at the defaults
 FEW = 2  # histories, at TIGHT
 
 
 def demand(true, claim):
-    """Stop where a sentence of the page is not true."""
+    """Stop if a sentence of the page is not true."""
     if not true:
-        sys.exit(f"verification: this is not true any more, write the page anew: {claim}")
+        sys.exit(f"verification: this statement no longer holds, revise the page: {claim}")
 
 
 def cost(study, rtol, other):
-    """Time of all histories at one tolerance / that at another."""
+    """Ratio of the times of all histories at two tolerances."""
     milliseconds = [
         sum(study.milliseconds[wall, name, each] * len(study.exact[wall, name]) for wall, name in study.pairs())
         for each in (rtol, other)
@@ -47,20 +47,20 @@ def truth(study):
             ]
         )
     changes = [study.exact[pair].spread.max() for pair in study.pairs()]
-    demand(max(changes) < 0.01 * LARGE, "the reference is at least a hundred times more accurate than what is counted")
+    demand(max(changes) < 0.01 * LARGE, "the reference is at least a hundred times more accurate than counted errors")
     return [
-        "## 1. What truth is",
+        "## 1. Reference solution",
         "",
         *paragraph(
-            "The truth is the motion that [theory.md](theory.md#4-the-hybrid-motion) defines, for the "
-            "accelerogram that is linear between its samples: rocking starts, impacts happen, chains of bounces "
-            "end and the peak is reached at instants of their own, and not at samples. Whether mechanisms and "
-            "restitution describe a wall is another question."
+            "The exact solution is the motion defined in [theory.md](theory.md#4-the-hybrid-motion) for an "
+            "accelerogram that is linear between its samples: rocking starts, impacts occur, chains of bounces "
+            "end and the peak is reached at their exact instants instead of at samples. Whether the mechanisms and "
+            "the restitution represent a real wall is a separate question."
         ),
         *paragraph(
-            "The tables of [test/reference](../test/reference) hold the EDP of every history to 20 digits. "
+            "The tables of [test/reference](../test/reference) contain the EDP of every history to 20 digits. "
             "`./run reference` compiles the same sources in real128 (33 digits) and runs them at a tolerance at "
-            "which even the worst amplified error is small. How far an EDP moves when that tolerance is relaxed "
+            "which even the most amplified error is small. The change of an EDP when that tolerance is relaxed "
             "a hundredfold bounds the error of the table."
         ),
         *table(
@@ -70,9 +70,9 @@ def truth(study):
         *bullets(f"`{wall}`: `{said}`" for wall, said in WALLS.items()),
         *paragraph(
             "The recorded accelerograms are 44 horizontal components from Italy, 1976 to 2016 (22 stations of "
-            "the collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository), "
-            "the synthetic ones those of [data/records](../data/records/synthetic44.csv). Reference and product "
-            "share their sources; section 7 says what checks both from outside."
+            "the collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository); "
+            "the synthetic ones are those of [data/records](../data/records/synthetic44.csv). Reference and product "
+            "share their sources; section 7 lists the independent checks of both."
         ),
     ]
 
@@ -84,10 +84,10 @@ def work_precision(study):
         "## 2. Accuracy and time",
         "",
         *paragraph(
-            f"The engine rk45 at rtol from {power(TOLERANCES[0])} to {power(TOLERANCES[-1])}, atol = rtol/100, "
-            "one thread. The error is that of the EDP against the reference; the median is that of the histories "
-            f"that rock and do not collapse. Times are medians of {REPEATS} runs, without the reading of files, "
-            "and inform only."
+            f"The engine rk45 is run at rtol from {power(TOLERANCES[0])} to {power(TOLERANCES[-1])}, atol = rtol/100, "
+            "on one thread. The error is that of the EDP with respect to the reference; the median is over the "
+            f"histories that rock and do not collapse. Times are medians of {REPEATS} runs, exclude the reading of "
+            "files, and are indicative only."
         ),
         "![error of the EDP against tolerance and time per history](figures/verification_work.png)",
         "",
@@ -116,7 +116,7 @@ def work_precision(study):
 
 
 def defaults(study):
-    """Why the defaults are what they are."""
+    """Paragraph on the choice of the defaults."""
     loosest, looser, tighter = TOLERANCES[0], [r for r in TOLERANCES if r > DEFAULT], DEFAULT / 100.0
     medians = {
         rtol: [study.errors(wall, name, rtol).quantile(0.5) for wall, name in study.pairs()]
@@ -131,18 +131,18 @@ def defaults(study):
     demand(gain > 10.0, f"beyond the default errors fall: {gain:.2g}-fold at {power(TIGHT)}")
     return paragraph(
         f"**Why rtol = {power(DEFAULT)} and atol = {power(DEFAULT / 100.0)} are the defaults.** No step crosses a "
-        "sample, and one step from sample to sample is already so accurate that looser tolerances change next to "
-        f"nothing: from {power(loosest)} to {power(DEFAULT)} no median error changes by more than a factor "
-        f"{change:.1f}, and the time of all histories by {percent(near)}. Beyond, accuracy has its price: "
-        f"{power(tighter)} costs {percent(far)} time, and {power(TIGHT)} {percent(farther)}, for median errors "
-        f"that fall at least {gain:.0f}-fold. The default is the knee: the tightest tolerance that costs next to "
-        "nothing. It matters where the samples do not limit the step: in accelerograms with coarser samples than "
-        "these (0.005 s), and for smaller, faster walls."
+        "sample, and one step from sample to sample is already so accurate that looser tolerances have almost no "
+        f"effect: from {power(loosest)} to {power(DEFAULT)} no median error changes by more than a factor "
+        f"{change:.1f}, and the time of all histories changes by {percent(near)}. Tighter tolerances are more "
+        f"expensive: {power(tighter)} costs {percent(far)} time, and {power(TIGHT)} {percent(farther)}, for median "
+        f"errors that are at least {gain:.0f} times smaller. The default is the knee of this curve: the tightest "
+        "tolerance at almost no cost. It matters if the samples do not limit the step: for accelerograms with "
+        "coarser samples than these (0.005 s), and for smaller, faster walls."
     )
 
 
 def targets(study):
-    """Section 3, and whether all targets are met."""
+    """Number of missed targets, and section 3."""
     rows, missed = [], 0
     for wall, name in study.pairs():
         at_default, at_tight = (study.errors(wall, name, rtol) for rtol in (DEFAULT, TIGHT))
@@ -163,11 +163,11 @@ def targets(study):
         "## 3. Targets",
         "",
         *paragraph(
-            f"At the defaults no wrong flag, and at most {100.0 * SHARE:.0f} % of the EDPs off by more than 1e-6; "
-            f"at rtol = {power(TIGHT)} at most {many(FEW, 'EDP')}. In brackets: how many are allowed."
+            f"At the defaults no flag may be wrong, and at most {100.0 * SHARE:.0f} % of the EDPs may have errors "
+            f"above 1e-6; at rtol = {power(TIGHT)} at most {many(FEW, 'EDP')}. Brackets give the number allowed."
         ),
         *table(
-            ["wall", "accelerograms", "wrong flags", "EDPs off by more than 1e-6", f"the same at {power(TIGHT)}", ""],
+            ["wall", "accelerograms", "wrong flags", "EDPs with errors > 1e-6", f"the same at {power(TIGHT)}", ""],
             rows,
         ),
     ]

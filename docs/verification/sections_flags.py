@@ -1,4 +1,4 @@
-"""How sure a collapse flag is, the fragility curve that follows, and what the estimated error knows of both."""
+"""Reliability of collapse flags and fragility curves, and of the estimated error."""
 
 import figures
 import numpy as np
@@ -12,12 +12,12 @@ NEAREST = 10
 
 
 def shifts(fit, exact):
-    """How far a curve is from the exact one, in standard errors of ln theta and of beta."""
+    """Difference of a curve from the exact one, in standard errors of ln theta and of beta."""
     return np.log(fit.theta / exact.theta) / exact.se_ln_theta, (fit.beta - exact.beta) / exact.se_beta
 
 
 def signed(x):
-    """A shift in standard errors; none is 0."""
+    """Format a shift in standard errors; no shift is 0."""
     return "0" if x == 0.0 else f"{x:+.3f}"
 
 
@@ -34,7 +34,7 @@ def largest_shift(study, tolerances):
 
 
 def curves(study):
-    """Fragility curves of the reference and of every tolerance, tolerances with the same flags in one row."""
+    """Table of the curves of the reference and of every tolerance, tolerances with the same flags in one row."""
     rows = []
     for wall, name in study.pairs():
         exact = study.exact[wall, name]
@@ -75,7 +75,7 @@ def curves(study):
 
 
 def wrong_flags(study):
-    """Every wrong flag at an ordinary tolerance, and whether the estimated error doubts it."""
+    """Every wrong flag at an ordinary tolerance, and whether it is uncertain within the estimated error."""
     rows = []
     for wall, name in study.pairs():
         for rtol in ORDINARY:
@@ -97,17 +97,17 @@ def wrong_flags(study):
 
 
 def edp(histories, i):
-    """EDP of a history, or that it collapses."""
+    """EDP of a history, or 'collapse'."""
     return "collapse" if histories.collapsed[i] else f"{histories.edp[i]:.4f}"
 
 
 def in_doubt(run):
-    """Histories whose flag the estimated error calls in doubt, as the product does."""
+    """Mask of the histories with an outcome that is uncertain within the estimated error, as in the product."""
     return (run.spread > 0.0) & ((run.edp + 2.0 * run.spread >= 1.0) | (run.spread > 1e-2))
 
 
 def stripes(study):
-    """Collapses of the reference at every level of the recorded set."""
+    """Table of the collapses of the reference at every level of the recorded set."""
     columns = [study.exact[pair].collapses() for pair in study.recorded()]
     levels, _, histories = columns[0]
     rows = [[f"{level:.2f}", *(column[1][j] for column in columns)] for j, level in enumerate(levels)]
@@ -118,7 +118,7 @@ def stripes(study):
 
 
 def nearest(study):
-    """The histories that stand nearest the limit: (wall, set, number)."""
+    """Histories nearest to the limit that do not collapse: (wall, set, number)."""
     standing = [
         (study.exact[wall, name].edp[i], wall, name, i)
         for wall, name in study.pairs()
@@ -133,14 +133,14 @@ def flags(study):
     figures.boundary(study, near)
     wrong = wrong_flags(study)
     shift, where = largest_shift(study, ORDINARY)
-    lines = ["## 4. How sure is a collapse flag", ""]
+    lines = ["## 4. Reliability of collapse flags", ""]
     span = f"Between rtol = {power(ORDINARY[0])} and {power(ORDINARY[-1])}"
     if wrong:
         lines += paragraph(
             f"{span}, in {len(ORDINARY) * len(study.pairs())} runs of all histories of a wall, "
-            f"{many(len(wrong), 'flag')} differed from the reference. No ordinary tolerance is safe from that: a "
-            "tighter one may miss the one history that a looser one has right. What the estimated error of "
-            "section 5 says of it:"
+            f"{many(len(wrong), 'flag')} differed from the reference. No ordinary tolerance excludes this: a "
+            "tighter one may fail for the one history that is right with a looser one. The estimated error of "
+            "section 5 for this case:"
         )
         lines += table(
             [
@@ -151,16 +151,16 @@ def flags(study):
                 "EDP",
                 "estimated error",
                 "ill-conditioned",
-                "flag in doubt",
+                "flag uncertain",
             ],
             wrong,
         )
     else:
         lines += paragraph(f"{span} no flag differs from the reference.")
-    moved = "It does not move at all."
+    moved = "It does not change at all."
     if where:
         moved = f"Its largest shift is {shift:.2f} standard errors ({where[0]}, {where[1]}, rtol = {power(where[2])})."
-    lines += paragraph("The fragility curve moves with the flags only. " + moved)
+    lines += paragraph("The fragility curve depends on the flags only. " + moved)
     lines += [*curves(study), *stripes(study)]
     rows = []
     for wall, name, i in near:
@@ -177,18 +177,18 @@ def flags(study):
     return [
         *lines,
         *paragraph(
-            f"The {NEAREST} histories that stand nearest the limit, and their EDP at four tolerances less that "
-            "of the reference:"
+            f"The {NEAREST} histories nearest to the limit that do not collapse, and their EDP at four tolerances "
+            "minus that of the reference:"
         ),
         *table(["wall", "history", "EDP", "at 1e-4", "at 1e-6", "at 1e-8", "at 1e-10"], rows),
         "![errors of the histories nearest the limit](figures/verification_boundary.png)",
         "",
-        *paragraph("A history that collapses shows no margin in its EDP, so the figure has only those that stand."),
+        *paragraph("The EDP of a history that collapses shows no margin, so the figure contains only survivals."),
     ]
 
 
 def doubts(study):
-    """Of all histories at the defaults: large errors, those found, misses, false alarms."""
+    """Numbers at the defaults for each wall and set: large errors, those detected, missed, false alarms."""
     counts = {}
     for wall, name in study.pairs():
         large = study.estimate_errors(wall, name, DEFAULT).edp > LARGE
@@ -203,7 +203,7 @@ def estimates(study):
     rows = []
     for (wall, name), counts in doubts(study).items():
         errors, run = study.estimate_errors(wall, name, DEFAULT), study.estimated[wall, name, DEFAULT]
-        # Errors near rounding cannot be estimated, and need not be.
+        # Errors near rounding cannot be estimated, which is not needed either.
         here = errors.moving & (errors.edp > 1e-12)
         ratio = run.spread[here] / errors.edp[here]
         rows.append(
@@ -221,38 +221,38 @@ def estimates(study):
         "",
         *paragraph(
             "With `estimate_error = .true.` every history is run a second time with halved steps, and "
-            "`*_histories.csv` has a column `edp_error`. Here it is held against the true error, at the "
-            "defaults. A miss is an EDP that is off by more than 1e-6 and not called so; a false alarm the "
-            "opposite. A flag is in doubt if EDP plus twice the estimated error reaches the limit, if that error "
+            "`*_histories.csv` has a column `edp_error`. Here this estimate is compared with the true error, at the "
+            "defaults. A miss is an EDP with an error above 1e-6 that the estimate does not report; a false alarm is "
+            "the opposite. A flag is uncertain if EDP plus twice the estimated error reaches the limit, if that error "
             "exceeds 0.01, or if only one of the two runs collapses."
         ),
         *table(
             [
                 "wall",
-                "off by > 1e-6",
-                "found",
+                "error > 1e-6",
+                "detected",
                 "missed",
                 "false alarms",
-                "flags in doubt",
+                "flags uncertain",
                 "wrong flags",
                 "median of estimate / error",
                 "range",
             ],
             rows,
         ),
-        *paragraph("Median and range are those of the histories with errors above 1e-12."),
+        *paragraph("Median and range are over the histories with errors above 1e-12."),
         "![estimated against true error](figures/verification_estimate.png)",
         "",
         *dense_grid(study),
         *paragraph(
-            "The estimate is one of size and no bound, so a flag can be wrong that is not in doubt; and where both "
-            "runs collapse it is zero, however sensitive the history."
+            "The estimate indicates the size of the error and is not a bound, so a flag can be wrong without being "
+            "uncertain; and if both runs collapse it is zero, however sensitive the history."
         ),
     ]
 
 
 def dense_grid(study):
-    """What the estimate finds on more levels, where no reference is: a tight run stands for it."""
+    """Paragraph and table of the estimate on more levels, with a tight run in place of the reference."""
     rows = []
     for wall, (run, errors) in study.dense.items():
         off = errors.edp > LARGE
@@ -272,18 +272,18 @@ def dense_grid(study):
     return [
         *paragraph(
             "Three walls and twenty levels are a sample. On 50 levels from 0.02 to 1 g of the recorded set, and with "
-            f"one wall more, a run at rtol = {power(TIGHTEST)} stands for the truth, which makes it doubtful itself "
-            "where errors are amplified most:"
+            f"one more wall, a run at rtol = {power(TIGHTEST)} replaces the reference, although it is itself uncertain "
+            "for the most amplified errors:"
         ),
         *table(
             [
                 "wall",
                 "histories",
                 "flags that differ",
-                "of them in doubt",
-                "EDPs apart by > 1e-6",
-                "found",
-                "flags in doubt",
+                "of these uncertain",
+                "EDP differences > 1e-6",
+                "detected",
+                "flags uncertain",
             ],
             rows,
         ),

@@ -1,4 +1,4 @@
-"""What shortcuts do to the results, and which tests verify the rest."""
+"""Effect of shortcuts on the results, and the tests that verify the rest."""
 
 import figures
 import numpy as np
@@ -14,13 +14,13 @@ MANY = 10  # wrong flags
 
 MEANINGS = [
     "*none*: a check of the study itself, which must be as close to the reference as dondolo is.",
-    "*rest below 1e-3 of the capacity*: a rebound that would rise less than that in still ground is rest. "
-    "dondolo sets a wall to rest only where its chain of bounces provably ends there.",
+    "*rest below 1e-3 of the capacity*: a rebound that would rise less than that in still ground is treated as rest. "
+    "dondolo sets a wall to rest only if its chain of bounces provably ends there.",
     "*rocking starts at the next sample* instead of inside the interval.",
-    "*impact at the end of its step*: q = 0 and the restitution are applied where a step ends with q < 0.",
+    "*impact at the end of its step*: q = 0 and the restitution are applied at the end of a step with q < 0.",
     "*peak of the samples*, or of every 0.01 s, which is every second sample here: peak and collapse are not located.",
-    "*steps across samples*: the step follows the error only, and interpolates the accelerogram.",
-    "*nothing after the record*: the EDP is that at the last sample.",
+    "*steps across samples*: the step is controlled by the error only, and the accelerogram is interpolated.",
+    "*nothing after the record*: the EDP is that reached by the last sample.",
     "*all of these*, with rest below 1e-4 of the capacity and the peak of every 0.01 s.",
 ]
 
@@ -74,7 +74,7 @@ TESTS = [
         "test_chains",
         ("time to rest", "sums of bounces", "the rule that ends chains", "the worst chain"),
     ),
-    ("The motion after the record", "stepping on", "test_tail", ("after the record", "free motion")),
+    ("The motion after the record", "continued stepping", "test_tail", ("after the record", "free motion")),
     (
         "Coefficients of every mechanism, restitutions",
         "computed independently, 15 digits",
@@ -95,7 +95,7 @@ TESTS = [
         ("two stripes", "published data"),
     ),
     (
-        "Random walls, accelerograms, scales, tolerances and limits; every history that once failed",
+        "Random walls, accelerograms, scales, tolerances and limits; every history that ever failed",
         "properties",
         "test_stress",
         ("exact thresholds", "kept histories", "random histories", "long records"),
@@ -111,7 +111,7 @@ TESTS = [
 
 
 def shortcut_errors(study):
-    """{wall: {shortcut: errors}}, the study's own motion checked first."""
+    """Errors as {wall: {shortcut: errors}}, after a check of the study's own motion."""
     found = {
         wall: {name: Errors(run, study.exact[wall, "recorded"]) for name, run in runs.items()}
         for wall, runs in study.shortcuts.items()
@@ -120,7 +120,7 @@ def shortcut_errors(study):
         exact = each[NONE]
         demand(
             exact.flags() == 0 and exact.above(LARGE) <= SHARE * len(exact.edp),
-            f"{wall}: without shortcuts the study has dondolo's results",
+            f"{wall}: without shortcuts the study reproduces dondolo's results",
         )
     return found
 
@@ -130,11 +130,11 @@ def shortcuts(study):
     found = shortcut_errors(study)
     figures.shortcuts(found)
     lines = [
-        "## 6. What shortcuts cost",
+        "## 6. Effect of shortcuts",
         "",
         *paragraph(
-            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion by a loop of "
-            "its own, and takes the shortcuts that programs of this kind take, one at a time, at the default "
+            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion with a separate "
+            "loop, and applies the shortcuts that are common in programs of this kind, one at a time, at the default "
             "tolerances on the recorded set."
         ),
         *bullets(MEANINGS),
@@ -166,12 +166,12 @@ def shortcuts(study):
 
 
 def closing(study, found):
-    """What the tables say together."""
+    """Paragraph that summarises the tables."""
     harmless = [name for name in found["one_sided"] if not any(each[name].flags() for each in found.values())]
     harmless = ", ".join(f"*{name}*" for name in harmless if name != NONE) or "none of them"
     for runs in study.shortcuts.values():
         demand(
-            np.array_equal(runs[NONE].edp, runs[NO_TAIL].edp), "these records go on until no wall can reach a new peak"
+            np.array_equal(runs[NONE].edp, runs[NO_TAIL].edp), "these records last until no wall can reach a new peak"
         )
     hidden = [
         (abs(shifts(study.shortcuts[wall][name].fit(), study.exact[wall, "recorded"].fit())[0]), wall, name)
@@ -181,15 +181,15 @@ def closing(study, found):
     ]
     shift, wall, name = min(hidden)
     return paragraph(
-        f"Without a wrong flag here: {harmless}. These records go on until no wall can reach a new peak; what happens "
-        "after the record matters where one was cut short. θ hides much of what is lost, because wrong flags of both "
-        f"kinds cancel in it: the {found[wall][name].flags()} of *{name}* move that of `{wall}` by {shift:.3f} "
+        f"No flag is wrong with {harmless}. These records last until no wall can reach a new peak; the motion after "
+        "the record matters if it was cut short. θ hides many of these errors, because wrong flags of both "
+        f"kinds cancel: the {found[wall][name].flags()} of *{name}* change that of `{wall}` by {shift:.3f} "
         "standard errors."
     )
 
 
 def tests():
-    """Section 7; the tests that it names must be there."""
+    """Section 7; the listed tests must exist."""
     rows = []
     for what, source, program, suites in TESTS:
         text = (ROOT / "test" / f"{program}.f90").read_text(encoding="utf-8")
@@ -197,7 +197,7 @@ def tests():
             demand(f"call suite('{suite}')" in text, f"{program} has a suite '{suite}'")
         rows.append([what, source, f"[{program}](../test/{program}.f90)"])
     path = "python/tests/test_independent.py"
-    demand((ROOT / path).is_file(), f"{path} is there")
+    demand((ROOT / path).is_file(), f"{path} exists")
     rows.append(
         [
             "Coefficients, accelerations, restitutions, whole histories",
@@ -209,8 +209,8 @@ def tests():
         "## 7. Verified by tests",
         "",
         *paragraph(
-            "`./run test` runs them all. `./run mutations` makes formulas of the statistics wrong, one at a time, and "
-            "checks that a test catches each ([mutations](../test/mutations.py))."
+            "`./run test` runs all of them. `./run mutations` introduces errors into the formulas of the statistics, "
+            "one at a time, and checks that each is caught by a test ([mutations](../test/mutations.py))."
         ),
-        *table(["what", "against", "where"], rows),
+        *table(["quantity", "compared with", "test"], rows),
     ]

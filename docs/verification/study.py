@@ -1,4 +1,4 @@
-"""Every run that docs/verification.md reports."""
+"""All runs reported in docs/verification.md."""
 
 import re
 import statistics
@@ -14,16 +14,16 @@ from histories import Errors, Histories
 TOLERANCES = [10.0**-digits for digits in range(3, 14)]
 DEFAULT, TIGHT, TIGHTEST = 1e-8, 1e-12, 1e-13
 REPEATS = 3
-# The yardstick; the engine lanes is held against the same reference in docs/performance.md
+# The engine that is verified here; docs/performance.md compares the engine lanes with the same reference
 ENGINE = "engine = 'rk45'"
 
 
 @dataclass
 class Study:
-    """Results by (wall, set) and by what was varied."""
+    """Results by (wall, set) and by the varied parameter."""
 
     exact: dict = field(default_factory=dict)  # (wall, set): histories of the reference
-    made_with: dict = field(default_factory=dict)  # (wall, set): the line of the reference that says how it was made
+    made_with: dict = field(default_factory=dict)  # (wall, set): the line of the reference with its settings
     runs: dict = field(default_factory=dict)  # (wall, set, rtol): histories
     milliseconds: dict = field(default_factory=dict)  # (wall, set, rtol): time per history
     estimated: dict = field(default_factory=dict)  # (wall, set, rtol): histories with estimated errors
@@ -39,7 +39,7 @@ class Study:
         return list(self.exact)
 
     def recorded(self):
-        """The same, recorded set only."""
+        """Walls and the recorded set only."""
         return [pair for pair in self.pairs() if pair[1] == "recorded"]
 
     def estimate_errors(self, wall, name, rtol):
@@ -48,15 +48,15 @@ class Study:
 
 
 def collect(executable, shortcuts, records):
-    """Run everything."""
+    """Run the whole study."""
     sets = motions(records)
     if "recorded" not in sets:
-        sys.exit(f"verification: {Path(records) / 'italy44.csv'} is not there; DONDOLO_RECORDS names its folder")
+        sys.exit(f"verification: {Path(records) / 'italy44.csv'} not found; set DONDOLO_RECORDS to its folder")
     study = Study()
     for name in sets:
         for wall in WALLS:
             read_reference(study, wall, name)
-    # Tolerance by tolerance and again from the start, so that a disturbance does not fall on one of them.
+    # Repeat the whole series of tolerances, so that a disturbance does not affect only one of them.
     seconds = {}
     for repeat in range(REPEATS):
         for wall, name in study.pairs():
@@ -89,7 +89,7 @@ def read_reference(study, wall, name):
     """Read a table of test/reference."""
     path = TABLES / f"{wall}_{name}.csv"
     if not path.is_file():
-        sys.exit(f"verification: {path} is not there; ./run reference makes it")
+        sys.exit(f"verification: {path} not found; create it with ./run reference")
     study.exact[wall, name] = Histories.of(read_table(path))
     with open(path, encoding="utf-8") as file:
         study.made_with[wall, name] = next(line for line in file if "real128" in line)

@@ -143,20 +143,28 @@ contains
       end do
    end subroutine split_lines
 
-   !> Lines as one text
-   pure function pack_lines(lines) result(text)
+   !> Length of lines as one text
+   pure integer function packed_length(lines) result(length)
       !> Lines
       type(lines_type), intent(in) :: lines
-      !> The same, each ended by new_line
-      character(len=:), allocatable :: text
 
-      integer :: i, length, at
+      integer :: i
 
       length = 0
       do i = 1, lines%count
          length = length + len(lines%line(i)%text) + 1
       end do
-      allocate (character(len=length) :: text)
+   end function packed_length
+
+   !> Lines as one text
+   pure function pack_lines(lines) result(text)
+      !> Lines
+      type(lines_type), intent(in) :: lines
+      !> The same, each ended by new_line
+      character(len=packed_length(lines)) :: text
+
+      integer :: i, length, at
+
       at = 0
       do i = 1, lines%count
          length = len(lines%line(i)%text) + 1
@@ -165,18 +173,19 @@ contains
       end do
    end function pack_lines
 
-   !> Warnings as one text: JSON objects, each on its line
-   function pack_warnings(warnings) result(text)
+   !> Append warnings to the text of a parcel: JSON objects, each on its line
+   subroutine pack_warnings(warnings, parcel)
       !> Warnings
       type(warnings_type), intent(in) :: warnings
-      !> The same, each ended by new_line
-      character(len=:), allocatable :: text
+      !> The parcel
+      type(parcel_type), intent(inout) :: parcel
 
       type(lines_type) :: lines
 
       call warning_objects(warnings, lines)
-      text = pack_lines(lines)
-   end function pack_warnings
+      if (.not. allocated(parcel%text)) parcel%text = ''
+      parcel%text = parcel%text//pack_lines(lines)
+   end subroutine pack_warnings
 
    !> Append a note to the text of a parcel
    subroutine pack_note(note, parcel)

@@ -551,7 +551,7 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
       records(1)%acceleration = [pga]
       call warn_of_records(records, gravity, warnings)
       if (warnings%count > 0) then
-         parcel%text = pack_warnings(warnings)
+         call pack_warnings(warnings, parcel)
          call send(parcel, handle, sizes)
       end if
    end if
@@ -702,7 +702,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
       call scales%warn(warnings)
       parcel%integers = [histories, stripes%record, stripes%polarity]
       parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
-      parcel%text = pack_warnings(warnings)
+      call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1010,7 +1010,8 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
          call lines%add(groups(i)%mechanism)
       end do
       call fits%warn(groups, warnings)
-      parcel%text = pack_lines(lines)//pack_warnings(warnings)
+      parcel%text = pack_lines(lines)
+      call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1053,7 +1054,7 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
       allocate (stripes%response(1, 1))
       stripes%response%edp = largest_edp
       call warn_of_fit(walls(1), stripes, fragility, warnings)
-      parcel%text = pack_warnings(warnings)
+      call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1098,7 +1099,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    else
       call sentences(stripes, records, edp_limit, warnings)
    end if
-   parcel%text = pack_warnings(warnings)
+   call pack_warnings(warnings, parcel)
    call send(parcel, handle, sizes)
    call report(error, stat, message)
 end subroutine warn_of_errors

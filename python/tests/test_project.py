@@ -149,8 +149,65 @@ def test_no_single_precision_at_the_boundary():
         assert not re.search(r": .*\bfloat32\b", text), name
 
 
+#: Functions of `case` that are still to be rewritten; the list only becomes shorter.
+NOT_YET = {
+    "beside",
+    "between",
+    "bound",
+    "counts_of",
+    "counts_path",
+    "engine",
+    "fragility_row",
+    "given",
+    "history_row",
+    "in_line",
+    "integer_assignment",
+    "list_assignment",
+    "logical_assignment",
+    "not_a_number",
+    "pack_counts",
+    "place",
+    "population_path",
+    "quoted",
+    "real_assignment",
+    "some_names",
+    "stripes_row",
+    "text_assignment",
+    "typology_row",
+    "unit_of_levels",
+    "wall_cells",
+    "wall_row",
+}
+
+
+def deferred_results(text):
+    """Names of the functions of a Fortran source whose results are characters of deferred length."""
+    text = re.sub(r"&\s*\n\s*&?", "", re.sub(r"(?m)^\s*!.*\n", "", text))
+    head = r"(?m)^ *([\w ()=:,]*?)\bfunction (\w+) *\([^)]*\)(?: *result *\((\w+)\))?.*\n"
+    names = []
+    for match in re.finditer(head, text):
+        prefix, name, result = match.groups()
+        body = text[match.end() : text.index(f"end function {name}", match.end())]
+        declared = rf"(?m)^ *character *\(len=:\).*::(?: *\w+,)* *{result or name}\b"
+        if "(len=:)" in prefix or re.search(declared, re.split(r"(?m)^ *contains\b", body)[0]):
+            names.append(name)
+    return names
+
+
+def test_results_of_functions_have_specified_lengths(root):
+    """Gfortran keeps the length of a result of deferred length in a static variable: texts of two threads would mix."""
+    example = (
+        "pure function f(x) result(y)\n real, intent(in) :: x\n character(len=:), allocatable :: z, y\nend function f\n"
+    )
+    assert deferred_results(example) == ["f"]
+    files = [file for folder in ("src", "app", "python/dondolo") for file in root.glob(f"{folder}/**/*.[fF]90")]
+    assert len(files) > 100
+    found = {name for file in files for name in deferred_results(file.read_text())}
+    assert found - NOT_YET == set()
+
+
 def test_procedures_that_compute_release_the_lock(root):
-    """Only those may: gfortran's functions with results of deferred length are not safe in several threads."""
+    """Those that compute release it; the others are as quick as the lock."""
     text = (root / "python/dondolo/dondolo_f2py.f90").read_text()
     procedures = re.split(r"(?m)^subroutine ", text)[1:]
     free = {re.match(r"\w+", procedure)[0] for procedure in procedures if "!f2py threadsafe" in procedure}

@@ -2,6 +2,7 @@
 
 import itertools
 import multiprocessing
+import os
 import subprocess
 import sys
 import threading
@@ -49,14 +50,19 @@ def sentence(call):
 
 
 def test_sentences_of_threads_are_whole(wall, sine):
-    """Threads that fail at the same time each get the sentence that one alone gets."""
+    """Threads that fail at the same time each get the sentence that one alone gets.
+
+    DONDOLO_SENTENCES is the number of sentences, here and in test/test_sentences.f90, where no Python stands between.
+    """
+    threads = 8
+    each = int(os.environ.get("DONDOLO_SENTENCES", "20000")) // threads
     calls = [call for k in range(1, 10) for call in failures(wall, sine, k)]
     right = [sentence(call) for call in calls]
     assert "no error" not in right
     wrong = []
 
     def fail_often(start):
-        for i in itertools.islice(itertools.cycle(range(len(calls))), start, start + 20 * len(calls)):
+        for i in itertools.islice(itertools.cycle(range(len(calls))), start, start + each):
             text = sentence(calls[i])
             if text != right[i]:
                 wrong.append(text)
@@ -64,7 +70,7 @@ def test_sentences_of_threads_are_whole(wall, sine):
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
     try:
-        threads = [threading.Thread(target=fail_often, args=(7 * k,)) for k in range(8)]
+        threads = [threading.Thread(target=fail_often, args=(7 * k,)) for k in range(threads)]
         for thread in threads:
             thread.start()
         for thread in threads:

@@ -1,8 +1,8 @@
-!> The hybrid motion by a loop of its own, with the shortcuts that programs of this kind take, one switch each.
+!> The hybrid motion in a separate loop, with the shortcuts that are common in programs of this kind, one switch each.
 !>
-!> With no switch set it is the motion of docs/theory.md, section 4. It shares the terms, the step, the start of
+!> Without any switch it is the motion of docs/theory.md, section 4. It shares the terms, the step, the start of
 !> rocking, the chain of bounces and the free motion after the record with the library, but neither the control of
-!> the steps nor the order in which things happen.
+!> the steps nor the order of operations.
 module plain_motion
    use dondolo_bernstein, only : first_descent, nowhere
    use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
@@ -21,28 +21,28 @@ module plain_motion
 
    public :: shortcut_type, simulate_plain
 
-   !> Shortcuts; none is taken unless it is set
+   !> Shortcuts, all off by default
    type :: shortcut_type
-      !> What it is, for the table
+      !> Name in the table
       character(len=60) :: name = 'none'
-      !> A rebound that would rise less than this part of q_c in still ground is rest; 0: the bound on the chain decides
+      !> Rebounds that would rise less than this part of q_c in still ground are rest; 0: use the bound on the chain
       real(wp) :: rest_height = 0.0_wp
-      !> Rocking starts at the next sample, not inside the interval
+      !> Rocking starts at the next sample instead of inside the interval
       logical :: late_start = .false.
       !> An impact is applied at the end of the step in which q < 0
       logical :: unlocated = .false.
-      !> The peak and collapse are looked for at every so many samples only; 0: they are located
+      !> Number of samples between checks of the peak and collapse; 0: they are located
       integer :: every = 0
-      !> Steps cross samples, as far as the error lets them
+      !> Steps cross samples, as far as the error allows
       logical :: straddling = .false.
-      !> The EDP is that at the end of the record
+      !> The EDP is that reached by the end of the record
       logical :: no_tail = .false.
    end type shortcut_type
 
    !> Events within a step
    integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
 
-   !> All there is to know of a motion under way
+   !> State of a motion
    type :: motion_type
       !> Sample interval, from 1, and time since its first sample [s]
       integer :: interval = 1
@@ -51,11 +51,11 @@ module plain_motion
       real(wp) :: side = 1.0_wp, q = 0.0_wp, v = 0.0_wp, f = 0.0_wp
       !> Proposed step [s] and largest rotation so far [rad]
       real(wp) :: step = 0.0_wp, peak = 0.0_wp
-      !> Is the wall at rest?
+      !> Whether the wall is at rest
       logical :: resting = .true.
    end type motion_type
 
-   !> What stays the same during a history
+   !> Constants of a history
    type :: scene_type
       !> Rest of the wall
       type(rest_type) :: rest
@@ -65,7 +65,7 @@ module plain_motion
       type(solver_type) :: solver
       !> Shortcuts
       type(shortcut_type) :: shortcut
-      !> Rotation that counts as collapse, units of rotation [rad] and velocity [rad/s] of the error
+      !> Rotation that counts as collapse, and units of the error in rotation [rad] and velocity [rad/s]
       real(wp) :: limit, q_unit, v_unit
    end type scene_type
 
@@ -111,7 +111,7 @@ contains
       response%edp = merge(solver%edp_limit, motion%peak/mechanism%capacity, response%collapsed)
    end subroutine simulate_plain
 
-   !> From rest to the start of rocking; beyond the last interval if there is none
+   !> Advance from rest to the start of rocking, or beyond the last interval if there is none
    pure subroutine start(mechanism, scene, motion)
       class(mechanism_type), intent(in) :: mechanism
       type(scene_type), intent(in) :: scene
@@ -132,7 +132,7 @@ contains
       motion%f = max(0.0_wp, acceleration_now(mechanism, scene, motion))
    end subroutine start
 
-   !> One accepted step, and what happens at its end
+   !> Take one accepted step and apply the event at its end
    pure subroutine rock(mechanism, scene, motion)
       class(mechanism_type), intent(in) :: mechanism
       type(scene_type), intent(in) :: scene
@@ -180,14 +180,14 @@ contains
       if (scene%shortcut%every == 0) motion%peak = max(motion%peak, q)
       if (event == impact .or. (scene%shortcut%unlocated .and. q < 0.0_wp)) call bounce(mechanism, scene, motion)
       if (event /= no_event) motion%f = acceleration_now(mechanism, scene, motion)
-      ! A start on the very edge of the threshold that rounding undoes at once must not be tried for ever.
+      ! A start exactly at the threshold that rounding undoes at once must not be repeated endlessly.
       if (fresh .and. motion%resting) then
          motion%interval = motion%interval + 1
          motion%time = 0.0_wp
       end if
    end subroutine rock
 
-   !> A step within an interval, or over the samples
+   !> Take a step within an interval, or across samples
    pure subroutine step_by(mechanism, scene, motion, h, q, v, f, q_error, v_error)
       class(mechanism_type), intent(in) :: mechanism
       type(scene_type), intent(in) :: scene
@@ -212,12 +212,12 @@ contains
       end if
    end subroutine step_by
 
-   !> Find the first event within a step and take the step again so that it ends there
+   !> Find the first event within a step and repeat the step so that it ends there
    pure subroutine find_and_land(mechanism, scene, motion, h, event, q, v, f)
       class(mechanism_type), intent(in) :: mechanism
       type(scene_type), intent(in) :: scene
       type(motion_type), intent(in) :: motion
-      !> The step, in: whole, out: to the event [s]
+      !> The step [s], whole on entry, to the event on return
       real(wp), intent(inout) :: h
       integer, intent(out) :: event
       !> State at the end
@@ -260,7 +260,7 @@ contains
          q = q + change*(v + 0.5_wp*change*f)
          v = v + change*f
       else if (gap > 0.0_wp) then
-         ! The dense output only grazed the event: the step to here is a step like any other.
+         ! The dense output only grazed the event: treat the step up to here as an ordinary one.
          event = no_event
       end if
       h = trial
@@ -268,11 +268,11 @@ contains
       if (event == limit_reached) q = scene%limit
    end subroutine find_and_land
 
-   !> Take an event if it comes before the one so far
+   !> Replace the event found so far by an earlier one
    pure subroutine take_if_earlier(candidate, at, event, x)
       integer, intent(in) :: candidate
       real(wp), intent(in) :: at
-      !> The event so far and its place, as a part of the step
+      !> The event found so far and its position, as a fraction of the step
       integer, intent(inout) :: event
       real(wp), intent(inout) :: x
 
@@ -305,7 +305,7 @@ contains
       end do
    end subroutine sample_peak
 
-   !> An impact: lose speed, change side, and see whether the wall is at rest
+   !> Apply an impact: reduce the speed, change side, and check whether the wall is at rest
    pure subroutine bounce(mechanism, scene, motion)
       class(mechanism_type), intent(in) :: mechanism
       type(scene_type), intent(in) :: scene

@@ -1,4 +1,4 @@
-!> What each shortcut of plain_motion does to the histories of a case: `dondolo-shortcuts CASE.nml` prints a table.
+!> Effect of each shortcut of plain_motion on the histories of a case: `dondolo-shortcuts CASE.nml` prints a table.
 program shortcuts
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
    use dondolo_case, only : case_type, read_case

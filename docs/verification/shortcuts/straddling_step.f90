@@ -1,6 +1,6 @@
 !> One Dormand-Prince step that may cross samples: every stage interpolates the accelerogram at its own time.
 !>
-!> The library's step knows one sample interval only, so that it keeps its order; this one does not.
+!> The library's step stays within one sample interval and therefore keeps its order; this one does not.
 module straddling_step
    use dondolo_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_kinds, only : wp
@@ -44,7 +44,7 @@ contains
       type(record_type), intent(in) :: record
       !> Side of the wall
       real(wp), intent(in) :: side
-      !> Where the step begins: sample interval and time since its first sample [s]
+      !> Start of the step: sample interval and time since its first sample [s]
       integer, intent(in) :: interval
       real(wp), intent(in) :: time
       !> Step [s]

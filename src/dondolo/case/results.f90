@@ -2,7 +2,7 @@
 module dondolo_results
    use dondolo_counts, only : counts_type
    use dondolo_counts_stream, only : counts_stream_type
-   use dondolo_ensemble, only : engine_text
+   use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_typology, only : typology_type
@@ -59,13 +59,13 @@ contains
    function engine(self) result(text)
       !> Results
       class(results_type), intent(in) :: self
-      !> See engine_text
+      !> See name_engines
       character(len=:), allocatable :: text
 
       if (allocated(self%counts%files)) then
-         text = engine_text(self%work, self%counts%files(1)%key%variant)
+         call name_engines(self%work, text, self%counts%files(1)%key%variant)
       else
-         text = engine_text(self%work)
+         call name_engines(self%work, text)
       end if
    end function engine
 

@@ -103,15 +103,23 @@ contains
       needs_wall = any(wall_names == self%name)
    end function needs_wall
 
+   !> Length of the unit
+   pure integer function unit_length(self)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+
+      unit_length = 0
+      if (.not. self%needs_wall()) unit_length = len(self%measure%unit())
+   end function unit_length
+
    !> Unit of the levels
    pure function unit(self)
       !> The scaling
       class(scaling_type), intent(in) :: self
       !> Unit; empty for a number
-      character(len=:), allocatable :: unit
+      character(len=unit_length(self)) :: unit
 
-      unit = ''
-      if (.not. self%needs_wall()) unit = self%measure%unit()
+      if (len(unit) > 0) unit = self%measure%unit()
    end function unit
 
    !> The unit as it follows a number or a name
@@ -119,27 +127,36 @@ contains
       !> The scaling
       class(scaling_type), intent(in) :: self
       !> A blank and the unit; empty where there is none
-      character(len=:), allocatable :: text
+      character(len=unit_length(self) + min(unit_length(self), 1)) :: text
 
-      text = self%unit()
-      if (len(text) > 0) text = ' '//text
+      text = ' '//self%unit()
    end function unit_after_blank
+
+   !> What it is, in words filled up with blanks
+   pure function words_of(self) result(words)
+      !> The scaling
+      class(scaling_type), intent(in) :: self
+      !> Words
+      character(len=100) :: words
+
+      select case (self%name)
+      case ('pga/a0')
+         words = 'PGA / trigger acceleration'
+      case ('p*pgv/a0')
+         words = 'p PGV / trigger acceleration'
+      case default
+         words = self%measure%title()
+      end select
+   end function words_of
 
    !> What it is, in words
    pure function title(self)
       !> The scaling
       class(scaling_type), intent(in) :: self
       !> Words
-      character(len=:), allocatable :: title
+      character(len=len_trim(words_of(self))) :: title
 
-      select case (self%name)
-      case ('pga/a0')
-         title = 'PGA / trigger acceleration'
-      case ('p*pgv/a0')
-         title = 'p PGV / trigger acceleration'
-      case default
-         title = self%measure%title()
-      end select
+      title = words_of(self)
    end function title
 
 end module dondolo_scaling

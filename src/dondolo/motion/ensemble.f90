@@ -18,7 +18,7 @@ module dondolo_ensemble
    implicit none
    private
 
-   public :: ensemble_type, run_ensemble, check_engine, engine_text
+   public :: ensemble_type, run_ensemble, check_engine, name_engines
 
    !> Histories of one wall
    type :: ensemble_type
@@ -105,13 +105,13 @@ contains
    end subroutine run_queue
 
    !> The engines that have computed histories, each with the build variant that ran
-   function engine_text(work, variant) result(text)
+   subroutine name_engines(work, text, variant)
       !> What was computed
       type(work_type), intent(in) :: work
+      !> `lanes (avx512)`, `rk45 (baseline)` or both
+      character(len=:), allocatable, intent(out) :: text
       !> Build variant of the engine lanes, if it ran elsewhere
       character(len=*), intent(in), optional :: variant
-      !> `lanes (avx512)`, `rk45 (baseline)` or both
-      character(len=:), allocatable :: text
 
       text = 'rk45 ('//first_variant//')'
       if (work%in_lanes == 0) return
@@ -125,7 +125,7 @@ contains
       else
          text = 'lanes ('//trim(build_variant())//')'//text
       end if
-   end function engine_text
+   end subroutine name_engines
 
    !> Check that an engine can compute a mechanism
    subroutine check_engine(solver, mechanism, error)

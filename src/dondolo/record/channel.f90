@@ -101,7 +101,7 @@ contains
       !> Name of the channel, or its number; a name goes before a number; empty is not given
       character(len=*), intent(in), optional :: wanted
 
-      character(len=:), allocatable :: name
+      character(len=:), allocatable :: name, names
       integer, allocatable :: ground(:)
       integer :: i
       logical :: ok
@@ -113,8 +113,9 @@ contains
          ground = pack([(i, i=1, size(samples%channels))], &
             & [(.not. allocated(samples%channels(i)%refusal), i=1, size(samples%channels))])
          if (size(ground) == 1) number = ground(1)
-         if (size(ground) > 1) call raise_input(error, 'the file holds '//to_text(size(ground))// &
-            & ' channels: channel must be one of '//names_of(samples%channels(ground)))
+         if (size(ground) < 2) return
+         call list_names(samples%channels(ground), names)
+         call raise_input(error, 'the file holds '//to_text(size(ground))//' channels: channel must be one of '//names)
          return
       end if
       do i = 1, size(samples%channels)
@@ -124,8 +125,10 @@ contains
       end do
       call parse_integer(name, number, ok)
       if (ok) ok = number >= 1 .and. number <= size(samples%channels)
-      if (.not. ok) call raise_input(error, 'channel = '''//name//''': must be one of '// &
-         & names_of(samples%channels)//', or a number from 1 to '//to_text(size(samples%channels)))
+      if (ok) return
+      call list_names(samples%channels, names)
+      call raise_input(error, 'channel = '''//name//''': must be one of '//names//', or a number from 1 to '// &
+         & to_text(size(samples%channels)))
    end subroutine find_channel
 
    !> Take the time step from the file or from the caller
@@ -249,11 +252,11 @@ contains
    end function decimals_of
 
    !> Names of channels, for messages
-   pure function names_of(channels) result(names)
+   pure subroutine list_names(channels, names)
       !> Channels
       type(channel_type), intent(in) :: channels(:)
       !> Their names in quotes, separated by commas
-      character(len=:), allocatable :: names
+      character(len=:), allocatable, intent(out) :: names
 
       integer :: i
 
@@ -262,7 +265,7 @@ contains
          if (i > 1) names = names//', '
          names = names//''''//channels(i)%name//''''
       end do
-   end function names_of
+   end subroutine list_names
 
    !> A name without blanks
    pure function underscored(name)
@@ -279,18 +282,25 @@ contains
       end do
    end function underscored
 
+   !> Length of a stem
+   pure integer function stem_length(file)
+      !> Path
+      character(len=*), intent(in) :: file
+
+      associate (name => file(scan(file, '/\', back=.true.) + 1:))
+         stem_length = index(name, '.', back=.true.) - 1
+         if (stem_length < 1) stem_length = len_trim(name)
+      end associate
+   end function stem_length
+
    !> Name of a file without folder and last extension
    pure function stem(file)
       !> Path
       character(len=*), intent(in) :: file
       !> Its stem
-      character(len=:), allocatable :: stem
+      character(len=stem_length(file)) :: stem
 
-      integer :: point
-
-      stem = trim(file(scan(file, '/\', back=.true.) + 1:))
-      point = index(stem, '.', back=.true.)
-      if (point > 1) stem = stem(:point - 1)
+      stem = file(scan(file, '/\', back=.true.) + 1:)
    end function stem
 
 end module dondolo_channel

@@ -3,7 +3,7 @@
 !> Keys that mean the same in every format are written alike: event, date, station, network, component, magnitude,
 !> latitude, longitude, processing, format, quantity, units. All others keep the name that the file gives them.
 module dondolo_metadata
-   use dondolo_text, only : lower
+   use dondolo_text, only : blanks, lower, stripped
    implicit none
    private
 
@@ -53,7 +53,7 @@ contains
       type(entry_type), allocatable :: longer(:)
       integer :: i, n
 
-      if (verify(value, ' '//achar(9)) == 0) return
+      if (verify(value, blanks) == 0) return
       n = self%count()
       i = self%find(key)
       if (i == 0) then
@@ -67,8 +67,22 @@ contains
          call move_alloc(longer, self%entries)
          i = n + 1
       end if
-      self%entries(i)%value = value(verify(value, ' '//achar(9)):verify(value, ' '//achar(9), back=.true.))
+      self%entries(i)%value = stripped(value)
    end subroutine set
+
+   !> Length of the value of a key
+   pure integer function value_length(self, key)
+      !> Metadata
+      class(metadata_type), intent(in) :: self
+      !> Key
+      character(len=*), intent(in) :: key
+
+      integer :: i
+
+      value_length = 0
+      i = self%find(key)
+      if (i > 0) value_length = len(self%entries(i)%value)
+   end function value_length
 
    !> Value of a key
    pure function get(self, key) result(value)
@@ -77,13 +91,9 @@ contains
       !> Key; upper and lower case are the same
       character(len=*), intent(in) :: key
       !> Its value, empty if there is none
-      character(len=:), allocatable :: value
+      character(len=value_length(self, key)) :: value
 
-      integer :: i
-
-      value = ''
-      i = self%find(key)
-      if (i > 0) value = self%entries(i)%value
+      if (len(value) > 0) value = self%entries(self%find(key))%value
    end function get
 
    !> Set all entries of another list

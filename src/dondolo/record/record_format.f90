@@ -1,5 +1,4 @@
-!> What every format of accelerogram files must provide. A new format is one new file with an extension of
-!> `format_type`, and one line in dondolo_record_reader.
+!> What a file of accelerograms says, and how the readers of formats read its blocks of numbers.
 module dondolo_record_format
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
@@ -10,7 +9,10 @@ module dondolo_record_format
    implicit none
    private
 
-   public :: format_type, samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, shown
+   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, shown
+
+   !> Characters of a file that a message shows at most
+   integer, parameter :: longest_shown = 60
 
    !> One channel of a file, before units are converted
    type :: channel_type
@@ -42,48 +44,6 @@ module dondolo_record_format
       !> What its header says of all channels
       type(metadata_type) :: metadata
    end type samples_type
-
-   !> A format of accelerogram files
-   type, abstract :: format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure(name_of), deferred, nopass :: name
-      !> Is a text in this format, judged by its content?
-      procedure(recognises_text), deferred, nopass :: recognises
-      !> Read a text in this format
-      procedure(read_text), deferred, nopass :: read
-   end type format_type
-
-   abstract interface
-      !> Name of the format: one word in lower case
-      pure function name_of() result(name)
-         implicit none
-         !> Name
-         character(len=:), allocatable :: name
-      end function name_of
-
-      !> Is a text in this format, judged by its content?
-      function recognises_text(text) result(recognised)
-         import :: text_file_type
-         implicit none
-         !> The file
-         type(text_file_type), intent(in) :: text
-         !> It is to be read by this format's reader, which may still find it wrong
-         logical :: recognised
-      end function recognises_text
-
-      !> Read a text in this format
-      subroutine read_text(text, samples, error)
-         import :: text_file_type, samples_type, error_type
-         implicit none
-         !> The file
-         type(text_file_type), intent(in) :: text
-         !> What it says
-         type(samples_type), intent(out) :: samples
-         !> What is wrong, with file and line
-         type(error_type), allocatable, intent(out) :: error
-      end subroutine read_text
-   end interface
 
 contains
 
@@ -214,12 +174,10 @@ contains
       !> Part of a file, of any length
       character(len=*), intent(in) :: part
       !> Its first characters
-      character(len=:), allocatable :: shown
-
-      integer, parameter :: longest = 60
+      character(len=merge(longest_shown + 3, len(part), len(part) > longest_shown)) :: shown
 
       shown = part
-      if (len(part) > longest) shown = part(:longest)//'...'
+      if (len(part) > longest_shown) shown(longest_shown + 1:) = '...'
    end function shown
 
    !> Report what is wrong in a line of a file

@@ -1,74 +1,18 @@
 !> Accelerogram files of every known format, recognised by their content.
 module dondolo_record_reader
    use dondolo_channel, only : as_record, find_channel, name_channels
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_format_asa, only : asa_format_type
-   use dondolo_format_columns, only : columns_format_type
-   use dondolo_format_cosmos, only : cosmos_format_type
-   use dondolo_format_csmip, only : csmip_format_type
-   use dondolo_format_cwa, only : cwa_format_type
-   use dondolo_format_dyna, only : dyna_format_type
-   use dondolo_format_eqsig, only : eqsig_format_type
-   use dondolo_format_geonet, only : geonet_format_type
-   use dondolo_format_knet, only : knet_format_type
-   use dondolo_format_peer, only : peer_format_type
-   use dondolo_format_smc, only : smc_format_type
-   use dondolo_format_smtk, only : smtk_format_type
+   use dondolo_error, only : add_place, error_type
+   use dondolo_formats, only : find_format, format_type, recognise_format
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_record_format, only : format_type, samples_type
-   use dondolo_text, only : lower
+   use dondolo_record_format, only : samples_type
    use dondolo_text_file, only : read_text_file, text_file_type
    implicit none
    private
 
    public :: read_record, read_records
 
-   !> A format that is known
-   type :: known_type
-      !> The format
-      class(format_type), allocatable :: format
-   end type known_type
-
 contains
-
-   !> The formats that are known; plain columns come last, for what no other recognises
-   subroutine list_formats(known)
-      !> The formats
-      type(known_type), allocatable, intent(out) :: known(:)
-
-      allocate (known(0))
-      call append(known, peer_format_type())
-      call append(known, dyna_format_type())
-      call append(known, cosmos_format_type())
-      call append(known, csmip_format_type())
-      call append(known, geonet_format_type())
-      call append(known, smc_format_type())
-      call append(known, smtk_format_type())
-      call append(known, knet_format_type())
-      call append(known, cwa_format_type())
-      call append(known, asa_format_type())
-      call append(known, eqsig_format_type())
-      call append(known, columns_format_type())
-   end subroutine list_formats
-
-   !> Append a format to a list
-   subroutine append(known, format)
-      !> The list
-      type(known_type), allocatable, intent(inout) :: known(:)
-      !> The format
-      class(format_type), intent(in) :: format
-
-      type(known_type), allocatable :: longer(:)
-      integer :: i
-
-      allocate (longer(size(known) + 1))
-      do i = 1, size(known)
-         call move_alloc(known(i)%format, longer(i)%format)
-      end do
-      allocate (longer(size(longer))%format, source=format)
-      call move_alloc(longer, known)
-   end subroutine append
 
    !> Read an accelerogram
    !>
@@ -148,73 +92,21 @@ contains
       !> Name of the format that the file is in; empty is not given
       character(len=*), intent(in), optional :: format
 
-      type(known_type), allocatable :: known(:)
-      integer :: i
+      type(format_type) :: chosen
+      logical :: is_given
 
-      call list_formats(known)
-      i = 0
-      if (present(format)) then
-         if (len_trim(format) > 0) then
-            do i = 1, size(known)
-               if (known(i)%format%name() == lower(trim(adjustl(format)))) exit
-            end do
-            if (i > size(known)) then
-               call raise_input(error, file//': format = '''//trim(format)//''': must be one of '//names_of(known))
-               return
-            end if
-         end if
-      end if
-      call read_text_file(file, text, error)
+      is_given = .false.
+      if (present(format)) is_given = len_trim(format) > 0
+      if (is_given) call find_format(format, chosen, error)
+      call add_place(error, file)
+      if (.not. allocated(error)) call read_text_file(file, text, error)
       if (allocated(error)) return
-      if (i == 0) call recognise(text, known, i, error)
+      if (.not. is_given) call recognise_format(text, chosen, error)
+      call add_place(error, file)
+      if (.not. allocated(error)) call chosen%read(text, samples, error)
       if (allocated(error)) return
-      call known(i)%format%read(text, samples, error)
-      if (allocated(error)) return
-      call samples%metadata%set('format', known(i)%format%name())
+      call samples%metadata%set('format', chosen%name)
       call name_channels(samples%channels)
    end subroutine read_samples
-
-   !> Find the format of a text
-   subroutine recognise(text, known, found, error)
-      !> The file
-      type(text_file_type), intent(in) :: text
-      !> The formats that are known
-      type(known_type), intent(in) :: known(:)
-      !> Number of its format
-      integer, intent(out) :: found
-      !> No format recognises it, or two do
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i
-
-      found = 0
-      do i = 1, size(known)
-         if (i == size(known) .and. found > 0) exit
-         if (.not. known(i)%format%recognises(text)) cycle
-         if (found > 0) then
-            call raise_input(error, text%file//': may be in the format '''//known(found)%format%name()//''', '''// &
-               & known(i)%format%name()//''': format must name one of them')
-            return
-         end if
-         found = i
-      end do
-      if (found == 0) call raise_input(error, text%file//': the format is not known: must be one of '//names_of(known))
-   end subroutine recognise
-
-   !> Names of formats, for messages
-   function names_of(known) result(names)
-      !> Formats
-      type(known_type), intent(in) :: known(:)
-      !> Their names in quotes, separated by commas
-      character(len=:), allocatable :: names
-
-      integer :: i
-
-      names = ''
-      do i = 1, size(known)
-         if (i > 1) names = names//', '
-         names = names//''''//known(i)%format%name()//''''
-      end do
-   end function names_of
 
 end module dondolo_record_reader

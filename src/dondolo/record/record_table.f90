@@ -8,7 +8,7 @@ module dondolo_record_table
    implicit none
    private
 
-   public :: record_table, record_problems, pga_limit, describe_pga
+   public :: record_table, find_problems, pga_limit, describe_pga
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -21,6 +21,9 @@ module dondolo_record_table
 
    !> PGA that hardly any accelerograph has measured, or that nobody would use [g]: the units may be wrong
    real(wp), parameter :: strongest = 3.0_wp, weakest = 0.005_wp
+
+   !> Widest column of events and stations
+   integer, parameter :: widest = 40
 
 contains
 
@@ -36,9 +39,8 @@ contains
       !> Its lines, two of titles first
       type(lines_type) :: table
 
-      integer, parameter :: widest = 40
       character(len=60) :: numbers
-      character(len=:), allocatable :: column
+      character(len=:), allocatable :: column, problems
       integer :: i, width, origins, measures
 
       width = 6
@@ -48,7 +50,7 @@ contains
       allocate (character(len=measures) :: column)
       do i = 1, size(records)
          width = max(width, len(records(i)%name))
-         origins = max(origins, len(origin(records(i))))
+         origins = max(origins, len_trim(origin(records(i))))
       end do
       if (origins > 0) origins = min(max(origins, len('event, station')), widest)
       if (present(values)) column = repeat(' ', measures - len(measure))//measure
@@ -63,20 +65,21 @@ contains
             write (numbers, '(i9, f10.5, f10.2, f11.4, f10.2)') size(record%acceleration), record%dt, &
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
             if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
+            call find_problems(record, gravity, problems)
             call table%add(trim(plain(numbered(i)//left(record%name, width)//trim(numbers)//column// &
-               & titled(origin(record), origins)//'  '//record_problems(record, gravity))))
+               & titled(origin(record), origins)//'  '//problems)))
          end associate
       end do
    end function record_table
 
    !> What looks odd about a record
-   function record_problems(record, gravity) result(problems)
+   subroutine find_problems(record, gravity, problems)
       !> The record
       type(record_type), intent(in) :: record
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> Sentences separated by semicolons, empty if nothing does
-      character(len=:), allocatable :: problems
+      character(len=:), allocatable, intent(out) :: problems
 
       real(wp) :: velocity(size(record%acceleration)), peak
       integer :: n, run, longest, i
@@ -87,14 +90,14 @@ contains
          problems = 'no motion'
          return
       end if
-      problems = ''
       if (pga_limit(record%pga()/gravity) > 0.0_wp) &
          & call describe_pga(record%pga()/gravity, pga_limit(record%pga()/gravity), problems)
       if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
-         & percent(abs(record%acceleration(1))/record%pga())//' of its PGA')
+         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/record%pga())))//' % of its PGA')
       velocity = ground_velocity(record)
       peak = peak_velocity(record)
-      if (abs(velocity(n)) > drifted*peak) call append('ends at '//percent(abs(velocity(n))/peak)//' of its PGV')
+      if (abs(velocity(n)) > drifted*peak) call append('ends at '// &
+         & to_text(nint(100.0_wp*(abs(velocity(n))/peak)))//' % of its PGV')
       run = 0
       longest = 0
       do i = 1, n
@@ -115,7 +118,7 @@ contains
          problems = problems//sentence
       end subroutine append
 
-   end function record_problems
+   end subroutine find_problems
 
    !> The limit that the PGA of a record that moves is beyond; 0 if it is beyond none
    pure real(wp) function pga_limit(pga)
@@ -141,31 +144,21 @@ contains
       text = 'a PGA of '//rounded(pga)//text//to_text(limit)//' g: wrong units?'
    end subroutine describe_pga
 
-   !> Event and station of a record, as far as its file names them
+   !> Event and station of a record, as far as its file names them and they fit
    pure function origin(record)
       !> The record
       type(record_type), intent(in) :: record
       !> Event (or date) and station, empty if neither is known
-      character(len=:), allocatable :: origin
+      character(len=widest) :: origin
 
-      character(len=:), allocatable :: station
+      character(len=:), allocatable :: event, station
 
-      origin = record%metadata%get('event')
-      if (len(origin) == 0) origin = record%metadata%get('date')
+      event = record%metadata%get('event')
+      if (len(event) == 0) event = record%metadata%get('date')
       station = record%metadata%get('station')
-      if (len(origin) > 0 .and. len(station) > 0) origin = origin//', '
-      origin = origin//station
+      if (len(event) > 0 .and. len(station) > 0) event = event//', '
+      origin = event//station
    end function origin
-
-   !> A part as a percentage
-   function percent(part)
-      !> Part
-      real(wp), intent(in) :: part
-      !> Its percentage, without decimals
-      character(len=:), allocatable :: percent
-
-      percent = to_text(nint(100.0_wp*part))//' %'
-   end function percent
 
    !> A number of a row
    pure function numbered(i)
@@ -184,10 +177,9 @@ contains
       !> Width, 0 for none
       integer, intent(in) :: width
       !> Two blanks and the text, or nothing
-      character(len=:), allocatable :: titled
+      character(len=merge(width + 2, 0, width > 0)) :: titled
 
-      titled = ''
-      if (width > 0) titled = '  '//left(text, width)
+      titled = '  '//text
    end function titled
 
    !> A text padded or cut to a width

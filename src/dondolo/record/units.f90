@@ -2,20 +2,21 @@
 module dondolo_units
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_text, only : join, lower
+   use dondolo_text, only : join, lower, replaced
    implicit none
    private
 
    public :: unit_factor
 
-   !> Standard gravity, the unit g of files [m/s2] (exact; 3rd CGPM, 1901)
-   real(wp), parameter :: standard_gravity = 9.80665_wp
+   !> The unit g of files [m/s2]: standard gravity, by definition of the unit (3rd CGPM, 1901). The gravity in which walls
+   !> stand is another number (dondolo_wall)
+   real(wp), parameter :: gravity_of_files = 9.80665_wp
 
    !> Units that are known
    character(len=*), parameter :: known(5) = [character(len=5) :: 'm/s2', 'cm/s2', 'gal', 'mm/s2', 'g']
 
    !> Their sizes [m/s2]
-   real(wp), parameter :: factors(5) = [1.0_wp, 0.01_wp, 0.01_wp, 0.001_wp, standard_gravity]
+   real(wp), parameter :: factors(5) = [1.0_wp, 0.01_wp, 0.01_wp, 0.001_wp, gravity_of_files]
 
 contains
 
@@ -43,10 +44,10 @@ contains
    pure function plain_spelling(units) result(plain)
       !> Name of a unit
       character(len=*), intent(in) :: units
-      !> Lower case, without blanks and marks of powers, seconds as s, s squared as s2
-      character(len=:), allocatable :: plain
+      !> Lower case, without blanks and marks of powers, seconds as s, s squared as s2; filled up with blanks
+      character(len=len(units)) :: plain
 
-      plain = lower(trim(adjustl(units)))
+      plain = lower(adjustl(units))
       plain = replaced(plain, ' ', '')
       plain = replaced(plain, '^', '')
       plain = replaced(plain, '*', '')
@@ -55,26 +56,5 @@ contains
       plain = replaced(plain, '/s/s', '/s2')
       plain = replaced(plain, 's-2', '/s2')
    end function plain_spelling
-
-   !> Replace each occurrence of a part
-   pure function replaced(text, part, by)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Part to look for
-      character(len=*), intent(in) :: part
-      !> What to put in its place; may not contain the part
-      character(len=*), intent(in) :: by
-      !> Result
-      character(len=:), allocatable :: replaced
-
-      integer :: at
-
-      replaced = text
-      do
-         at = index(replaced, part)
-         if (at == 0) exit
-         replaced = replaced(:at - 1)//by//replaced(at + len(part):)
-      end do
-   end function replaced
 
 end module dondolo_units

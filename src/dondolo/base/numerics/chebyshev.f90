@@ -4,7 +4,7 @@
 !> analytic function, so that their tail tells the error (Trefethen 2013, Approximation Theory and Approximation
 !> Practice, chapters 3 and 8).
 module dondolo_chebyshev
-   use dondolo_kinds, only : wp
+   use dondolo_kinds, only : pi, wp
    implicit none
    private
 
@@ -19,7 +19,6 @@ contains
       !> The nodes
       real(wp) :: z(n)
 
-      real(wp), parameter :: pi = acos(-1.0_wp)
       integer :: i
 
       do i = 1, n
@@ -34,7 +33,6 @@ contains
       !> Coefficients
       real(wp) :: c(0:size(values) - 1)
 
-      real(wp), parameter :: pi = acos(-1.0_wp)
       real(wp) :: cosine(0:4*size(values) - 1)
       integer :: i, k, n
 

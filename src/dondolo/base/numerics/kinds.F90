@@ -1,4 +1,4 @@
-!> Kinds of real numbers.
+!> Kinds of real numbers, and pi.
 !>
 !> `wp` is the working precision of everything. Compiled with -DDONDOLO_REAL128 the same sources are their own
 !> reference, with 33 digits. `dp` is what LAPACK works in.
@@ -7,7 +7,7 @@ module dondolo_kinds
    implicit none
    private
 
-   public :: wp, dp
+   public :: wp, dp, pi
 
    !> Working precision
 #ifdef DONDOLO_REAL128
@@ -18,5 +18,7 @@ module dondolo_kinds
 
    !> Precision of LAPACK
    integer, parameter :: dp = real64
+
+   real(wp), parameter :: pi = acos(-1.0_wp)
 
 end module dondolo_kinds

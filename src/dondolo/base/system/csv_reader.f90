@@ -7,14 +7,14 @@
 !> numbers show them (`find_decimal_mark`); a title above the names of the columns; rows and columns of empty cells at the
 !> end. `note` says how such a table was read. What is not UTF-8 is refused.
 module dondolo_csv_reader
-   use dondolo_csv_row, only : cell_type, is_title, occurrences, separator_of, split_row
+   use dondolo_csv_row, only : cell_type, is_title, separator_of, split_row
    use dondolo_decimal_mark, only : decimal_mark_type
    use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type, longest_line
    use dondolo_name_index, only : name_index_type
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : lower, occurrences, to_text
    use dondolo_text_file, only : padding
    implicit none
    private
@@ -22,6 +22,9 @@ module dondolo_csv_reader
    public :: csv_reader_type
 
    character(len=1), parameter :: tab = achar(9)
+
+   !> What comes before the peculiarities of a table
+   character(len=*), parameter :: read_with = ': read with'
 
    !> Separator of cells as long as the header was not read
    character(len=1), parameter :: unknown = ' '
@@ -130,19 +133,41 @@ contains
       self%mark = mark
    end subroutine find_decimal_mark
 
+   !> What is not as RFC 4180 has it in a table
+   pure function peculiarities(self) result(text)
+      !> The reader
+      class(csv_reader_type), intent(in) :: self
+      !> ', this, that'
+      character(len=100) :: text
+
+      text = ''
+      if (self%separator == ';') text = ', columns separated by semicolons'
+      if (self%separator == tab) text = ', columns separated by tabs'
+      if (self%mark%has_comma) text = trim(text)//', decimal commas'
+      if (self%title_line > 0) text = trim(text)//', line '//to_text(self%title_line)//' is a title'
+   end function peculiarities
+
+   !> Length of the note
+   pure integer function note_length(self)
+      !> The reader
+      class(csv_reader_type), intent(in) :: self
+
+      note_length = len_trim(peculiarities(self))
+      if (note_length > 0) note_length = note_length + len(self%lines%file) + len(read_with) - 1
+   end function note_length
+
    !> How the table was read, where it is not as RFC 4180 has it
    pure function note(self)
       !> The reader
       class(csv_reader_type), intent(in) :: self
       !> 'file: ...', empty if there is nothing to say
-      character(len=:), allocatable :: note
+      character(len=note_length(self)) :: note
 
-      note = ''
-      if (self%separator == ';') note = ', columns separated by semicolons'
-      if (self%separator == tab) note = ', columns separated by tabs'
-      if (self%mark%has_comma) note = note//', decimal commas'
-      if (self%title_line > 0) note = note//', line '//to_text(self%title_line)//' is a title'
-      if (len(note) > 0) note = self%lines%file//': read with'//note(2:)
+      character(len=100) :: text
+
+      if (len(note) == 0) return
+      text = peculiarities(self)
+      note = self%lines%file//read_with//text(2:)
    end function note
 
    !> Read the next row; after an error the rows behind it can be read
@@ -364,15 +389,34 @@ contains
       end do
    end function column
 
+   !> Length of the place
+   pure integer function place_length(self)
+      !> Reader
+      class(csv_reader_type), intent(in) :: self
+
+      place_length = len(self%lines%file//': line '//to_text(self%line))
+   end function place_length
+
    !> Where the row is, for messages
    pure function place(self)
       !> Reader
       class(csv_reader_type), intent(in) :: self
       !> 'file: line 7'
-      character(len=:), allocatable :: place
+      character(len=place_length(self)) :: place
 
       place = self%lines%file//': line '//to_text(self%line)
    end function place
+
+   !> Length of a cell
+   pure integer function cell_length(self, column)
+      !> Reader
+      class(csv_reader_type), intent(in) :: self
+      !> Number of the column, or 0
+      integer, intent(in) :: column
+
+      cell_length = 0
+      if (column > 0) cell_length = len(self%cells(column)%text)
+   end function cell_length
 
    !> A cell of the row as text
    pure function get_text(self, column) result(text)
@@ -381,9 +425,8 @@ contains
       !> Number of the column; 0 gives an empty text
       integer, intent(in) :: column
       !> Text of the cell
-      character(len=:), allocatable :: text
+      character(len=cell_length(self, column)) :: text
 
-      text = ''
       if (column > 0) text = self%cells(column)%text
    end function get_text
 
@@ -402,7 +445,7 @@ contains
 
       associate (cell => self%cells(column)%text)
          call self%mark%parse(cell, value, ok)
-         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//self%mark%problem(cell))
+         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//trim(self%mark%problem(cell)))
       end associate
    end subroutine get_real
 

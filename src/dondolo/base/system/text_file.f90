@@ -173,6 +173,17 @@ contains
       lines = size(self%first)
    end function lines
 
+   !> Length of a line
+   pure integer function line_length(self, i)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Number of the line
+      integer, intent(in) :: i
+
+      line_length = 0
+      if (i >= 1 .and. i <= self%lines()) line_length = self%last(i) - self%first(i) + 1
+   end function line_length
+
    !> The text of one line
    pure function line(self, i)
       !> Text file
@@ -180,11 +191,20 @@ contains
       !> Number of the line; one that there is not gives an empty text
       integer, intent(in) :: i
       !> Its text without the line end
-      character(len=:), allocatable :: line
+      character(len=line_length(self, i)) :: line
 
-      line = ''
-      if (i >= 1 .and. i <= self%lines()) line = self%text(self%first(i):self%last(i))
+      if (len(line) > 0) line = self%text(self%first(i):self%last(i))
    end function line
+
+   !> Length of the place of a line
+   pure integer function place_length(self, i)
+      !> Text file
+      class(text_file_type), intent(in) :: self
+      !> Number of the line
+      integer, intent(in) :: i
+
+      place_length = len(self%file//': line '//to_text(i))
+   end function place_length
 
    !> Where a line is, for messages
    pure function place(self, i)
@@ -193,7 +213,7 @@ contains
       !> Number of the line
       integer, intent(in) :: i
       !> 'file: line 7'
-      character(len=:), allocatable :: place
+      character(len=place_length(self, i)) :: place
 
       place = self%file//': line '//to_text(i)
    end function place

@@ -1,13 +1,12 @@
 !> A row of a CSV table: what separates its cells, and the cells.
 module dondolo_csv_row
-   use dondolo_text, only : to_text
+   use dondolo_text, only : blanks, occurrences, stripped, to_text
    implicit none
    private
 
-   public :: cell_type, split_row, separator_of, is_title, occurrences
+   public :: cell_type, split_row, separator_of, is_title
 
-   !> Blanks around cells
-   character(len=*), parameter :: tab = achar(9), blanks = ' '//tab
+   character(len=1), parameter :: tab = achar(9)
 
    !> More cells in a row are surely no table
    integer, parameter :: most_cells = 10000
@@ -186,32 +185,5 @@ contains
          if (has) return
       end do
    end function has_outside_quotes
-
-   !> How often a character stands in a text
-   pure function occurrences(text, character) result(count)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Character
-      character(len=1), intent(in) :: character
-      !> How often
-      integer :: count
-
-      integer :: i
-
-      count = 0
-      do i = 1, len(text)
-         if (text(i:i) == character) count = count + 1
-      end do
-   end function occurrences
-
-   !> A text without the blanks and tabs around it
-   pure function stripped(text)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> The same without blanks around
-      character(len=:), allocatable :: stripped
-
-      stripped = text(max(verify(text, blanks), 1):verify(text, blanks, back=.true.))
-   end function stripped
 
 end module dondolo_csv_row

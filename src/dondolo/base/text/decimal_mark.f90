@@ -83,8 +83,8 @@ contains
       class(decimal_mark_type), intent(in) :: self
       !> The cell
       character(len=*), intent(in) :: cell
-      !> Half a sentence
-      character(len=:), allocatable :: problem
+      !> Half a sentence, filled up with blanks
+      character(len=120) :: problem
 
       problem = 'must be a number, with a decimal point'
       if (self%has_comma) problem = 'must be a number, with a decimal comma as elsewhere in the table and no point'

@@ -5,21 +5,31 @@ module dondolo_encoding
 
    public :: is_utf8, encoding_problem
 
+   !> What is said of a text that is not UTF-8
+   character(len=*), parameter :: other_bytes = 'is not UTF-8 (Windows-1252?)', other_text = 'is UTF-16, or no text'
+   character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
+
 contains
+
+   !> Does a text look like UTF-16?
+   pure logical function is_utf16(text)
+      !> Bytes
+      character(len=*), intent(in) :: text
+
+      character(len=*), parameter :: little_endian = achar(255)//achar(254), big_endian = achar(254)//achar(255)
+
+      is_utf16 = index(text, little_endian) == 1 .or. index(text, big_endian) == 1 .or. index(text, achar(0)) > 0
+   end function is_utf16
 
    !> What is wrong with a text that is not UTF-8, and what to do, for messages
    pure function encoding_problem(text) result(problem)
       !> Bytes, such as a line
       character(len=*), intent(in) :: text
       !> Half a sentence
-      character(len=:), allocatable :: problem
+      character(len=merge(len(other_text), len(other_bytes), is_utf16(text)) + len(remedy)) :: problem
 
-      character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
-      character(len=*), parameter :: little_endian = achar(255)//achar(254), big_endian = achar(254)//achar(255)
-
-      problem = 'is not UTF-8 (Windows-1252?)'//remedy
-      if (index(text, little_endian) == 1 .or. index(text, big_endian) == 1 .or. index(text, achar(0)) > 0) &
-         & problem = 'is UTF-16, or no text'//remedy
+      problem = other_bytes//remedy
+      if (is_utf16(text)) problem = other_text//remedy
    end function encoding_problem
 
    !> Is a text UTF-8, without NUL? (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF)

@@ -1,17 +1,24 @@
 !> Numbers and words as text: what messages, readers and tables share.
 !>
-!> What threads may call returns a text whose length is a specification expression: that of a result of deferred length
-!> gfortran 12 keeps in one place for each call in the source, for all threads.
+!> Results have lengths that are specification expressions: that of a result of deferred length gfortran 12 keeps in one
+!> place for each call in the source, for all threads.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    implicit none
    private
 
-   public :: to_text, to_table, rounded, lower, join, first_word, plain, must_be_plain
+   public :: to_text, to_table, rounded, counted, lower, join, first_word, stripped, occurrences, replaced
+   public :: plain, must_be_plain, blanks
 
    !> What is said of a name that is not plain
    character(len=*), parameter :: must_be_plain = 'must stand on one line, without control characters'
+
+   !> Blank and tab
+   character(len=*), parameter :: blanks = ' '//achar(9)
+
+   !> Decimals of a number in result tables: with the digit before them as many as read back exactly
+   integer, parameter :: decimals = merge(16, 35, precision(1.0_wp) < 18)
 
    !> Shortest readable text of a number, for messages
    interface to_text
@@ -60,6 +67,39 @@ contains
          left = left/10
       end do
    end function count_length
+
+   !> Length of a number in a table
+   pure integer function table_length(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      ! A figure, the point, the decimals, E+00
+      table_length = decimals + 6
+      if (.not. is_short(value)) table_length = table_length + merge(1, 2, precision(value) < 18)
+      if (abs(value) > huge(value)) table_length = len('Infinity')
+      if (sign(1.0_wp, value) < 0.0_wp) table_length = table_length + 1
+      if (.not. abs(value) >= 0.0_wp) table_length = len('NaN')
+   end function table_length
+
+   !> Are two digits enough for the exponent of a number?
+   pure logical function is_short(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      is_short = value == 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)
+   end function is_short
+
+   !> Length of the first word of a text
+   pure integer function word_length(text, separators)
+      !> Text, and characters that separate words
+      character(len=*), intent(in) :: text, separators
+
+      integer :: first
+
+      word_length = 0
+      first = verify(text, separators)
+      if (first > 0) word_length = scan(text(first:)//separators(1:1), separators) - 1
+   end function word_length
 
    !> Shortest decimal that reads back as the same number
    pure function real_to_text(value) result(text)
@@ -174,23 +214,35 @@ contains
       if (value < 0) text(1:1) = '-'
    end function count_to_text
 
+   !> A count of things: 1 thread, 2 threads
+   pure function counted(number, thing) result(text)
+      !> Count
+      integer, intent(in) :: number
+      !> One of the things; it takes an s where there are more, or none
+      character(len=*), intent(in) :: thing
+      !> Both
+      character(len=count_length(int(number, int64)) + 1 + len(thing) + merge(0, 1, number == 1)) :: text
+
+      text = integer_to_text(number)//' '//thing//'s'
+   end function counted
+
    !> A number as it stands in result tables: as many significant digits as read back exactly, 17 for real64
    pure function to_table(value) result(text)
       !> Number
       real(wp), intent(in) :: value
       !> Its text, e.g. 1.2500000000000000E+00 (more exponent digits only where needed)
-      character(len=:), allocatable :: text
+      character(len=table_length(value)) :: text
 
       character(len=11), parameter :: short = merge('(es24.16e2)', '(es43.35e2)', precision(value) < 18)
       character(len=11), parameter :: long = merge('(es25.16e3)', '(es46.35e4)', precision(value) < 18)
       character(len=48) :: buffer
 
-      if (value == 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)) then
+      if (is_short(value)) then
          write (buffer, short) value
       else
          write (buffer, long) value
       end if
-      text = trim(adjustl(buffer))
+      text = adjustl(buffer)
    end function to_table
 
    !> Lower case
@@ -267,16 +319,56 @@ contains
       !> Characters that separate words
       character(len=*), intent(in) :: separators
       !> The word, empty if there is none
-      character(len=:), allocatable :: word
+      character(len=word_length(text, separators)) :: word
 
-      integer :: first, length
+      integer :: first
 
-      word = ''
-      first = verify(text, separators)
-      if (first == 0) return
-      length = scan(text(first:), separators) - 1
-      if (length < 0) length = len(text) - first + 1
-      word = text(first:first + length - 1)
+      first = max(verify(text, separators), 1)
+      word = text(first:first + len(word) - 1)
    end function first_word
+
+   !> A text without the blanks and tabs around it
+   pure function stripped(text)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The same without blanks around
+      character(len=verify(text, blanks, back=.true.) - max(verify(text, blanks), 1) + 1) :: stripped
+
+      stripped = text(max(verify(text, blanks), 1):)
+   end function stripped
+
+   !> How often a character stands in a text
+   pure integer function occurrences(text, character)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Character
+      character(len=1), intent(in) :: character
+
+      integer :: i
+
+      occurrences = 0
+      do i = 1, len(text)
+         if (text(i:i) == character) occurrences = occurrences + 1
+      end do
+   end function occurrences
+
+   !> Replace each occurrence of a part by one that is not longer and does not contain the part
+   pure function replaced(text, part, by)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Part to look for, and what to put in its place
+      character(len=*), intent(in) :: part, by
+      !> The text, filled up with blanks
+      character(len=len(text)) :: replaced
+
+      integer :: at
+
+      replaced = text
+      do
+         at = index(trim(replaced), part)
+         if (at == 0) exit
+         replaced = replaced(:at - 1)//by//replaced(at + len(part):)
+      end do
+   end function replaced
 
 end module dondolo_text

@@ -7,7 +7,7 @@ module dondolo_column_titles
    implicit none
    private
 
-   public :: units_in, is_other_quantity, is_seconds
+   public :: find_units, is_other_quantity, is_seconds
 
    !> Words of titles whose values are no accelerations of the ground in time
    character(len=*), parameter :: others(*) = [character(len=12) :: 'velocity', 'veloc', 'vel', 'displacement', &
@@ -27,12 +27,12 @@ module dondolo_column_titles
 
 contains
 
-   !> Units in a title
-   function units_in(title) result(units)
+   !> Find the units in a title
+   subroutine find_units(title, units)
       !> Title
       character(len=*), intent(in) :: title
       !> The last text in ( ) or [ ] that is a known unit of acceleration, else the last text in brackets, if any
-      character(len=:), allocatable :: units
+      character(len=:), allocatable, intent(out) :: units
 
       type(error_type), allocatable :: error
       character(len=:), allocatable :: content
@@ -55,7 +55,7 @@ contains
          units = content
          if (.not. allocated(error)) return
       end do
-   end function units_in
+   end subroutine find_units
 
    !> Does a title name something else than accelerations?
    pure function is_other_quantity(title, units) result(other)
@@ -116,11 +116,13 @@ contains
       !> Units in lower case
       character(len=*), intent(in) :: units
       !> The same; `sec` at the end is `s`
-      character(len=:), allocatable :: plain
+      character(len=len(units)) :: plain
 
-      plain = trim(units)
-      if (len(plain) < 4) return
-      if (plain(len(plain) - 3:) == '/sec') plain = plain(:len(plain) - 2)
+      plain = units
+      associate (last => len_trim(units))
+         if (last < 4) return
+         if (units(last - 3:last) == '/sec') plain(last - 1:) = ''
+      end associate
    end function without_sec
 
 end module dondolo_column_titles

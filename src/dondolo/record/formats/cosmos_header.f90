@@ -1,7 +1,7 @@
 !> Headers of a COSMOS file: where their parts are, and what they say of the record.
 module dondolo_cosmos_header
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed, table_type
+   use dondolo_header_text, only : after, before, find_moment, leading_number, parse_format, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : channel_type, raise_at
@@ -169,7 +169,7 @@ contains
       !> The channel to keep it with
       type(channel_type), intent(inout) :: channel
 
-      character(len=:), allocatable :: line, comments
+      character(len=:), allocatable :: line, comments, moment, code
       integer :: i
 
       comments = ''
@@ -177,13 +177,17 @@ contains
          comments = comments//' '//after(text%line(i), '|')
       end do
       associate (metadata => channel%metadata, reals => self%reals, integers => self%integers)
-         call metadata%set('event', event_of(text_line(2)))
-         call metadata%set('date', moment_of(after(text_line(4), 'origin:')))
-         line = text_line(5)
-         call metadata%set('network', before(code_of(line), '-'))
-         call metadata%set('station', after(code_of(line), '-'))
+         call metadata%set('event', event_of(text%line(at(2))))
+         call find_moment(after(text%line(at(4)), 'origin:'), moment)
+         call metadata%set('date', moment)
+         line = text%line(at(5))
+         code = first_word(after(line, 'code:'), ' ')
+         call metadata%set('network', before(code, '-'))
+         call metadata%set('station', after(code, '-'))
          call metadata%set('station name', squeezed(line(min(name_column, len(line) + 1):)))
-         channel%name = component_of(text_line(9))
+         ! Sta Chan   1: 340 deg (Rcrdr Chan  1) Location:
+         channel%name = before(text%line(at(9)), '(rcrdr')
+         channel%name = squeezed(channel%name(index(channel%name, ':', back=.true.) + 1:))
          call keep_code(after(comments, '<scnl>'))
          call metadata%set('component', channel%name)
          ! Other magnitude, local, surface wave, moment: the last one stays
@@ -192,18 +196,18 @@ contains
          end do
          call metadata%set('latitude', reals%field(text, 1))
          call metadata%set('longitude', reals%field(text, 2))
-         call metadata%set('processing', lower(before(text_line(1), '('))//'; '//squeezed(text_line(12)))
-         call metadata%set('processed', squeezed(before(after(text_line(11), 'processed:'), 'max')))
-         call metadata%set('origin', squeezed(after(text_line(4), 'origin:')))
-         call metadata%set('hypocenter', squeezed(after(text_line(3), 'hypocenter:')))
+         call metadata%set('processing', lower(before(text%line(at(1)), '('))//'; '//squeezed(text%line(at(12))))
+         call metadata%set('processed', squeezed(before(after(text%line(at(11)), 'processed:'), 'max')))
+         call metadata%set('origin', squeezed(after(text%line(at(4)), 'origin:')))
+         call metadata%set('hypocenter', squeezed(after(text%line(at(3)), 'hypocenter:')))
          call metadata%set('statn no', first_word(after(line, 'statn no:'), ' '))
-         call metadata%set('site geology', squeezed(after(text_line(6), 'site geology:')))
-         call metadata%set('recorder', squeezed(before(after(text_line(7), 'recorder:'), 'sensor:')))
-         call metadata%set('sensor', squeezed(after(text_line(7), 'sensor:')))
-         call metadata%set('rcrd start time', squeezed(before(after(text_line(8), 'time:'), 'rcrdid:')))
-         call metadata%set('rcrdid', squeezed(after(text_line(8), 'rcrdid:')))
-         call metadata%set('location', squeezed(after(text_line(9), 'location:')))
-         call metadata%set('raw record length', squeezed(after(text_line(10), '=')))
+         call metadata%set('site geology', squeezed(after(text%line(at(6)), 'site geology:')))
+         call metadata%set('recorder', squeezed(before(after(text%line(at(7)), 'recorder:'), 'sensor:')))
+         call metadata%set('sensor', squeezed(after(text%line(at(7)), 'sensor:')))
+         call metadata%set('rcrd start time', squeezed(before(after(text%line(at(8)), 'time:'), 'rcrdid:')))
+         call metadata%set('rcrdid', squeezed(after(text%line(at(8)), 'rcrdid:')))
+         call metadata%set('location', squeezed(after(text%line(at(9)), 'location:')))
+         call metadata%set('raw record length', squeezed(after(text%line(at(10)), '=')))
          call metadata%set('elevation', reals%field(text, 3))
          call metadata%set('event latitude', reals%field(text, 10))
          call metadata%set('event longitude', reals%field(text, 11))
@@ -215,16 +219,14 @@ contains
 
    contains
 
-      !> A line of the text, empty if there are fewer
-      pure function text_line(number)
+      !> Where a line of the header's text is, 0 if there are fewer
+      pure integer function at(number)
          !> Its number, from 1
          integer, intent(in) :: number
-         !> Its text
-         character(len=:), allocatable :: text_line
 
-         text_line = ''
-         if (self%first_line + number - 1 <= self%last_text) text_line = text%line(self%first_line + number - 1)
-      end function text_line
+         at = self%first_line + number - 1
+         if (at > self%last_text) at = 0
+      end function at
 
       !> Keep station, channel, network and location as a comment writes them: BMR.BNZ.AK.--
       subroutine keep_code(code)
@@ -247,8 +249,8 @@ contains
    pure function event_of(line) result(event)
       !> The line: the name, then perhaps a date
       character(len=*), intent(in) :: line
-      !> The name
-      character(len=:), allocatable :: event
+      !> The name, filled up with blanks
+      character(len=len(line)) :: event
 
       character(len=*), parameter :: days(7) = ['sun', 'mon', 'tue', 'wed', 'thu', 'fri', 'sat']
       integer :: i
@@ -260,26 +262,5 @@ contains
          event = before(event, ' of '//days(i)//' ')
       end do
    end function event_of
-
-   !> Network and station out of the line of the station
-   pure function code_of(line) result(code)
-      !> The line
-      character(len=*), intent(in) :: line
-      !> The two with a hyphen between them
-      character(len=:), allocatable :: code
-
-      code = first_word(after(line, 'code:'), ' ')
-   end function code_of
-
-   !> Component out of the line of the channel: Sta Chan   1: 340 deg (Rcrdr Chan  1) Location:
-   pure function component_of(line) result(component)
-      !> The line
-      character(len=*), intent(in) :: line
-      !> The component
-      character(len=:), allocatable :: component
-
-      component = before(line, '(rcrdr')
-      component = squeezed(component(index(component, ':', back=.true.) + 1:))
-   end function component_of
 
 end module dondolo_cosmos_header

@@ -15,20 +15,20 @@ contains
       character(len=*), intent(in) :: text
       !> Which comes first where the year comes last: 'dmy' or 'mdy'
       character(len=3), intent(in) :: order
-      !> The date, or the text itself where it is no such date
-      character(len=:), allocatable :: date
+      !> The date, or the text itself where it is no such date; filled up with blanks
+      character(len=max(len(text), 10)) :: date
 
       character(len=*), parameter :: separators = '/-.'
       character(len=:), allocatable :: rest, part
       integer :: number(3), width(3), i, year, month, day
       logical :: ok
 
-      date = trim(adjustl(text))
-      if (len(date) == 8 .and. verify(date, '0123456789') == 0) then
+      date = adjustl(text)
+      if (len_trim(date) == 8 .and. verify(trim(date), '0123456789') == 0) then
          if (is_date(date(5:6), date(7:8))) date = date(1:4)//'-'//date(5:6)//'-'//date(7:8)
          return
       end if
-      rest = date
+      rest = trim(date)
       do i = 1, 3
          part = first_word(rest, separators)
          call parse_integer(part, number(i), ok)
@@ -56,14 +56,13 @@ contains
    pure function iso_time(text) result(time)
       !> Six digits and maybe decimals, or numbers between colons
       character(len=*), intent(in) :: text
-      !> The time, or the text itself where it is no such time
-      character(len=:), allocatable :: time
+      !> The time, or the text itself where it is no such time; filled up with blanks
+      character(len=max(len(text), 6) + 2) :: time
 
-      time = trim(adjustl(text))
-      if (len(time) < 6) return
+      time = adjustl(text)
       if (verify(time(1:6), '0123456789') > 0) return
-      if (len(time) > 6) then
-         if (time(7:7) /= '.' .or. verify(time(8:), '0123456789') > 0) return
+      if (len_trim(time) > 6) then
+         if (time(7:7) /= '.' .or. verify(trim(time(8:)), '0123456789') > 0) return
       end if
       time = time(1:2)//':'//time(3:4)//':'//time(5:)
    end function iso_time

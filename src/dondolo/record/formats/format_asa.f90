@@ -3,28 +3,18 @@
 module dondolo_format_asa
    use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
+   use dondolo_header_text, only : after
    use dondolo_kinds, only : wp
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
+   use dondolo_record_format, only : raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: asa_format_type
-
-   !> The format
-   type, extends(format_type) :: asa_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_asa
-   end type asa_format_type
+   public :: recognises_asa, read_asa
 
    !> Characters of a column
    integer, parameter :: width = 10
@@ -40,23 +30,13 @@ module dondolo_format_asa
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'asa'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? It says so
+   logical function recognises_asa(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> It says so
-      logical :: recognised
 
       recognised = line_with(text, 1, 20, kind) > 0
-   end function recognises
+   end function recognises_asa
 
    !> Read a file
    subroutine read_asa(text, samples, error)
@@ -126,13 +106,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=*), parameter :: step = 'INTERVALO DE MUESTREO, C', rest = ' (s)'
-      character(len=:), allocatable :: key
+      character(len=:), allocatable :: key, value
       logical :: ok
 
-      name = of_channel(labels, 'ORIENTACION C1-C6 (rumbo;orientacion)', 'ORIENTACION C7-C12 (rumbo;orientacion)', &
-         & number)
-      peak = of_channel(labels, 'ACEL. MAX.(Gal), C1-C6', 'ACEL. MAX.(Gal), C7-C12', number)
-      call parse_real(of_channel(labels, step//'1-C6'//rest, step//'7-C12'//rest, number), dt, ok)
+      call find_value(labels, 'ORIENTACION C1-C6 (rumbo;orientacion)', 'ORIENTACION C7-C12 (rumbo;orientacion)', number, name)
+      call find_value(labels, 'ACEL. MAX.(Gal), C1-C6', 'ACEL. MAX.(Gal), C7-C12', number, peak)
+      call find_value(labels, step//'1-C6'//rest, step//'7-C12'//rest, number, value)
+      call parse_real(value, dt, ok)
       if (.not. (ok .and. dt > 0.0_wp)) then
          key = step//trim(merge('1-C6 ', '7-C12', number <= 6))//rest
          call raise_at(error, text, max(labels%line_of(key), 1), key//' = '''//shown(labels%value_of(key))// &
@@ -154,14 +134,15 @@ contains
       !> Number of samples
       integer :: count
 
+      character(len=:), allocatable :: value
       logical :: ok
 
-      call parse_integer(of_channel(labels, 'NUM. TOTAL DE MUESTRAS, C1-C6', 'NUM. TOTAL DE MUESTRAS, C7-C12', &
-         & number), count, ok)
+      call find_value(labels, 'NUM. TOTAL DE MUESTRAS, C1-C6', 'NUM. TOTAL DE MUESTRAS, C7-C12', number, value)
+      call parse_integer(value, count, ok)
    end function number_of
 
-   !> Value for one channel out of a line such as `/2455/2455/2455`
-   pure function of_channel(labels, key, later_key, number) result(value)
+   !> Find the value for one channel in a line such as `/2455/2455/2455`
+   pure subroutine find_value(labels, key, later_key, number, value)
       !> The header
       type(labels_type), intent(in) :: labels
       !> Key of channels 1 to 6
@@ -171,7 +152,7 @@ contains
       !> Number of the channel
       integer, intent(in) :: number
       !> Its value, empty if there is none
-      character(len=:), allocatable :: value
+      character(len=:), allocatable, intent(out) :: value
 
       integer :: i, at
 
@@ -185,7 +166,7 @@ contains
          value = value(at + 1:)
       end do
       value = trim(adjustl(value(:index(value, '/') - 1)))
-   end function of_channel
+   end subroutine find_value
 
    !> What the header says
    subroutine add_metadata(labels, metadata)
@@ -197,7 +178,7 @@ contains
       character(len=:), allocatable :: date, time, key
       integer :: i
 
-      date = iso_date(labels%value_of('FECHA DEL SISMO [GMT]'), 'dmy')
+      date = trim(iso_date(labels%value_of('FECHA DEL SISMO [GMT]'), 'dmy'))
       time = labels%value_of('HORA EPICENTRO (GMT)')
       if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time//'Z'
       call metadata%set('date', date)
@@ -221,25 +202,12 @@ contains
       end do
    end subroutine add_metadata
 
-   !> What follows a mark
-   pure function after(text, mark) result(rest)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Mark
-      character(len=*), intent(in) :: mark
-      !> The rest, empty if there is no mark
-      character(len=:), allocatable :: rest
-
-      rest = ''
-      if (index(text, mark) > 0) rest = text(index(text, mark) + len(mark):)
-   end function after
-
    !> A coordinate in degrees, north and east positive: `99.85157 LONG. W`
    pure function coordinate(stated) result(degrees)
       !> What the header states
       character(len=*), intent(in) :: stated
-      !> The number with its sign, or what is stated if it is not written so
-      character(len=:), allocatable :: degrees
+      !> The number with its sign, or what is stated if it is not written so; filled up with blanks
+      character(len=len(stated) + 1) :: degrees
 
       real(wp) :: value
       integer :: side
@@ -251,7 +219,7 @@ contains
       if (.not. ok .or. index(stated, 'L') == 0) then
          degrees = stated
       else if (scan(stated(side:side), 'SW') > 0) then
-         degrees = '-'//degrees
+         degrees = '-'//trim(degrees)
       end if
    end function coordinate
 

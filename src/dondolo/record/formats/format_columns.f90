@@ -8,30 +8,19 @@
 !> Decimal commas are read where they cannot be anything else: columns are separated by semicolons or blanks, and no value
 !> has a point. Rows of empty cells at the end are dropped.
 module dondolo_format_columns
-   use dondolo_column_titles, only : is_other_quantity, is_seconds, units_in
+   use dondolo_column_titles, only : find_units, is_other_quantity, is_seconds
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, samples_type, shown
-   use dondolo_text, only : lower, to_text
+   use dondolo_record_format, only : raise_at, samples_type, shown
+   use dondolo_text, only : blanks, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: columns_format_type
-
-   !> The format of plain columns
-   type, extends(format_type) :: columns_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_columns
-   end type columns_format_type
+   public :: recognises_columns, read_columns
 
    !> Most columns that are told apart
    integer, parameter :: most_cells = 64
@@ -39,25 +28,16 @@ module dondolo_format_columns
    !> Relative difference allowed between the step of the times and one that a comment states
    real(wp), parameter :: step_tolerance = 0.01_wp
 
-   !> Blanks between columns
-   character(len=*), parameter :: blanks = ' '//achar(9)
+   !> What may stand around a title
+   character(len=*), parameter :: around = blanks//'"'''
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'columns'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? The first line of values holds as many as the second or the third does, and one of them is a
+   !> number
+   logical function recognises_columns(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The first line of values holds as many as the second or the third does, and one of them is a number
-      logical :: recognised
 
       type(text_file_type) :: plain
       integer :: lines
@@ -70,13 +50,13 @@ contains
          call make_plain(text, lines, has_commas, plain)
          recognised = recognises_plain(plain)
       end if
-   end function recognises
+   end function recognises_columns
 
    !> Is a text in this format, without decimal commas?
    function recognises_plain(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> As of `recognises`
+      !> As of `recognises_columns`
       logical :: recognised
 
       integer :: begin, line, first(most_cells), last(most_cells), cells, others
@@ -308,21 +288,22 @@ contains
             last(1) = text%last(line)
          else if (cells == 2 .and. titles /= 2 .and. line == begin - 1) then
             content = unquoted(text%line(line))
-            units = units_in(content)
+            call find_units(content, units)
             if (len(units) > 0) samples%channels(1)%units = units
             if (is_other_quantity(content, units)) samples%channels(1)%refusal = text%place(line)//': channel '''// &
                & shown(content)//''' is no acceleration'
          end if
          if (titles /= cells) cycle
          content = unquoted(text%text(first(1):last(1)))
-         if (cells > 1 .and. .not. is_seconds(content, units_in(content))) then
+         call find_units(content, units)
+         if (cells > 1 .and. .not. is_seconds(content, units)) then
             call raise_at(error, text, line, 'title '''//shown(content)//''' of the times: they must be in s')
             return
          end if
          do i = 1, size(samples%channels)
             k = min(i + 1, cells)
             content = unquoted(text%text(first(k):last(k)))
-            units = units_in(content)
+            call find_units(content, units)
             if (len(units) > 0) samples%channels(i)%units = units
             if (is_other_quantity(content, units)) samples%channels(i)%refusal = text%place(line)//': channel '''// &
                & shown(content)//''' is no acceleration'
@@ -377,11 +358,9 @@ contains
       !> Title
       character(len=*), intent(in) :: title
       !> The same without blanks and quotes around
-      character(len=:), allocatable :: unquoted
+      character(len=verify(title, around, back=.true.) - max(verify(title, around), 1) + 1) :: unquoted
 
-      character(len=*), parameter :: around = blanks//'"'''
-
-      unquoted = title(max(verify(title, around), 1):verify(title, around, back=.true.))
+      unquoted = title(max(verify(title, around), 1):)
    end function unquoted
 
    !> First line that holds values: after comments and one line of titles

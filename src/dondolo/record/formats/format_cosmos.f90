@@ -13,25 +13,14 @@ module dondolo_format_cosmos
    use dondolo_header_text, only : after, before, check_not_missing, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    use dondolo_units, only : unit_factor
    implicit none
    private
 
-   public :: cosmos_format_type
-
-   !> The COSMOS format
-   type, extends(format_type) :: cosmos_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_cosmos
-   end type cosmos_format_type
+   public :: recognises_cosmos, read_cosmos
 
    !> A unit of acceleration
    type :: unit_type
@@ -67,23 +56,13 @@ module dondolo_format_cosmos
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'cosmos'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? The first line names the version of the format and the number of text lines
+   logical function recognises_cosmos(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The first line names the version of the format and the number of text lines
-      logical :: recognised
 
       recognised = index(lower(text%line(1)), '(format v') > 0 .and. index(lower(text%line(1)), 'text lines') > 0
-   end function recognises
+   end function recognises_cosmos
 
    !> Read a COSMOS file: its records of acceleration
    subroutine read_cosmos(text, samples, error)
@@ -95,13 +74,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(cosmos_header_type), allocatable :: headers(:)
+      character(len=:), allocatable :: quantity
       integer :: i, found
 
       call find_headers(text, headers, error)
       if (allocated(error)) return
       allocate (samples%channels(count([(is_acceleration(text, headers(i)), i=1, size(headers))])))
       if (size(samples%channels) == 0) then
-         call raise_at(error, text, headers(1)%value_line, 'quantity = '''//quantity_of(text, headers(1))// &
+         call find_quantity(text, headers(1), quantity)
+         call raise_at(error, text, headers(1)%value_line, 'quantity = '''//quantity// &
             & ''', code '//headers(1)%integers%field(text, quantity_at)//': must be acceleration, code 1')
          return
       end if
@@ -130,18 +111,18 @@ contains
       is_end = index(lower(line), 'end-of-data') == 1 .or. index(line, '/&') == 1
    end function is_end
 
-   !> Quantity of a record in words
-   function quantity_of(text, header) result(quantity)
+   !> Find the quantity of a record in words
+   subroutine find_quantity(text, header, quantity)
       !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
       !> What stands between count and `pts`
-      character(len=:), allocatable :: quantity
+      character(len=:), allocatable, intent(out) :: quantity
 
       quantity = before(text%line(header%value_line), 'pts')
       quantity = lower(after(quantity, first_word(quantity, ' ')))
-   end function quantity_of
+   end subroutine find_quantity
 
    !> Are the values of a record accelerations? Both words and code must say so, where they say anything.
    function is_acceleration(text, header)
@@ -152,11 +133,13 @@ contains
       !> They are
       logical :: is_acceleration
 
+      character(len=:), allocatable :: quantity
       integer :: code
       logical :: known
 
       call header%integers%integer_of(text, quantity_at, code, known)
-      is_acceleration = index(quantity_of(text, header), 'accel') > 0 .and. &
+      call find_quantity(text, header, quantity)
+      is_acceleration = index(quantity, 'accel') > 0 .and. &
          & (.not. known .or. code == acceleration_code)
    end function is_acceleration
 

@@ -6,28 +6,17 @@
 !> files state the Fortran format as well: `in cm/sec2. (8f10.6)`.
 module dondolo_format_csmip
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, moment_of, parse_format, squeezed
+   use dondolo_header_text, only : after, before, find_moment, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, check_duration, format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, check_duration, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: csmip_format_type
-
-   !> The format of CSMIP
-   type, extends(format_type) :: csmip_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_csmip
-   end type csmip_format_type
+   public :: recognises_csmip, read_csmip
 
    !> Beginning of a channel
    character(len=*), parameter :: title = 'corrected accelerogram'
@@ -43,23 +32,13 @@ module dondolo_format_csmip
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'csmip'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? It begins with corrected and uncorrected accelerogram
+   logical function recognises_csmip(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> It begins with corrected and uncorrected accelerogram
-      logical :: recognised
 
       recognised = is_title(text, 1) .and. index(lower(adjustl(text%line(2))), 'uncorrected accelerogram') == 1
-   end function recognises
+   end function recognises_csmip
 
    !> Read a CSMIP file
    subroutine read_csmip(text, samples, error)
@@ -214,7 +193,7 @@ contains
       !> The channel
       type(channel_type), intent(inout) :: channel
 
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, rest
 
       channel%name = squeezed(before(after(text%line(first + 7), ':'), 'location'))
       channel%peak_line = line_with(text, first, last, 'peak acceleration')
@@ -227,32 +206,34 @@ contains
          line = squeezed(text%line(first + 2))
          if (len(line) == 0) line = squeezed(text%line(first + 8))
          call metadata%set('event', line)
-         call metadata%set('date', origin_of(text%line(first + 3)))
-         call read_station(rest_of('station no.'), metadata)
+         call find_origin(text%line(first + 3), line)
+         call metadata%set('date', line)
+         call find_rest('station no.')
+         call read_station(rest, metadata)
          call metadata%set('station name', squeezed(text%line(first + 6)))
          call metadata%set('component', channel%name)
          call metadata%set('location', after(text%line(first + 7), 'location:'))
-         call read_magnitude(rest_of('hypocenter'), metadata)
-         call metadata%set('processing', 'corrected; filtered '//rest_of('filtered'))
-         call metadata%set('processed', rest_of('processed:'))
+         call find_rest('hypocenter')
+         call read_magnitude(rest, metadata)
+         call find_rest('filtered')
+         call metadata%set('processing', 'corrected; filtered '//rest)
+         call keep_rest('processed', 'processed:')
          call metadata%set('record', squeezed(text%line(first + 4)))
          call metadata%set('time', squeezed(text%line(first + 3)))
-         call metadata%set('hypocenter', rest_of('hypocenter'))
-         call metadata%set('instr period', rest_of('instr period ='))
-         call metadata%set('record length', rest_of('record length ='))
-         call metadata%set('uncor max', rest_of('uncor max ='))
-         call metadata%set('rms accel', rest_of('rms accel of (uncor) record ='))
-         call metadata%set('initial velocity', rest_of('initial velocity ='))
+         call keep_rest('hypocenter', 'hypocenter')
+         call keep_rest('instr period', 'instr period =')
+         call keep_rest('record length', 'record length =')
+         call keep_rest('uncor max', 'uncor max =')
+         call keep_rest('rms accel', 'rms accel of (uncor) record =')
+         call keep_rest('initial velocity', 'initial velocity =')
       end associate
 
    contains
 
-      !> What stands after a label in the first of the lines that holds it
-      pure function rest_of(label) result(rest)
+      !> Find what stands after a label in the first of the lines that holds it
+      subroutine find_rest(label)
          !> Label in lower case
          character(len=*), intent(in) :: label
-         !> Rest of the line, empty if there is none
-         character(len=:), allocatable :: rest
 
          integer :: at
 
@@ -260,16 +241,25 @@ contains
          do at = first, last
             if (len(rest) == 0) rest = after(squeezed(text%line(at)), label)
          end do
-      end function rest_of
+      end subroutine find_rest
+
+      !> Keep what stands after a label
+      subroutine keep_rest(key, label)
+         !> Key to keep it under, and label in lower case
+         character(len=*), intent(in) :: key, label
+
+         call find_rest(label)
+         call channel%metadata%set(key, rest)
+      end subroutine keep_rest
 
    end subroutine read_header
 
    !> Time of the earthquake: MAY 2, 1983 16:42 PDT     (ORIGIN(BRK): 05/02/83, 23:42:38.5 UTC)
-   pure function origin_of(line) result(origin)
+   pure subroutine find_origin(line, origin)
       !> The line: local time, then the origin time, whose year has two digits
       character(len=*), intent(in) :: line
       !> The origin time, or else the local time as the line has it
-      character(len=:), allocatable :: origin
+      character(len=:), allocatable, intent(out) :: origin
 
       character(len=:), allocatable :: date, year
       integer :: at
@@ -281,8 +271,8 @@ contains
       ! The local time has the whole year
       year = first_word(after(origin, ','), ' ')
       if (len(year) /= 4 .or. year(max(len(year) - 1, 1):) /= date(at + 1:at + 2)) return
-      origin = moment_of(date(:at)//year//date(at + 3:))
-   end function origin_of
+      call find_moment(date(:at)//year//date(at + 3:), origin)
+   end subroutine find_origin
 
    !> Number and coordinates of a station: 36456   35.908N, 120.458W     SMA-1  S/N 4384
    subroutine read_station(line, metadata)

@@ -8,24 +8,13 @@ module dondolo_format_cwa
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
+   use dondolo_record_format, only : raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: cwa_format_type
-
-   !> The format
-   type, extends(format_type) :: cwa_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_cwa
-   end type cwa_format_type
+   public :: recognises_cwa, read_cwa
 
    !> Characters of a column
    integer, parameter :: width = 10
@@ -35,27 +24,17 @@ module dondolo_format_cwa
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'cwa'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? Its header states sampling rate, units and sequence of the columns
+   logical function recognises_cwa(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header states sampling rate, units and sequence of the columns
-      logical :: recognised
 
       type(labels_type) :: labels
 
       call read_labels(text, 1, header_lines(text), labels)
       recognised = labels%line_of('#SampleRate(Hz)') > 0 .and. labels%line_of('#AmplitudeUnit') > 0 .and. &
          & labels%line_of('#DataSequence') > 0
-   end function recognises
+   end function recognises_cwa
 
    !> Read a file
    subroutine read_cwa(text, samples, error)
@@ -101,7 +80,7 @@ contains
             channel%values = values(1 + i::columns)
             channel%dt = 1.0_wp/rate
             channel%units = first_word(units, ' .')
-            channel%peak = larger(labels%value_of('#AmplitudeMAX. '//channel%name))
+            channel%peak = trim(larger(labels%value_of('#AmplitudeMAX. '//channel%name)))
             channel%peak_line = max(labels%line_of('#AmplitudeMAX. '//channel%name), 1)
             call channel%metadata%set('component', channel%name)
          end associate
@@ -167,8 +146,8 @@ contains
    pure function larger(range) result(number)
       !> The numbers, smallest and largest in any order
       character(len=*), intent(in) :: range
-      !> The text of the one that is larger in size, or all if they are no numbers
-      character(len=:), allocatable :: number
+      !> The text of the one that is larger in size, or all if they are no numbers; filled up with blanks
+      character(len=len(range)) :: number
 
       real(wp) :: one, other
       integer :: mark
@@ -181,9 +160,9 @@ contains
       call parse_real(range(mark + 1:), other, ok_other)
       if (.not. (ok .and. ok_other)) return
       if (abs(one) >= abs(other)) then
-         number = trim(adjustl(range(:mark - 1)))
+         number = adjustl(range(:mark - 1))
       else
-         number = trim(adjustl(range(mark + 1:)))
+         number = adjustl(range(mark + 1:))
       end if
    end function larger
 
@@ -198,7 +177,7 @@ contains
       integer :: i
 
       date = labels%value_of('#Origin Time(GMT+08)')
-      if (len(date) > 11) date = iso_date(date(:10), 'dmy')//'T'//date(12:)//'+08:00'
+      if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)//'+08:00'
       call metadata%set('date', date)
       call metadata%set('station', labels%value_of('#StationCode'))
       call metadata%set('magnitude', labels%value_of('#Magnitude(Ml)'))

@@ -6,50 +6,29 @@ module dondolo_format_dyna
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
-   use dondolo_record_format, only : check_duration, format_type, raise_at, read_block, samples_type, shown
+   use dondolo_record_format, only : check_duration, raise_at, read_block, samples_type, shown
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: dyna_format_type
-
-   !> The DYNA format
-   type, extends(format_type) :: dyna_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_dyna
-   end type dyna_format_type
+   public :: recognises_dyna, read_dyna
 
    !> Key of the largest value, in the units it names
    character(len=*), parameter :: peak_key = 'PGA_CM/S^2'
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'dyna'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? It begins with lines `KEY: value`, among them the sampling interval
+   logical function recognises_dyna(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> It begins with lines `KEY: value`, among them the sampling interval
-      logical :: recognised
 
       type(labels_type) :: labels
 
       call read_labels(text, 1, header_lines(text), labels)
       recognised = labels%line_of('SAMPLING_INTERVAL_S') > 0
-   end function recognises
+   end function recognises_dyna
 
    !> Read a DYNA file
    subroutine read_dyna(text, samples, error)
@@ -112,8 +91,8 @@ contains
       character(len=:), allocatable :: date, time
 
       call metadata%set('event', one_of(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID')))
-      date = iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy')
-      time = iso_time(labels%value_of('EVENT_TIME_HHMMSS'))
+      date = trim(iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy'))
+      time = trim(iso_time(labels%value_of('EVENT_TIME_HHMMSS')))
       if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time
       call metadata%set('date', date)
       call metadata%set('network', labels%value_of('NETWORK'))
@@ -135,10 +114,10 @@ contains
       !> Another text
       character(len=*), intent(in) :: other
       !> The first of them that is not empty
-      character(len=:), allocatable :: one
+      character(len=merge(len(text), len(other), len_trim(text) > 0)) :: one
 
       one = text
-      if (len_trim(one) == 0) one = other
+      if (len_trim(text) == 0) one = other
    end function one_of
 
    !> Number of lines `KEY: value` at the top

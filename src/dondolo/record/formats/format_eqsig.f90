@@ -4,44 +4,21 @@ module dondolo_format_eqsig
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
-   use dondolo_text, only : first_word
+   use dondolo_record_format, only : raise_at, read_block, samples_type, shown
+   use dondolo_text, only : blanks, first_word
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: eqsig_format_type
-
-   !> The format
-   type, extends(format_type) :: eqsig_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_eqsig
-   end type eqsig_format_type
-
-   !> Blanks between words
-   character(len=*), parameter :: blanks = ' '//achar(9)
+   public :: recognises_eqsig, read_eqsig
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'eqsig'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? The first line is a label and no number, the second holds count and step, the third a
+   !> single number
+   logical function recognises_eqsig(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The first line is a label and no number, the second holds count and step, the third a single number
-      logical :: recognised
 
       real(wp) :: value, dt
       integer :: count
@@ -54,7 +31,7 @@ contains
       call read_count(text%line(2), count, dt, ok)
       if (.not. ok) return
       call parse_real(text%line(3), value, recognised)
-   end function recognises
+   end function recognises_eqsig
 
    !> Read a file
    subroutine read_eqsig(text, samples, error)

@@ -8,24 +8,13 @@ module dondolo_format_geonet
    use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: geonet_format_type
-
-   !> The format of GeoNet
-   type, extends(format_type) :: geonet_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_geonet
-   end type geonet_format_type
+   public :: recognises_geonet, read_geonet
 
    !> Lines of a component before its values: text, integers, reals
    integer, parameter :: text_lines = 16, integer_lines = 4, real_lines = 6
@@ -47,25 +36,15 @@ module dondolo_format_geonet
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'geonet'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? It begins with an accelerogram and a site
+   logical function recognises_geonet(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> It begins with an accelerogram and a site
-      logical :: recognised
 
       recognised = scan(lower(adjustl(text%line(1))), 'cu') == 1 .and. &
          & index(lower(text%line(1)), 'corrected accelerogram') > 0 .and. &
          & index(lower(adjustl(text%line(2))), 'site ') == 1
-   end function recognises
+   end function recognises_geonet
 
    !> Read a GeoNet file
    subroutine read_geonet(text, samples, error)
@@ -216,7 +195,7 @@ contains
       !> The component
       type(channel_type), intent(inout) :: channel
 
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, moment, station
 
       channel%name = first_word(after(text%line(first + component_line), 'component'), ' ')
       channel%peak_line = first + peak_line
@@ -225,10 +204,12 @@ contains
       channel%units = before(after(line, channel%peak), ' at')
       associate (metadata => channel%metadata)
          call metadata%set('epicentre', squeezed(text%line(first + 8)))
-         call metadata%set('date', origin())
+         call find_origin(moment)
+         call metadata%set('date', moment)
          call metadata%set('time', squeezed(text%line(first + 7)))
          line = after(text%line(first + 1), 'site')
-         call metadata%set('station', station_code())
+         station = first_word(line, ' ')
+         call metadata%set('station', station)
          call metadata%set('station name', squeezed(text%line(first + 2)))
          call metadata%set('site', squeezed(line))
          call metadata%set('component', channel%name)
@@ -255,15 +236,15 @@ contains
          integer, intent(in) :: which
          !> The coordinate in degrees; south and west may stand without sign
          character(len=*), intent(in) :: printed
-         !> The coordinate, positive north and east; empty if there is no letter
-         character(len=:), allocatable :: signed
+         !> The coordinate, positive north and east, filled up with blanks; empty if there is no letter
+         character(len=len(printed) + 1) :: signed
 
          character(len=:), allocatable :: rest, word
          integer :: i
 
          signed = ''
          word = ''
-         rest = after(text%line(first + 1), station_code())
+         rest = after(text%line(first + 1), station)
          ! Degrees, minutes, seconds and the letter, twice
          do i = 1, 3*which
             word = first_word(rest, ' ')
@@ -279,10 +260,10 @@ contains
          end select
       end function coordinate
 
-      !> Time of the earthquake
-      function origin() result(moment)
+      !> Find the time of the earthquake
+      subroutine find_origin(moment)
          !> Date and time as ISO 8601 has them, or the words of the header where the table of integers has none
-         character(len=:), allocatable :: moment
+         character(len=:), allocatable, intent(out) :: moment
 
          integer :: number(6), i
          logical :: ok
@@ -298,15 +279,7 @@ contains
          write (buffer, '(i4.4, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i1)') number(1), '-', number(2), '-', &
             & number(3), 'T', number(4), ':', number(5), ':', min(number(6)/10, 99), '.', modulo(number(6), 10)
          if (number(1) > 0) moment = trim(buffer)
-      end function origin
-
-      !> Code of the station
-      function station_code() result(code)
-         !> Code
-         character(len=:), allocatable :: code
-
-         code = first_word(after(text%line(first + 1), 'site'), ' ')
-      end function station_code
+      end subroutine find_origin
 
    end subroutine read_header
 
@@ -315,10 +288,9 @@ contains
       !> The number
       character(len=*), intent(in) :: printed
       !> The same, empty if it is zero
-      character(len=:), allocatable :: nonzero
+      character(len=merge(len(printed), 0, verify(printed, '0.') > 0)) :: nonzero
 
       nonzero = printed
-      if (verify(printed, '0.') == 0) nonzero = ''
    end function nonzero
 
 end module dondolo_format_geonet

@@ -10,24 +10,13 @@ module dondolo_format_knet
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
+   use dondolo_record_format, only : raise_at, read_block, samples_type, shown
    use dondolo_text, only : to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: knet_format_type
-
-   !> The format
-   type, extends(format_type) :: knet_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_knet
-   end type knet_format_type
+   public :: recognises_knet, read_knet
 
    !> Lines of the header
    integer, parameter :: header_lines = 17
@@ -40,27 +29,17 @@ module dondolo_format_knet
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'knet'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? Its header states origin time, sampling frequency and scale factor
+   logical function recognises_knet(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header states origin time, sampling frequency and scale factor
-      logical :: recognised
 
       type(labels_type) :: labels
 
       call read_labels(text, 1, min(header_lines, text%lines()), labels, key_width)
       recognised = labels%line_of('Origin Time') == 1 .and. labels%line_of('Sampling Freq(Hz)') > 0 .and. &
          & labels%line_of('Scale Factor') > 0
-   end function recognises
+   end function recognises_knet
 
    !> Read a file
    subroutine read_knet(text, samples, error)
@@ -73,6 +52,7 @@ contains
 
       type(labels_type) :: labels
       real(wp) :: frequency, duration, factor, mean
+      integer :: direction
 
       call read_labels(text, 1, min(header_lines, text%lines()), labels, key_width)
       call labels%get_positive(text, 'Sampling Freq(Hz)', frequency, error, 'Hz')
@@ -92,7 +72,9 @@ contains
          channel%values = factor*(channel%values - mean)
          channel%dt = 1.0_wp/frequency
          channel%units = 'gal'
-         channel%name = direction_of(labels%value_of('Dir.'))
+         channel%name = labels%value_of('Dir.')
+         direction = index('123456', channel%name)
+         if (len(channel%name) == 1 .and. direction > 0) channel%name = directions(direction)
          channel%peak = labels%value_of('Max. Acc. (gal)')
          channel%peak_line = max(labels%line_of('Max. Acc. (gal)'), 1)
          call add_metadata(labels, channel%name, samples%metadata)
@@ -142,7 +124,7 @@ contains
       character(len=:), allocatable :: date
 
       date = labels%value_of('Origin Time')
-      if (len(date) > 11) date = iso_date(date(:10), 'dmy')//'T'//date(12:)//'+09:00'
+      if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)//'+09:00'
       call metadata%set('date', date)
       call metadata%set('station', labels%value_of('Station Code'))
       call metadata%set('component', component)
@@ -150,19 +132,5 @@ contains
       call metadata%set('latitude', labels%value_of('Station Lat.'))
       call metadata%set('longitude', labels%value_of('Station Long.'))
    end subroutine add_metadata
-
-   !> Name of a direction
-   pure function direction_of(stated) result(name)
-      !> What the header states
-      character(len=*), intent(in) :: stated
-      !> The same, or the name of a number
-      character(len=:), allocatable :: name
-
-      integer :: i
-
-      name = stated
-      i = index('123456', stated)
-      if (len(stated) == 1 .and. i > 0) name = directions(i)
-   end function direction_of
 
 end module dondolo_format_knet

@@ -9,24 +9,13 @@ module dondolo_format_peer
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : format_type, raise_at, read_block, samples_type, shown
+   use dondolo_record_format, only : raise_at, read_block, samples_type, shown
    use dondolo_text, only : first_word, lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: peer_format_type
-
-   !> The PEER format
-   type, extends(format_type) :: peer_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_peer
-   end type peer_format_type
+   public :: recognises_peer, read_peer
 
    !> Line that states event, date, station and component
    integer, parameter :: event_line = 2
@@ -39,24 +28,14 @@ module dondolo_format_peer
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'peer'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? The third line states units and the fourth count and step
+   logical function recognises_peer(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The third line states units and the fourth count and step
-      logical :: recognised
 
       recognised = index(lower(text%line(quantity_line)), 'in units of') > 0 .and. &
          & index(lower(text%line(count_line)), 'npts') > 0 .and. index(lower(text%line(count_line)), 'dt') > 0
-   end function recognises
+   end function recognises_peer
 
    !> Read a PEER file
    subroutine read_peer(text, samples, error)
@@ -116,7 +95,7 @@ contains
          if (len(date) > 3) then
             if (date(len(date) - 2:len(date) - 2) == '/') date = date(:len(date) - 2)//'19'//date(len(date) - 1:)
          end if
-         date = iso_date(date, 'mdy')
+         date = trim(iso_date(date, 'mdy'))
          if (index(word, '/') > 0 .and. index(date, '/') == 0) exit
          rest = rest(index(rest, word) + len(word):)
          at = at + len(word)
@@ -144,14 +123,14 @@ contains
    pure function first_sentence(text) result(sentence)
       !> Text
       character(len=*), intent(in) :: text
-      !> The same from the first letter or digit on
-      character(len=:), allocatable :: sentence
+      !> The same from the first letter or digit on, filled up with blanks
+      character(len=len(text)) :: sentence
 
       integer :: first
 
       first = verify(text, ' .,;:)'//achar(9))
       sentence = ''
-      if (first > 0) sentence = trim(text(first:))
+      if (first > 0) sentence = text(first:)
    end function first_sentence
 
    !> Find count and time step in the fourth line

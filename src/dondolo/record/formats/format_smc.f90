@@ -5,27 +5,16 @@
 !> Accelerations are in cm/s2 by definition of the format; the file itself does not name its units.
 module dondolo_format_smc
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, check_not_missing, moment_of, squeezed, table_type
+   use dondolo_header_text, only : after, before, check_not_missing, find_moment, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : channel_type, format_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: smc_format_type
-
-   !> The SMC format
-   type, extends(format_type) :: smc_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_smc
-   end type smc_format_type
+   public :: recognises_smc, read_smc
 
    !> The table of integers
    type(table_type), parameter :: integers = &
@@ -53,20 +42,10 @@ module dondolo_format_smc
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'smc'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? The first line is a digit and one of the titles
+   logical function recognises_smc(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> The first line is a digit and one of the titles
-      logical :: recognised
 
       character(len=:), allocatable :: line
       integer :: i
@@ -76,7 +55,7 @@ contains
       if (len(line) < 3) return
       recognised = verify(line(1:1), '0123456789') == 0 .and. line(2:2) == ' ' .and. &
          & any([(index(line(3:), trim(titles(i))) == 1, i=1, size(titles))])
-   end function recognises
+   end function recognises_smc
 
    !> Read an SMC file
    subroutine read_smc(text, samples, error)
@@ -185,7 +164,7 @@ contains
       !> What it says
       type(samples_type), intent(inout) :: samples
 
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, date
       integer :: i, at
 
       associate (metadata => samples%metadata)
@@ -193,7 +172,8 @@ contains
          line = squeezed(text%line(4))
          at = verify(line//'x', ' 0123456789:.')
          call metadata%set('event', line(at:))
-         call metadata%set('date', date_of(line(:at - 1)))
+         call find_date(line(:at - 1), date)
+         call metadata%set('date', date)
          call metadata%set('station', stated(text%line(3)))
          call metadata%set('station name', squeezed(before(after(text%line(6), 'station ='), 'component')))
          call metadata%set('network', after(text%line(8), 'data source ='))
@@ -231,8 +211,8 @@ contains
    pure function plain(printed)
       !> The number as the table of reals has it: 0.7100000E+01; empty if it is not known
       character(len=*), intent(in) :: printed
-      !> The same as people write it: 7.1
-      character(len=:), allocatable :: plain
+      !> The same as people write it: 7.1, filled up with blanks
+      character(len=48) :: plain
 
       real(wp) :: value
       logical :: ok
@@ -242,35 +222,35 @@ contains
       if (ok) plain = to_text(value)
    end function plain
 
-   !> Date and time: 1989 10 18 0004
-   pure function date_of(line) result(date)
+   !> Find date and time: 1989 10 18 0004
+   pure subroutine find_date(line, date)
       !> Year, month, day, and perhaps hour and minute
       character(len=*), intent(in) :: line
       !> The same as ISO 8601 has it, or the line where it is no date
-      character(len=:), allocatable :: date
+      character(len=:), allocatable, intent(out) :: date
 
-      character(len=:), allocatable :: rest, day
+      character(len=:), allocatable :: rest, day, slashed
       integer :: i
 
       date = squeezed(line)
       rest = line
-      day = ''
+      slashed = ''
       do i = 1, 3
-         day = day//'/'//first_word(rest, ' ')
+         slashed = slashed//'/'//first_word(rest, ' ')
          rest = after(rest, first_word(rest, ' '))
       end do
-      day = moment_of(day(2:))
+      call find_moment(slashed(2:), day)
       if (index(day, '-') == 0) return
       date = day
       if (len(rest) == 4 .and. verify(rest, '0123456789') == 0) date = day//'T'//rest(:2)//':'//rest(3:)
-   end function date_of
+   end subroutine find_date
 
    !> A line of the header, where * says nothing
    pure function stated(line)
       !> The line
       character(len=*), intent(in) :: line
-      !> Its text, empty if it says nothing
-      character(len=:), allocatable :: stated
+      !> Its text, filled up with blanks; empty if it says nothing
+      character(len=len(line)) :: stated
 
       stated = squeezed(line)
       if (stated == '*') stated = ''

@@ -4,24 +4,13 @@ module dondolo_format_smtk
    use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
-   use dondolo_record_format, only : format_type, raise_at, read_fixed, samples_type, shown
+   use dondolo_record_format, only : raise_at, read_fixed, samples_type, shown
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: smtk_format_type
-
-   !> The format
-   type, extends(format_type) :: smtk_format_type
-   contains
-      !> Name of the format: one word in lower case
-      procedure, nopass :: name
-      !> Is a text in this format?
-      procedure, nopass :: recognises
-      !> Read a text in this format
-      procedure, nopass :: read => read_smtk
-   end type smtk_format_type
+   public :: recognises_smtk, read_smtk
 
    !> Words between the quantity and its units
    character(len=*), parameter :: series = 'time series in '
@@ -31,26 +20,16 @@ module dondolo_format_smtk
 
 contains
 
-   !> Name of the format: one word in lower case
-   pure function name()
-      !> Name
-      character(len=:), allocatable :: name
-
-      name = 'smtk'
-   end function name
-
-   !> Is a text in this format?
-   function recognises(text) result(recognised)
+   !> Is a text in this format? Its header states step and number, and a line names quantity and units
+   logical function recognises_smtk(text) result(recognised)
       !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header states step and number, and a line names quantity and units
-      logical :: recognised
 
       type(labels_type) :: labels
 
       call read_labels(text, 1, quantity_line(text), labels)
       recognised = labels%line_of('Time Increment (s)') > 0 .and. labels%line_of('Number of Data') > 0
-   end function recognises
+   end function recognises_smtk
 
    !> Read a file
    subroutine read_smtk(text, samples, error)
@@ -91,7 +70,7 @@ contains
             return
          end if
          date = labels%value_of('Event Date & Time')
-         if (len(date) > 11) date = iso_date(date(:10), 'dmy')//'T'//date(12:)
+         if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)
          call metadata%set('date', date)
          station = labels%value_of('Station Code / Name')
          if (index(station, ' / ') > 0) station = station(:index(station, ' / ') - 1)

@@ -6,15 +6,12 @@ module dondolo_header_text
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : first_word, lower, to_text
+   use dondolo_text, only : blanks, first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: after, before, squeezed, moment_of, leading_number, parse_format, table_type, is_mark, check_not_missing
-
-   !> Blanks
-   character(len=*), parameter :: blanks = ' '//achar(9)
+   public :: after, before, squeezed, find_moment, leading_number, parse_format, table_type, is_mark, check_not_missing
 
    !> Digits
    character(len=*), parameter :: digits = '0123456789'
@@ -53,6 +50,18 @@ module dondolo_header_text
 
 contains
 
+   !> Length of what stands after a label
+   pure integer function after_length(line, label)
+      !> Header line, and label
+      character(len=*), intent(in) :: line, label
+
+      integer :: at
+
+      after_length = 0
+      at = index(lower(line), lower(label))
+      if (at > 0) after_length = len_trim(adjustl(line(at + len(label):)))
+   end function after_length
+
    !> What stands after a label, whatever its case
    pure function after(line, label) result(rest)
       !> Header line
@@ -60,14 +69,19 @@ contains
       !> Label
       character(len=*), intent(in) :: label
       !> The rest of the line without blanks around it, empty if the label is not there
-      character(len=:), allocatable :: rest
+      character(len=after_length(line, label)) :: rest
 
-      integer :: at
-
-      rest = ''
-      at = index(lower(line), lower(label))
-      if (at > 0) rest = trim(adjustl(line(at + len(label):)))
+      if (len(rest) > 0) rest = adjustl(line(index(lower(line), lower(label)) + len(label):))
    end function after
+
+   !> Length of what stands before a mark
+   pure integer function before_length(line, mark)
+      !> Header line, and mark
+      character(len=*), intent(in) :: line, mark
+
+      ! A mark that is not there, at 0, counts as one behind the end
+      before_length = len_trim(adjustl(line(:modulo(index(lower(line), lower(mark)) - 1, len(line) + 1))))
+   end function before_length
 
    !> What stands before a mark, whatever its case
    pure function before(line, mark) result(start)
@@ -76,25 +90,20 @@ contains
       !> Mark
       character(len=*), intent(in) :: mark
       !> The line up to the mark, without blanks around it; all of it if the mark is not there
-      character(len=:), allocatable :: start
+      character(len=before_length(line, mark)) :: start
 
-      integer :: at
-
-      at = index(lower(line), lower(mark))
-      if (at == 0) at = len(line) + 1
-      start = trim(adjustl(line(:at - 1)))
+      start = adjustl(line)
    end function before
 
-   !> A text with one blank in place of several
-   pure function squeezed(text)
+   !> A text with one blank in place of several, filled up with blanks
+   pure function with_single_blanks(text) result(buffer)
       !> Text
       character(len=*), intent(in) :: text
       !> The same without needless blanks
-      character(len=:), allocatable :: squeezed
+      character(len=len(text)) :: buffer
 
       integer :: i, length
       logical :: blank
-      character(len=len(text)) :: buffer
 
       length = 0
       blank = .true.
@@ -109,51 +118,63 @@ contains
          buffer(length:length) = text(i:i)
          if (blank) buffer(length:length) = ' '
       end do
-      squeezed = trim(buffer(:length))
+      buffer(length + 1:) = ' '
+   end function with_single_blanks
+
+   !> A text with one blank in place of several
+   pure function squeezed(text)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> The same without needless blanks
+      character(len=len_trim(with_single_blanks(text))) :: squeezed
+
+      squeezed = with_single_blanks(text)
    end function squeezed
 
    !> Date and time that a text begins with: 2005-06-16T20:53:26.1 of '06/16/2005, 20:53:26.1 UTC'
-   pure function moment_of(text) result(moment)
+   pure subroutine find_moment(text, moment)
       !> Text: a date, with the month first where the year is last, and perhaps a time
       character(len=*), intent(in) :: text
       !> The two as ISO 8601 has them, or the text where it begins with no date
-      character(len=:), allocatable :: moment
+      character(len=:), allocatable, intent(out) :: moment
 
       character(len=*), parameter :: separators = ' ,'//achar(9)
       character(len=:), allocatable :: date, time
 
       moment = first_word(text, separators)
       time = first_word(after(text, moment), separators)
-      date = iso_date(moment, 'mdy')
+      date = trim(iso_date(moment, 'mdy'))
       moment = squeezed(text)
       if (index(date, '-') /= 5 .or. index(date, '-', back=.true.) /= 8 .or. len(date) /= 10) return
       moment = date
       if (index(time, ':') > 0 .and. verify(time, digits//':.') == 0) moment = moment//'T'//time
-   end function moment_of
+   end subroutine find_moment
+
+   !> Length of the number that a text begins with
+   pure integer function number_length(text) result(length)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      real(wp) :: value
+      integer :: first
+      logical :: ok
+
+      first = max(verify(text, blanks), 1)
+      ! An exponent needs its digits: 35.908E is a longitude
+      do length = verify(text(first:)//blanks, digits//'+-.eEdD') - 1, 1, -1
+         call parse_real(text(first:first + length - 1), value, ok)
+         if (ok) return
+      end do
+   end function number_length
 
    !> Number that a text begins with, whatever follows it: 6.5 in '6.5(BRK)', 35.908 in '35.908N'
    pure function leading_number(text) result(number)
       !> Text
       character(len=*), intent(in) :: text
       !> The number as it is printed, empty if the text begins with none
-      character(len=:), allocatable :: number
+      character(len=number_length(text)) :: number
 
-      real(wp) :: value
-      integer :: first, last
-      logical :: ok
-
-      number = ''
-      first = verify(text, blanks)
-      if (first == 0) return
-      last = verify(text(first:), digits//'+-.eEdD')
-      if (last == 0) last = len(text) - first + 2
-      ! An exponent needs its digits: 35.908E is a longitude
-      do last = first + last - 2, first, -1
-         call parse_real(text(first:last), value, ok)
-         if (.not. ok) cycle
-         number = text(first:last)
-         return
-      end do
+      number = text(max(verify(text, blanks), 1):)
    end function leading_number
 
    !> Read a Fortran format of equal fields: (8F10.5), (1E15.6), (10I8), (1P8E10.3)
@@ -233,6 +254,31 @@ contains
       end do
    end subroutine check_not_missing
 
+   !> A number of a table as it is printed, filled up with blanks
+   pure function print_of(self, text, i) result(printed)
+      !> The table
+      class(table_type), intent(in) :: self
+      !> The file
+      type(text_file_type), intent(in) :: text
+      !> Which number
+      integer, intent(in) :: i
+      !> Its print, empty if it is not known
+      character(len=widest_field) :: printed
+
+      character(len=:), allocatable :: line
+      real(wp) :: value
+      integer :: first
+      logical :: ok
+
+      printed = ''
+      if (i > self%count) return
+      line = text%line(self%line_of(i))
+      first = min(modulo(i - 1, self%per_line)*self%width, len(line)) + 1
+      line = line(first:min(first + self%width - 1, len(line)))
+      call parse_real(line, value, ok)
+      if (ok .and. .not. is_mark(value, self%missing)) printed = adjustl(line)
+   end function print_of
+
    !> A number of a table as it is printed
    pure function field(self, text, i)
       !> The table
@@ -242,20 +288,9 @@ contains
       !> Which number
       integer, intent(in) :: i
       !> Its print, empty if it is not known
-      character(len=:), allocatable :: field
+      character(len=len_trim(print_of(self, text, i))) :: field
 
-      character(len=:), allocatable :: line
-      real(wp) :: value
-      integer :: first
-      logical :: ok
-
-      field = ''
-      if (i > self%count) return
-      line = text%line(self%line_of(i))
-      first = min(modulo(i - 1, self%per_line)*self%width, len(line)) + 1
-      line = line(first:min(first + self%width - 1, len(line)))
-      call parse_real(line, value, ok)
-      if (ok .and. .not. is_mark(value, self%missing)) field = trim(adjustl(line))
+      field = print_of(self, text, i)
    end function field
 
    !> A number of a table that is an integer

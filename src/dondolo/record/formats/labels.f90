@@ -5,6 +5,7 @@ module dondolo_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : raise_at, shown
+   use dondolo_text, only : stripped
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -28,7 +29,7 @@ module dondolo_labels
    contains
       !> Value of a key
       procedure :: value_of
-      !> Line of a key
+      !> Number of its line, 0 if there is none
       procedure :: line_of
       !> Positive integer of a key
       procedure :: get_count
@@ -77,6 +78,33 @@ contains
       labels%labels = found(:count)
    end subroutine read_labels
 
+   !> Number of the first label of a key, 0 if there is none
+   pure integer function find(self, key) result(i)
+      !> Labelled lines
+      class(labels_type), intent(in) :: self
+      !> Key
+      character(len=*), intent(in) :: key
+
+      do i = 1, size(self%labels)
+         if (self%labels(i)%key == key) return
+      end do
+      i = 0
+   end function find
+
+   !> Length of the value of a key
+   pure integer function value_length(self, key)
+      !> Labelled lines
+      class(labels_type), intent(in) :: self
+      !> Key
+      character(len=*), intent(in) :: key
+
+      integer :: i
+
+      value_length = 0
+      i = find(self, key)
+      if (i > 0) value_length = len(self%labels(i)%value)
+   end function value_length
+
    !> Value of a key
    pure function value_of(self, key) result(value)
       !> Labelled lines
@@ -84,35 +112,20 @@ contains
       !> Key
       character(len=*), intent(in) :: key
       !> Its value, empty if there is none
-      character(len=:), allocatable :: value
+      character(len=value_length(self, key)) :: value
 
-      integer :: i
-
-      value = ''
-      do i = 1, size(self%labels)
-         if (self%labels(i)%key /= key) cycle
-         value = self%labels(i)%value
-         return
-      end do
+      if (len(value) > 0) value = self%labels(find(self, key))%value
    end function value_of
 
    !> Line of a key
-   pure function line_of(self, key) result(line)
+   pure integer function line_of(self, key) result(line)
       !> Labelled lines
       class(labels_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
-      !> Number of its line, 0 if there is none
-      integer :: line
 
-      integer :: i
-
-      line = 0
-      do i = 1, size(self%labels)
-         if (self%labels(i)%key /= key) cycle
-         line = self%labels(i)%line
-         return
-      end do
+      line = find(self, key)
+      if (line > 0) line = self%labels(line)%line
    end function line_of
 
    !> Positive integer of a key
@@ -178,17 +191,5 @@ contains
          call metadata%set(self%labels(i)%key, self%labels(i)%value)
       end do
    end subroutine add_to
-
-   !> A text without the blanks and tabs around it
-   pure function stripped(text)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> The same without blanks around
-      character(len=:), allocatable :: stripped
-
-      character(len=*), parameter :: blanks = ' '//achar(9)
-
-      stripped = text(max(verify(text, blanks), 1):verify(text, blanks, back=.true.))
-   end function stripped
 
 end module dondolo_labels

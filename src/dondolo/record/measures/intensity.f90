@@ -7,7 +7,7 @@ module dondolo_intensity
    use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration
    use dondolo_error, only : error_type, raise_input
    use dondolo_ground_motion, only : peak_displacement, peak_velocity
-   use dondolo_kinds, only : wp
+   use dondolo_kinds, only : pi, wp
    use dondolo_numbers, only : parse_real
    use dondolo_record, only : record_type
    use dondolo_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
@@ -22,6 +22,14 @@ module dondolo_intensity
    character(len=12), parameter :: im_names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', &
       & 'd5-95', 'hi', 'sa(T)', 'saavg(T1:T2)']
 
+   !> The names without periods, the units of levels, and words
+   character(len=5), parameter :: kinds(10) = [character(len=5) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', 'd5-95', &
+      & 'hi', 'sa', 'saavg']
+   character(len=3), parameter :: units(10) = [character(len=3) :: 'g', 'm/s', 'm', 'm/s', 'm/s', 's', 's', 'm', 'g', 'g']
+   character(len=29), parameter :: titles(10) = [character(len=29) :: 'peak ground acceleration', 'peak ground velocity', &
+      & 'peak ground displacement', 'Arias intensity', 'cumulative absolute velocity', 'significant duration 5-75 %', &
+      & 'significant duration 5-95 %', 'Housner intensity', 'spectral acceleration', 'average spectral acceleration']
+
    !> What a message adds to the names
    character(len=*), parameter :: im_help = '; T in s, 0.01 to 20, such as ''sa(0.5)'' or ''saavg(0.2:2)'''
 
@@ -33,8 +41,6 @@ module dondolo_intensity
 
    !> Periods that an average takes
    integer, parameter :: averaged = 20
-
-   real(wp), parameter :: pi = 3.14159265358979323846264338327950288_wp
 
    !> An intensity measure
    type :: measure_type
@@ -195,56 +201,53 @@ contains
       end select
    end function level_size
 
+   !> Number of the kind of a measure
+   pure integer function kind_of(self)
+      !> The measure
+      class(measure_type), intent(in) :: self
+
+      kind_of = findloc(kinds == self%kind, .true., dim=1)
+   end function kind_of
+
+   !> Length of the unit
+   pure integer function unit_length(self)
+      !> The measure
+      class(measure_type), intent(in) :: self
+
+      unit_length = len_trim(units(kind_of(self)))
+   end function unit_length
+
    !> Unit of the levels
    pure function unit(self)
       !> The measure
       class(measure_type), intent(in) :: self
       !> Unit
-      character(len=:), allocatable :: unit
+      character(len=unit_length(self)) :: unit
 
-      select case (self%kind)
-      case ('pgd', 'hi')
-         unit = 'm'
-      case ('d5-75', 'd5-95')
-         unit = 's'
-      case ('pgv', 'arias', 'cav')
-         unit = 'm/s'
-      case default
-         unit = 'g'
-      end select
+      unit = units(kind_of(self))
    end function unit
+
+   !> What a measure is, in words filled up with blanks
+   pure function words_of(self) result(words)
+      !> The measure
+      class(measure_type), intent(in) :: self
+      !> Words
+      character(len=100) :: words
+
+      words = titles(kind_of(self))
+      if (self%kind == 'sa') words = trim(words)//' at '//to_text(self%periods(1))//' s'
+      if (self%kind == 'saavg') words = trim(words)//', '//to_text(self%periods(1))//' to '// &
+         & to_text(self%periods(size(self%periods)))//' s'
+   end function words_of
 
    !> What it is, in words
    pure function title(self)
       !> The measure
       class(measure_type), intent(in) :: self
       !> Words
-      character(len=:), allocatable :: title
+      character(len=len_trim(words_of(self))) :: title
 
-      title = ''
-      select case (self%kind)
-      case ('pga')
-         title = 'peak ground acceleration'
-      case ('pgv')
-         title = 'peak ground velocity'
-      case ('pgd')
-         title = 'peak ground displacement'
-      case ('arias')
-         title = 'Arias intensity'
-      case ('cav')
-         title = 'cumulative absolute velocity'
-      case ('d5-75')
-         title = 'significant duration 5-75 %'
-      case ('d5-95')
-         title = 'significant duration 5-95 %'
-      case ('hi')
-         title = 'Housner intensity'
-      case ('sa')
-         title = 'spectral acceleration at '//to_text(self%periods(1))//' s'
-      case ('saavg')
-         title = 'average spectral acceleration, '//to_text(self%periods(1))//' to '// &
-            & to_text(self%periods(size(self%periods)))//' s'
-      end select
+      title = words_of(self)
    end function title
 
    !> Power of a record's scale that the value grows by: 2 for an energy, 0 for a duration

@@ -7,7 +7,7 @@
 !> samples may exceed the largest so far, the turning point is found. After the record the oscillator swings freely, and
 !> that counts too.
 module dondolo_response_spectrum
-   use dondolo_kinds, only : wp
+   use dondolo_kinds, only : pi, wp
    use dondolo_record, only : record_type
    implicit none
    private
@@ -32,8 +32,6 @@ module dondolo_response_spectrum
 
    !> Oscillators that are stepped together
    integer, parameter :: lanes = 16
-
-   real(wp), parameter :: pi = 3.14159265358979323846264338327950288_wp
 
 contains
 

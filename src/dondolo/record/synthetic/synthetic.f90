@@ -8,7 +8,7 @@
 !> straight line of least squares is taken off, which makes the final velocity and displacement vanish.
 module dondolo_synthetic
    use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
+   use dondolo_kinds, only : pi, wp
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : new_record, record_type
    use dondolo_text, only : join, to_text
@@ -21,8 +21,6 @@ module dondolo_synthetic
    real(wp), parameter :: synthetic_dt = 0.005_wp
 
    !> Ratio of a circle's circumference to its diameter
-   real(wp), parameter :: pi = acos(-1.0_wp)
-
    !> Corner of the high-pass filter [Hz]
    real(wp), parameter :: corner = 0.1_wp
 
