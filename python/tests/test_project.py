@@ -151,7 +151,6 @@ def test_no_single_precision_at_the_boundary():
 
 #: Functions of `case` that are still to be rewritten; the list only becomes shorter.
 NOT_YET = {
-    "beside",
     "bound",
     "counts_of",
     "counts_path",
@@ -159,11 +158,7 @@ NOT_YET = {
     "fragility_row",
     "given",
     "history_row",
-    "in_line",
-    "not_a_number",
     "pack_counts",
-    "place",
-    "population_path",
     "quoted",
     "some_names",
     "stripes_row",

@@ -391,12 +391,20 @@ contains
       if (self%records_input%polarity == 'reversed') scale = -scale
    end function history_scale
 
+   !> Length of the path of the population
+   pure integer function path_length(self)
+      !> The case, its task 'typology'
+      class(case_type), intent(in) :: self
+
+      path_length = len(beside(self%population_file, self%file))
+   end function path_length
+
    !> Path of the population
    pure function population_path(self) result(path)
       !> The case, its task 'typology'
       class(case_type), intent(in) :: self
       !> Path, relative to the current folder
-      character(len=:), allocatable :: path
+      character(len=path_length(self)) :: path
 
       path = beside(self%population_file, self%file)
    end function population_path

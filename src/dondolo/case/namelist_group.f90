@@ -76,15 +76,48 @@ module dondolo_namelist_group
 
 contains
 
+   !> Length of the place
+   pure integer function place_length(self)
+      !> Group
+      class(group_type), intent(in) :: self
+
+      place_length = len(self%file//': &'//self%name)
+   end function place_length
+
    !> Where the group is, for messages
    pure function place(self)
       !> Group
       class(group_type), intent(in) :: self
       !> 'file: &group'
-      character(len=:), allocatable :: place
+      character(len=place_length(self)) :: place
 
       place = self%file//': &'//self%name
    end function place
+
+   !> Line of a variable, or else of the group; 0 where the file does not have the group
+   pure integer function line_of(self, name)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case; empty for the group
+      character(len=*), intent(in) :: name
+
+      integer :: i
+
+      line_of = self%line
+      i = position(self, name)
+      if (i > 0) line_of = self%variables(i)%line
+   end function line_of
+
+   !> Length of the text of in_line
+   pure integer function in_line_length(self, name)
+      !> Group
+      class(group_type), intent(in) :: self
+      !> Name in lower case; empty for the group
+      character(len=*), intent(in) :: name
+
+      in_line_length = 0
+      if (line_of(self, name) > 0) in_line_length = len(' (line '//to_text(line_of(self, name))//')')
+   end function in_line_length
 
    !> In which line a variable is, for the end of a message; the line of the group where the variable was not given
    pure function in_line(self, name) result(text)
@@ -93,15 +126,9 @@ contains
       !> Name in lower case; empty for the group
       character(len=*), intent(in) :: name
       !> ' (line 7)'; empty where the file does not have the group
-      character(len=:), allocatable :: text
+      character(len=in_line_length(self, name)) :: text
 
-      integer :: line, i
-
-      line = self%line
-      i = position(self, name)
-      if (i > 0) line = self%variables(i)%line
-      text = ''
-      if (line > 0) text = ' (line '//to_text(line)//')'
+      text = ' (line '//to_text(line_of(self, name))//')'
    end function in_line
 
    !> Put the place of what is wrong around the sentences of an error, each of which begins with the name of a variable
@@ -307,7 +334,7 @@ contains
       if (ok) then
          value = number
       else
-         call self%refuse(name, not_a_number(found), error)
+         call self%refuse(name, trim(not_a_number(found)), error)
       end if
    end subroutine get_real
 
@@ -363,7 +390,7 @@ contains
             call to_real(given(j), numbers(j), ok)
             if (.not. ok) then
                call raise_input(error, self%place()//': '//name//': value '//to_text(j)//' = '//given(j)%typed// &
-                  & ': '//not_a_number(given(j))//' (line '//to_text(given(j)%line)//')')
+                  & ': '//trim(not_a_number(given(j)))//' (line '//to_text(given(j)%line)//')')
                return
             end if
             if (j == 1) cycle
@@ -418,8 +445,8 @@ contains
    pure function not_a_number(value) result(allowed)
       !> Value
       type(value_type), intent(in) :: value
-      !> What is allowed
-      character(len=:), allocatable :: allowed
+      !> What is allowed, filled up with blanks
+      character(len=80) :: allowed
 
       real(wp) :: number
       logical :: ok

@@ -14,13 +14,10 @@ contains
       !> The file
       character(len=*), intent(in) :: file
       !> The path relative to the current folder, or absolute
-      character(len=:), allocatable :: resolved
+      character(len=len(path) + merge(0, index(file, '/', back=.true.), path(1:1) == '/')) :: resolved
 
-      if (path(1:1) == '/') then
-         resolved = path
-      else
-         resolved = file(:index(file, '/', back=.true.))//path
-      end if
+      resolved = path
+      if (path(1:1) /= '/') resolved = file(:index(file, '/', back=.true.))//path
    end function beside
 
 end module dondolo_paths
