@@ -111,7 +111,7 @@ contains
          associate (wall => walls(i)%wall)
             call multiple_stripe(stripes, wall, study, error)
             if (allocated(error)) return
-            kind = findloc(mechanism_names == wall%input%mechanism, .true., dim=1)
+            kind = findloc(mechanism_names == wall%mechanism_name(), .true., dim=1)
          end associate
          fingerprint%collapses(kind) = fingerprint%collapses(kind) + sum(stripes%collapses())
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)

@@ -46,9 +46,9 @@ contains
          do j = 1, size(heights)
             number = number + 1
             input = wall_input_type()
-            input%mechanism = trim(mechanism_names(i))
-            input%height = heights(j)
-            input%thickness = thicknesses(j)
+            call input%set('mechanism', trim(mechanism_names(i)))
+            call input%set('height', heights(j))
+            call input%set('thickness', thicknesses(j))
             call new_wall(members(number)%wall, input, error)
             if (allocated(error)) return
             members(number)%group = ''

@@ -14,7 +14,8 @@ module dondolo_plan
    use dondolo_run_case, only : plan_case
    use dondolo_run_population, only : find_start
    use dondolo_text, only : rounded, to_text
-   use dondolo_wall, only : wall_input_type, wall_type
+   use dondolo_wall, only : wall_type
+   use dondolo_wall_properties, only : wall_input_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : scale_warning_type, warn_of_records
@@ -111,7 +112,7 @@ contains
 
       integer :: width
 
-      width = min(max(4, len(wall%input%name)), name_width)
+      width = min(max(4, len(wall%name())), name_width)
       call print_head(width)
       call print_row(wall, width)
       write (output_unit, '(a)') ''
@@ -169,8 +170,8 @@ contains
       !> Width of the column of names
       integer, intent(in) :: width
 
-      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%input%name, width), &
-         & wall%input%mechanism, wall%input%height, wall%input%thickness, &
+      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
+         & wall%mechanism_name(), wall%input%number('height'), wall%input%number('thickness'), &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
          & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall%input))
    end subroutine print_row
@@ -182,17 +183,17 @@ contains
       !> Blanks and a few words, filled up with blanks; empty without a load
       character(len=160) :: text
 
-      real(wp) :: half
+      real(wp) :: half, eccentricity
 
       text = ''
-      if (.not. allocated(input%overburden)) return
-      if (.not. input%overburden > 0.0_wp) return
-      half = 0.5_wp*input%thickness
-      text = '  load '//rounded(input%overburden)//' N/m'
-      if (input%eccentricity < 0.0_wp) then
-         text = trim(text)//', '//rounded(half + input%eccentricity)//' m from the inner face, folding outwards'
-      else if (input%eccentricity > 0.0_wp) then
-         text = trim(text)//', '//rounded(half - input%eccentricity)//' m from the outer face, folding outwards'
+      if (.not. input%number('overburden') > 0.0_wp) return
+      half = 0.5_wp*input%number('thickness')
+      text = '  load '//rounded(input%number('overburden'))//' N/m'
+      eccentricity = input%number('eccentricity')
+      if (eccentricity < 0.0_wp) then
+         text = trim(text)//', '//rounded(half + eccentricity)//' m from the inner face, folding outwards'
+      else if (eccentricity > 0.0_wp) then
+         text = trim(text)//', '//rounded(half - eccentricity)//' m from the outer face, folding outwards'
       else
          text = trim(text)//', on the centreline'
       end if

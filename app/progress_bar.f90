@@ -11,8 +11,8 @@ module dondolo_progress_bar
 
    !> Clock and histories done when the first were heard of, and when the line was last shown: a callback of the library
    !> carries no data of its own
-   integer(int64), save :: clock_start = 0, clock_shown = 0
-   integer, save :: done_start = -1
+   integer(int64) :: clock_start = 0, clock_shown = 0
+   integer :: done_start = -1
 
 contains
 

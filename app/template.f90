@@ -1,72 +1,18 @@
-!> What --template prints: a commented case with every variable, its unit and its default, that runs as it is.
+!> What --template prints: a commented case with every variable, its meaning, its unit and its default, that runs as it is.
+!> It follows from the tables of properties.
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_solver, only : engine_names, solver_type
-   use dondolo_text, only : join, to_text
+   use dondolo_job_group, only : task_names
+   use dondolo_property, only : default_text, has_owner, is_text, number_of_choices, property_type
+   use dondolo_property_tables, only : property_table
+   use dondolo_text, only : join
    implicit none
    private
 
    public :: print_template
 
-   !> The wall
-   character(len=*), parameter :: wall_lines(*) = [character(len=118) :: &
-      & '&wall', &
-      & '   name = ''wall''               ! name in the results', &
-      & '   mechanism = ''one_sided''     ! required: ''one_sided'', ''free_standing'' or ''two_block''', &
-      & '   height = 3.0                ! required, m', &
-      & '   thickness = 0.25            ! required, m', &
-      & '   density = 1800.0            ! kg/m3', &
-      & '   restitution = ''default''     ! model: ''default'', ''sorrentino'', ''impulse'' or ''constant''', &
-      & '   ! restitution_value = 0.9   ! only with ''constant'': speed after / before an impact, 0 to 1', &
-      & '   restitution_factor = 1.0    ! factor on the model''s speed ratio', &
-      & '   ! hinge = 0.5               ! only two_block: height of the intermediate hinge / height of the wall', &
-      & '   ! overburden = 0.0          ! only two_block: vertical load on the top, N per metre of wall', &
-      & '   ! bearing = ''centre''        ! only two_block: where that load bears: ''inner'', ''outer'' or ''centre''', &
-      & '   ! bearing_distance = 0.06   ! its resultant from the inner or outer face, m: half the length that joists bear', &
-      & '   ! eccentricity = 0.0        ! or instead of both: from the centreline towards the active top hinge, m: the', &
-      & '                               ! outer face where the wall folds outwards, negative for an inner bearing', &
-      & '/']
-
-   !> The population
-   character(len=*), parameter :: population_lines(*) = [character(len=118) :: &
-      & '&population', &
-      & '   file = ''data/walls/population.csv''   ! required: one row a wall, from the folder', &
-      & '                                        ! of this file; put yours. Columns: name, mechanism,', &
-      & '                                        ! height, thickness, density, hinge, restitution,', &
-      & '                                        ! restitution_value, restitution_factor, overburden,', &
-      & '                                        ! bearing, bearing_distance or eccentricity (m, kg/m3,', &
-      & '                                        ! N/m), weight (default 1), group, p_occ (that the', &
-      & '                                        ! mechanism can occur, 0 to 1).', &
-      & '                                        ! Rows with one name are mechanisms of one wall', &
-      & '/']
-
-   !> The records
-   character(len=*), parameter :: records_lines(*) = [character(len=118) :: &
-      & '&records', &
-      & '   catalogue = ''data/records/synthetic44.csv''   ! required: one row a record, from the folder', &
-      & '                                                ! of this file; put yours. Columns: file, dt_s,', &
-      & '                                                ! units, channel, format, and any others', &
-      & '   polarity = ''as_recorded''                     ! ''as_recorded'', ''reversed'' or ''both'' (not history)', &
-      & '/']
-
-   !> The stripes
-   character(len=*), parameter :: stripes_lines(*) = [character(len=118) :: &
-      & '&stripes', &
-      & '   im = ''pga''                                    ! intensity measure; also ''sa(0.5)'', ''saavg(0.2:2)''', &
-      & '                                                 ! (periods in s; levels in g), ''pgv'', ''arias'', ''cav''', &
-      & '                                                 ! (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)', &
-      & '   levels = 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8    ! required: increasing, in the unit of im', &
-      & '   ! first = 0.1, last = 0.8, count = 8          ! or instead: equally spaced, both ends included', &
-      & '   ! edp_thresholds = 0.1, 0.4                   ! damage states before collapse, rotation / capacity', &
-      & '/']
-
-   !> The time history
-   character(len=*), parameter :: history_lines(*) = [character(len=118) :: &
-      & '&history', &
-      & '   record = 1         ! number in the catalogue from 1, or a record''s name in quotes', &
-      & '   scale = 1.0        ! factor on the record', &
-      & '   ! im_level = 0.4   ! or instead of scale: level to scale the record to, in the unit of &stripes im', &
-      & '/']
+   !> Longest line
+   integer, parameter :: width = 118
 
 contains
 
@@ -77,54 +23,156 @@ contains
 
       call print_line('! A case of dondolo. What is not marked as required may be left out; its default stands here.')
       call print_line('! Lists of texts are what is allowed. An exclamation mark begins a comment.')
-      call print_line('&job')
-      call print_line('   task = '''//task//''''//repeat(' ', 21 - len(task))// &
-         & '! ''stripes'', ''history'' or ''typology''; default ''stripes''')
-      call print_line('   title = ''''                    ! any text')
-      call print_line('   output = ''out/'//task//''''//repeat(' ', 15 - len(task))// &
-         & '! what the names of the result files begin with, relative to the current')
-      call print_line('                                 ! folder; default ''dondolo''')
-      if (task == 'typology') &
-         & call print_line('   histories = .false.           ! write the table of all histories too?')
-      call print_line('   threads = 0                   ! 0: all, or OMP_NUM_THREADS')
-      call print_line('/')
+      call print_group('job', task)
       if (task == 'typology') then
-         call print_lines(population_lines)
+         call print_group('population', task)
+         call print_columns()
       else
-         call print_lines(wall_lines)
+         call print_group('wall', task)
       end if
-      call print_lines(records_lines)
-      call print_lines(stripes_lines)
-      call print_solver()
-      if (task == 'history') call print_lines(history_lines)
+      call print_group('records', task)
+      call print_group('stripes', task)
+      call print_group('solver', task)
+      if (task == 'history') call print_group('history', task)
    end subroutine print_template
 
-   !> Print the group &solver, its defaults taken from where they are set
-   subroutine print_solver()
+   !> Print a group
+   subroutine print_group(name, task)
+      !> Name of the group
+      character(len=*), intent(in) :: name
+      !> Task
+      character(len=*), intent(in) :: task
 
-      type(solver_type) :: solver
+      type(property_type), allocatable :: table(:)
+      character(len=:), allocatable :: assignment, comment
+      integer :: i, pass, margin
 
-      call print_line('&solver')
-      call print_line('   engine = ''auto''      ! '//join(engine_names))
-      call print_line('   rtol = '//to_text(solver%rtol)//'          ! relative error of a step')
-      call print_line('   atol = '//to_text(solver%atol)//'         ! absolute error of a step, 1 = the capacity')
-      call print_line('   edp_limit = 1.0      ! rotation / capacity rotation that counts as collapse')
-      call print_line('   estimate_error = .false. ! .true.: how far is each EDP off? Takes two to three times as long')
-      call print_line('   gravity = 9.81       ! m/s2')
-      call print_line('/')
-   end subroutine print_solver
-
-   !> Print lines
-   subroutine print_lines(lines)
-      !> Lines
-      character(len=*), intent(in) :: lines(:)
-
-      integer :: i
-
-      do i = 1, size(lines)
-         call print_line(trim(lines(i)))
+      table = property_table(name)
+      call print_line('&'//name)
+      margin = 0
+      do pass = 1, 2
+         do i = 1, size(table)
+            if (.not. suits(table(i), task)) cycle
+            call make_assignment(table(i), task, assignment)
+            if (pass == 1) margin = max(margin, len(assignment) + 2)
+            if (pass == 1) cycle
+            call make_comment(table(i), comment)
+            call print_commented(assignment, comment, margin)
+         end do
       end do
-   end subroutine print_lines
+      call print_line('/')
+   end subroutine print_group
+
+   !> Does a property belong to a task, or to walls?
+   logical function suits(property, task)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Task
+      character(len=*), intent(in) :: task
+
+      suits = has_owner(property, task) .or. .not. any(property%owners(1) == task_names)
+   end function suits
+
+   !> A property and its value; behind an exclamation mark where it is not for the wall or the task as it stands
+   subroutine make_assignment(property, task, text)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Task
+      character(len=*), intent(in) :: task
+      !> `   name = value`
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=:), allocatable :: value
+
+      select case (property%name)
+      case ('task')
+         value = task
+      case ('output')
+         value = 'out/'//task
+      case default
+         call default_text(property, value)
+         if (len_trim(property%example) > 0) value = trim(property%example)
+      end select
+      if (property%kind == is_text) value = ''''//value//''''
+      text = trim(property%name)//' = '//value
+      if ((property%optional .and. len_trim(property%instead) == 0) .or. &
+         & .not. (has_owner(property, 'one_sided') .or. has_owner(property, task))) text = '! '//text
+      text = '   '//text
+   end subroutine make_assignment
+
+   !> What is said of a property
+   subroutine make_comment(property, comment)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Required or not, owners, meaning, unit, choices, and the default where the template shows another value
+      character(len=:), allocatable, intent(out) :: comment
+
+      character(len=:), allocatable :: default
+      integer :: count, i
+
+      comment = ''
+      if (property%required) comment = 'required: '
+      if (len_trim(property%instead) > 0) comment = 'required, or '//trim(property%instead)//': '
+      if (.not. any(property%owners(1) == task_names)) then
+         count = number_of_choices(property%owners)
+         do i = 1, count
+            comment = comment//trim(merge('only ', 'or   ', i == 1))//' '//trim(property%owners(i))
+            comment = comment//merge(': ', '  ', i == count)
+            if (i < count) comment = trim(comment)//' '
+         end do
+      end if
+      comment = comment//trim(property%meaning)
+      if (len_trim(property%unit) > 0) comment = comment//', '//trim(property%unit)
+      if (len_trim(property%zero) > 0 .and. index(property%meaning, '0:') == 0) &
+         & comment = comment//'; 0: '//trim(property%zero)
+      count = number_of_choices(property%choices)
+      if (count > 0) comment = comment//': '//join(property%choices(:count))
+      if (property%name /= 'task' .and. property%name /= 'output') return
+      call default_text(property, default)
+      comment = comment//'; default '''//default//''''
+   end subroutine make_comment
+
+   !> Print the columns of a population as comments
+   subroutine print_columns()
+
+      type(property_type), allocatable :: table(:)
+      character(len=:), allocatable :: comment
+      integer :: i, k
+
+      call print_line('! Columns of the table of walls, one row a mechanism of a wall:')
+      do k = 1, 2
+         table = property_table(trim(merge('wall  ', 'member', k == 1)))
+         do i = 1, size(table)
+            call make_comment(table(i), comment)
+            call print_commented('! '//trim(table(i)%name), comment, 26)
+         end do
+      end do
+      call print_line('! Rows with one name are mechanisms of one wall.')
+   end subroutine print_columns
+
+   !> Print a line with a comment, which goes on in the lines below where it is long
+   subroutine print_commented(text, comment, margin)
+      !> Beginning of the line
+      character(len=*), intent(in) :: text
+      !> Comment
+      character(len=*), intent(in) :: comment
+      !> Where the comment begins
+      integer, intent(in) :: margin
+
+      character(len=margin) :: start
+      integer :: first, last
+
+      start = text
+      first = 1
+      do while (first <= len(comment))
+         last = len(comment)
+         if (margin + 2 + last - first + 1 > width) last = first + index(comment(first:first + width - margin - 2), ' ', &
+            & back=.true.) - 2
+         call print_line(start//'! '//comment(first:last))
+         start = ''
+         first = last + 2
+      end do
+   end subroutine print_commented
 
    !> Print a line
    subroutine print_line(line)

@@ -123,21 +123,21 @@ def curves(study):
             f" {one.saturation:.4f}"
         )
     for mechanism in (*MECHANISMS, "all"):
-        fit = study.typology.fit(mechanism)
+        fit = study.typology[mechanism or "all"].fit
         print(f"standard error of ln theta, {mechanism}: fit {fit.se_ln_theta:.4f}")
         for what, events in (("one by one", None), ("in pairs of components", study.events)):
             errors = []
             for over in (("records",), ("walls",), ("records", "walls")):
-                samples = study.typology.bootstrap(SAMPLES, over=over, mechanism=mechanism, events=events)
+                samples = study.typology[mechanism].bootstrap(SAMPLES, over=over, events=events)
                 errors.append(f"{' and '.join(over)} {samples.se_ln_theta:.4f}")
             print(f"   bootstrap, records drawn {what}, over", ", ".join(errors))
-    low, high = study.typology.bootstrap(SAMPLES, events=study.events).mean_interval()
-    shares = study.typology.group().fractiles
+    low, high = study.typology["all"].bootstrap(SAMPLES, events=study.events).mean_interval()
+    shares = study.typology["all"].level_fractiles
     for level in (0.3, 0.5, 1.0):
         j = int(np.argmin(abs(LEVELS - level)))
         print(
-            f"{level} g: mean {study.typology.mean(level):.3f}, 95 % {low[j]:.3f} to {high[j]:.3f}; fractiles of the"
-            f" walls {shares[0, j]:.3f} {shares[1, j]:.3f} {shares[2, j]:.3f}"
+            f"{level} g: mean {study.typology['all'].mean(level):.3f}, 95 % {low[j]:.3f} to {high[j]:.3f};"
+            f" fractiles of the walls {shares[0, j]:.3f} {shares[1, j]:.3f} {shares[2, j]:.3f}"
         )
 
 
@@ -184,7 +184,7 @@ def sizes(study):
             f"{mechanism}: median of theta {median(theta, weights):.3f} g, of a0/p"
             f" {median(9.81 * trigger / p, weights):.3f} m/s, of theta/a0 {median(theta / trigger, weights):.2f};"
             f" ln theta = {coefficient[0]:.2f} + {coefficient[1]:.2f} ln a0 + {coefficient[2]:.2f} ln p,"
-            f" residual {spread:.3f} of {study.typology.group(mechanism).beta_walls:.3f}"
+            f" residual {spread:.3f} of {study.typology[mechanism].beta_walls:.3f}"
         )
 
 
@@ -192,11 +192,11 @@ def occurrence(study):
     """Print the influence of the probabilities of occurrence."""
     certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
     for what, typology in (("as assumed", study.typology), ("1 everywhere", certain)):
-        means = ", ".join(f"{typology.mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
-        frequency = dd.mean_annual_frequency(typology.mean, HAZARD).frequency
+        means = ", ".join(f"{typology['all'].mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
+        frequency = typology["all"].risk(HAZARD).frequency
         print(
-            f"p_occ {what}: {text(typology.fit())}, saturation {typology.group().saturation:.3f}; mean {means};"
-            f" {frequency:.3g} per year; the mean is 0.5 at {level_of(typology.mean, 0.5):.3f} g"
+            f"p_occ {what}: {text(typology['all'].fit)}, saturation {typology['all'].saturation:.3f}; mean {means};"
+            f" {frequency:.3g} per year; the mean is 0.5 at {level_of(typology['all'].mean, 0.5):.3f} g"
         )
 
 
@@ -236,11 +236,11 @@ def restitution(study):
     """Print curves for factors of the two-block rows and for constant speed ratios of the one-sided ones."""
     for factor in (0.84, 0.87, 0.90, 1.0):
         population = part("two_block", restitution_factor=factor)
-        print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS).fit())}")
-    print(f"one_sided, equation (2): {text(study.typology.fit('one_sided'))}")
+        print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS)['all'].fit)}")
+    print(f"one_sided, equation (2): {text(study.typology['one_sided'].fit)}")
     for value in (0.0, 0.3, 0.5, 0.7, 0.9):
         population = part("one_sided", restitution="constant", restitution_value=value)
-        print(f"one_sided, constant {value}: {text(study.run(f'constant_{value}', population, LEVELS).fit())}")
+        print(f"one_sided, constant {value}: {text(study.run(f'constant_{value}', population, LEVELS)['all'].fit)}")
 
 
 def intensities(study):
@@ -258,12 +258,12 @@ def intensities(study):
         typology = study.run(f"im_{im.replace('/', '_over_')}", centre, unit * reach, im=im)
         parts = []
         for mechanism in MECHANISMS:
-            one = typology.group(mechanism)
+            one = typology[mechanism]
             parts.append(
                 f"{mechanism} {text(one.fit)}, beta_walls {one.beta_walls:.3f}, beta_records {one.beta_records:.3f},"
                 f" total {one.beta_total:.3f}, fitted {one.fitted:.3f}"
             )
-        error = typology.bootstrap(SAMPLES, over="records", mechanism="one_sided").se_ln_theta
+        error = typology["one_sided"].bootstrap(SAMPLES, over="records").se_ln_theta
         print(f"{im}:", "; ".join(parts), f"; se over records, one_sided {error:.3f}")
 
 
@@ -291,8 +291,8 @@ def dependence(study):
             f" {off.max():.3f}"
         )
     independent, same, _, _ = combined(study, centre.p_occ)
-    check = np.abs(study.typology.mean_fraction - centre_mean(study, independent)).max()
-    fit = fitted(centre_mean(study, same), 44, study.typology.group().saturation)
+    check = np.abs(study.typology["all"].mean_fraction - centre_mean(study, independent)).max()
+    fit = fitted(centre_mean(study, same), 44, study.typology["all"].saturation)
     print(f"population, same record: {text(fit)}; check of the sums {check:.1e}")
 
 
@@ -330,22 +330,22 @@ def mixture(study):
     typology = study.typology
     x = np.linspace(0.01, 20.0, 2000)
     for mechanism in (*MECHANISMS, "all"):
-        one = typology.group(mechanism)
-        mean = typology.mean(x, mechanism)
+        one = typology[mechanism]
+        mean = typology[mechanism].mean(x)
         gap = one.fit(x) - mean
         places = [int(np.argmax(gap)), int(np.argmin(gap))]
         gaps = ", ".join(f"{gap[j]:+.3f} at {x[j]:.2f} g" for j in places)
         levels = ", ".join(
-            f"{level} g {typology.mean(level, mechanism):.4f} {one.fit(level):.4f}"
+            f"{level} g {typology[mechanism].mean(level):.4f} {one.fit(level):.4f}"
             for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
         print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
     for edp in typology.edp_thresholds:
         state = typology.at(edp)
-        gap = state.fit()(x) - state.mean(x)
+        gap = state["all"].fit(x) - state["all"].mean(x)
         print(f"EDP >= {edp:g}, all: curve - mean {gap.min():+.3f} to {gap.max():+.3f}")
     for mechanism in ("one_sided", "all"):
-        one = typology.group(mechanism)
+        one = typology[mechanism]
         for top in (6, 10, 15, 20):
             fit, raw = (fitted(one.mean_fraction, 44, share, top) for share in (one.saturation, 1.0))
             print(
@@ -402,9 +402,9 @@ def risk(study):
             curves = (functools.partial(state.mean, mechanism=mechanism), state.fit(mechanism))
             mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
             print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {curve:.4g}")
-    alone = dd.mean_annual_frequency(replace(study.typology.fit(), saturation=1.0), HAZARD).frequency
+    alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
-    one = dd.mean_annual_frequency(study.typology.mean, HAZARD)
+    one = study.typology["all"].risk(HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (0.2, 1.0), (1.0, 2.0), (2.0, 10.0)):
         print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.3f}")
     for years in (50.0, 475.0, 2475.0):
@@ -443,7 +443,7 @@ def draw_sets(ax, studies):
     for mechanism, color in zip(MECHANISMS, (style.RED, style.BLUE), strict=True):
         for (name, study), line in zip(studies.items(), ("-", "--"), strict=False):
             label = f"{mechanism.replace('_', '-')}, {name}"
-            ax.plot(x, study.typology.mean(x, mechanism), color=color, linestyle=line, label=label)
+            ax.plot(x, study.typology[mechanism].mean(x), color=color, linestyle=line, label=label)
     ax.set_xlabel(style.im_label("pga"))
     ax.set_ylabel("probability of collapse")
 
@@ -468,11 +468,11 @@ def draw_sizes(ax, typology):
 def draw_mixture(ax, typology):
     """Draw the mean curve of all mechanisms, saturation x lognormal, and a lognormal fitted without saturation."""
     x = np.linspace(0.0, 4.0, 201)
-    ax.plot(x, typology.mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
-    whole = typology.group()
+    ax.plot(x, typology["all"].mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
+    whole = typology["all"]
     label = f"lognormal times saturation {whole.saturation:.2f}"
     ax.plot(x, whole.fit(x), color=style.BLACK, linestyle="--", label=label)
-    raw = fitted(typology.mean_fraction, 44)
+    raw = fitted(typology["all"].mean_fraction, 44)
     ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
     ax.set_ylim(0.0, 1.02)
     ax.set_xlabel(style.im_label("pga"))

@@ -10,7 +10,7 @@
 !>     type(stripes_type) :: stripes
 !>     type(error_type), allocatable :: error
 !>
-!>     input%mechanism = 'one_sided'; input%height = 3.0_wp; input%thickness = 0.25_wp
+!>     call input%set('mechanism', 'one_sided'); call input%set('height', 3.0_wp); call input%set('thickness', 0.25_wp)
 !>     call new_wall(wall, input, error)
 !>     if (.not. allocated(error)) call read_catalogue('records.csv', records, error)
 !>     if (.not. allocated(error)) call new_scaling(scaling, 'pga', error)

@@ -8,8 +8,8 @@ module checks
 
    public :: suite, check, check_close, check_text, check_ok, check_error, skip, finish
 
-   integer, save :: passed = 0, failed = 0, skipped = 0
-   character(len=:), allocatable, save :: current
+   integer :: passed = 0, failed = 0, skipped = 0
+   character(len=:), allocatable :: current
 
 contains
 

@@ -10,7 +10,7 @@ module counting_mechanism
    public :: evaluations
 
    !> Evaluations so far; for one thread
-   integer(c_long), save :: evaluations = 0
+   integer(c_long) :: evaluations = 0
 
    !> A mechanism under another name, counted
    type, extends(mechanism_type) :: counting_type

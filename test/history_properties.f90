@@ -35,9 +35,9 @@ module history_properties
    real(wp), parameter :: largest_imbalance = 100.0_wp
 
    ! What the histories came to, for one line at the end
-   integer, save :: moved = 0, collapsed = 0, impacts = 0, balanced = 0, conditioned = 0, in_lanes = 0
-   real(wp), save :: most_work = 0.0_wp, worst_balance = 0.0_wp, worst_midpoints = 0.0_wp, slowest = 0.0_wp
-   real(wp), save :: most_lane_steps = 0.0_wp, worst_lanes = 0.0_wp
+   integer :: moved = 0, collapsed = 0, impacts = 0, balanced = 0, conditioned = 0, in_lanes = 0
+   real(wp) :: most_work = 0.0_wp, worst_balance = 0.0_wp, worst_midpoints = 0.0_wp, slowest = 0.0_wp
+   real(wp) :: most_lane_steps = 0.0_wp, worst_lanes = 0.0_wp
 
 contains
 
@@ -139,8 +139,9 @@ contains
       character(len=*), intent(in) :: what
 
       call check(is_same(response, again(-1.0_wp, -1.0_wp)), what//': record and polarity reversed')
-      if (history%wall%mechanism%two_sided) &
-         & call check(is_same(response, again(-1.0_wp, 1.0_wp)), what//': a two-sided wall is symmetric')
+      if (history%wall%mechanism%two_sided) then
+         call check(is_same(response, again(-1.0_wp, 1.0_wp)), what//': a two-sided wall is symmetric')
+      end if
       call check(is_same(response, again(64.0_wp, 1.0_wp/64.0_wp)), what//': record times 64, scale by 64')
       call check(is_same(response, again(1.0_wp/1024.0_wp, 1024.0_wp)), what//': record by 1024, scale times 1024')
 
@@ -189,8 +190,9 @@ contains
       call check(estimated%edp_error >= 0.0_wp .and. estimated%edp_error <= solver%edp_limit, &
          & what//': estimated error '//to_text(estimated%edp_error))
       call check(is_same(response, again(-1.0_wp, -1.0_wp)), what//': record and polarity reversed')
-      if (history%wall%mechanism%two_sided) &
-         & call check(is_same(response, again(-1.0_wp, 1.0_wp)), what//': a two-sided wall is symmetric')
+      if (history%wall%mechanism%two_sided) then
+         call check(is_same(response, again(-1.0_wp, 1.0_wp)), what//': a two-sided wall is symmetric')
+      end if
       call check(is_same(response, again(64.0_wp, 1.0_wp/64.0_wp)), what//': record times 64, scale by 64')
 
    contains

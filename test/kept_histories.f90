@@ -111,13 +111,13 @@ contains
          type(wall_input_type) :: input
          type(error_type), allocatable :: error
 
-         input%mechanism = mechanism
-         input%height = 3.0_wp
-         input%thickness = 0.25_wp
-         if (present(hinge)) input%hinge = hinge
+         call input%set('mechanism', mechanism)
+         call input%set('height', 3.0_wp)
+         call input%set('thickness', 0.25_wp)
+         if (present(hinge)) call input%set('hinge', hinge)
          if (present(restitution)) then
-            input%restitution = 'constant'
-            input%restitution_value = restitution
+            call input%set('restitution', 'constant')
+            call input%set('restitution_value', restitution)
          end if
          call new_wall(history%wall, input, error)
          call check_ok(error, trim(what))

@@ -40,12 +40,12 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
 
-      input%mechanism = mechanism
-      input%height = height
-      input%thickness = thickness
+      call input%set('mechanism', mechanism)
+      call input%set('height', height)
+      call input%set('thickness', thickness)
       if (present(restitution)) then
-         input%restitution = 'constant'
-         input%restitution_value = restitution
+         call input%set('restitution', 'constant')
+         call input%set('restitution_value', restitution)
       end if
       call new_wall(wall, input, error)
       call check_ok(error, 'wall')
@@ -66,12 +66,12 @@ contains
       case (3)
          wall = made('two_block', 3.0_wp, 0.25_wp)
       case default
-         input%mechanism = 'two_block'
-         input%height = 3.0_wp
-         input%thickness = 0.3_wp
-         input%hinge = 0.65_wp
-         input%overburden = 1.0e4_wp
-         input%eccentricity = 0.05_wp
+         call input%set('mechanism', 'two_block')
+         call input%set('height', 3.0_wp)
+         call input%set('thickness', 0.3_wp)
+         call input%set('hinge', 0.65_wp)
+         call input%set('overburden', 1.0e4_wp)
+         call input%set('eccentricity', 0.05_wp)
          call new_wall(wall, input, error)
          call check_ok(error, 'wall that carries a load')
       end select

@@ -67,8 +67,8 @@ EDITS = [
     # Bootstrap over records
     Edit(
         "bootstrap weights are not normalised for events of unequal size",
-        "times: FloatArray = drawn * (number / drawn.sum(axis=1, keepdims=True))",
-        "times: FloatArray = drawn * 1.0",
+        " = drawn * (number / drawn.sum(axis=1, keepdims=True))",
+        " = drawn * 1.0",
         "test_typology_bootstrap.py::test_events_of_unequal_size",
     ),
     Edit(
@@ -243,8 +243,8 @@ EDITS = [
     ),
     Edit(
         "rotation turns in the wrong sense",
-        "component: FloatArray = cosine * first + sine * second",
-        "component: FloatArray = cosine * first - sine * second",
+        " = cosine * first + sine * second",
+        " = cosine * first - sine * second",
         "test_processing.py::test_directions_of_a_line_and_a_circle",
     ),
     Edit(

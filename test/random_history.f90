@@ -85,29 +85,29 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
 
-      input%mechanism = trim(mechanism_names(choice(random, 3)))
-      input%height = across(random, 0.2_wp, 30.0_wp)
-      input%thickness = input%height/across(random, 2.0_wp, 60.0_wp)
-      if (input%mechanism == 'two_block') then
-         input%hinge = between(random, 0.05_wp, 0.95_wp)
-         if (choice(random, 2) == 1) input%overburden = across(random, 1.0_wp, 1.0e5_wp)
-         input%eccentricity = 0.5_wp*input%thickness
+      call input%set('mechanism', trim(mechanism_names(choice(random, 3))))
+      call input%set('height', across(random, 0.2_wp, 30.0_wp))
+      call input%set('thickness', input%number('height')/across(random, 2.0_wp, 60.0_wp))
+      if (input%word('mechanism') == 'two_block') then
+         call input%set('hinge', between(random, 0.05_wp, 0.95_wp))
+         if (choice(random, 2) == 1) call input%set('overburden', across(random, 1.0_wp, 1.0e5_wp))
+         call input%set('eccentricity', 0.5_wp*input%number('thickness'))
          select case (choice(random, 4))
          case (1)
-            input%eccentricity = -input%eccentricity
+            call input%set('eccentricity', -input%number('eccentricity'))
          case (2)
-            input%eccentricity = between(random, -1.0_wp, 1.0_wp)*input%eccentricity
+            call input%set('eccentricity', between(random, -1.0_wp, 1.0_wp)*input%number('eccentricity'))
          end select
       end if
       select case (choice(random, 6))
       case (1)
-         input%restitution = 'constant'
-         input%restitution_value = 0.0_wp
+         call input%set('restitution', 'constant')
+         call input%set('restitution_value', 0.0_wp)
       case (2)
-         input%restitution = 'constant'
-         input%restitution_value = 1.0_wp - across(random, 1.0e-4_wp, 1.0_wp)
+         call input%set('restitution', 'constant')
+         call input%set('restitution_value', 1.0_wp - across(random, 1.0e-4_wp, 1.0_wp))
       case default
-         input%restitution_factor = between(random, 0.5_wp, 1.0_wp)
+         call input%set('restitution_factor', between(random, 0.5_wp, 1.0_wp))
       end select
       call new_wall(wall, input, error)
       call check_ok(error, 'random wall')

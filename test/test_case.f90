@@ -13,7 +13,7 @@ program test_case
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
-   use dondolo_settings, only : settings_type
+   use dondolo_echo, only : echo_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type
@@ -154,7 +154,7 @@ contains
       call check_close(case%solver%gravity, 9.81_wp, 0.0_wp, 'gravity')
       call check_close(case%solver%solver%edp_limit, 1.0_wp, 0.0_wp, 'edp_limit')
       call check(.not. case%solver%solver%estimate_error, 'estimate_error')
-      call check_close(case%wall%input%density, 1800.0_wp, 0.0_wp, 'density')
+      call check_close(case%wall%input%number('density'), 1800.0_wp, 0.0_wp, 'density')
       call check_close(case%wall%mechanism%trigger_acceleration(), 9.81_wp/12.0_wp, 1.0e-14_wp, &
          & 'trigger')
       call write_file('a.nml', "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"// &
@@ -196,11 +196,11 @@ contains
       call check(size(members) == 3, 'walls')
       call check(all(members%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
       call check(all(members%p_occ == 1.0_wp) .and. .not. any(members%continues), 'mechanisms that can occur')
-      call check_text(members(2)%wall%input%name, 'wall 2', 'a name that is not given')
-      call check_text(members(3)%wall%input%name, 'a, b', 'a name with a comma')
+      call check_text(members(2)%wall%name(), 'wall 2', 'a name that is not given')
+      call check_text(members(3)%wall%name(), 'a, b', 'a name with a comma')
       call check_text(members(3)%group, '', 'no group')
-      call check_close(members(2)%wall%input%hinge, 0.6_wp, 0.0_wp, 'hinge')
-      call check(.not. allocated(members(1)%wall%input%hinge), 'an empty cell was not given')
+      call check_close(members(2)%wall%input%number('hinge'), 0.6_wp, 0.0_wp, 'hinge')
+      call check(.not. members(1)%wall%input%has('hinge'), 'an empty cell was not given')
       call check(members(2)%wall%mechanism%two_sided, 'mechanism')
       call read_population(scratch//'/walls.csv', members, error, gravity=5.0_wp)
       call check_close(members(1)%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
@@ -219,7 +219,7 @@ contains
    subroutine check_echo(content, what)
       character(len=*), intent(in) :: content, what
       type(case_type) :: case
-      type(settings_type) :: settings
+      type(echo_type) :: echo
       type(lines_type) :: first, second
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
@@ -229,8 +229,8 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_ok(error, what)
       if (allocated(error)) return
-      call case%echo(settings)
-      call settings%to_namelist(first)
+      call case%echo(echo)
+      call echo%to_namelist(first)
       text = ''
       do i = 1, first%count
          text = text//first%line(i)%text//lf
@@ -239,8 +239,8 @@ contains
       call read_case(scratch//'/b.nml', case, error)
       call check_ok(error, what//': the echo')
       if (allocated(error)) return
-      call case%echo(settings)
-      call settings%to_namelist(second)
+      call case%echo(echo)
+      call echo%to_namelist(second)
       call check(first%count == second%count, what//': lines of the echo')
       do i = 1, min(first%count, second%count)
          call check_text(second%line(i)%text, first%line(i)%text, what//': line '//to_text(i))

@@ -325,9 +325,9 @@ contains
          a(i) = (random%next() - 0.5_wp)
       end do
       records(1) = record_of(a, 0.01_wp)
-      input%mechanism = 'one_sided'
-      input%height = 2.0_wp
-      input%thickness = 0.3_wp
+      call input%set('mechanism', 'one_sided')
+      call input%set('height', 2.0_wp)
+      call input%set('thickness', 0.3_wp)
       call new_wall(wall, input, error)
       call check_ok(error, 'wall')
       level = 0.37_wp

@@ -140,8 +140,9 @@ contains
             ! A new peak only at the end, where the motion goes on to rise
             if (maxval(y) > max(before%peak(j), y(0), y(points)) .or. maxval(y) >= y_limit .or. &
                & (y(points) > before%peak(j) .and. y(points) > y(0) .and. &
-               & any(y(1:) < y(:points - 1) - 4.0_wp*epsilon(h)*maxval(y)))) &
-               & wrong(4) = wrong(4) + 1
+               & any(y(1:) < y(:points - 1) - 4.0_wp*epsilon(h)*maxval(y)))) then
+              wrong(4) = wrong(4) + 1
+            end if
             if (h == rest .neqv. lanes%next(j) == before%next(j) + 1) wrong(5) = wrong(5) + 1
             if (h == rest .and. (lanes%time(j) /= 0.0_wp .or. lanes%u(j) /= before%u_next(j))) wrong(5) = wrong(5) + 1
             if (abs(lanes%y(j) - y(points)) > 1.0e-13_wp*maxval(y)) wrong(5) = wrong(5) + 1

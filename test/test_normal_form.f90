@@ -100,8 +100,8 @@ contains
       type(wall_type), intent(in) :: wall
 
       least_slenderness = huge(1.0_wp)
-      if (allocated(wall%input%hinge)) least_slenderness = min(wall%input%hinge, 1.0_wp - wall%input%hinge) &
-         & *wall%input%height/wall%input%thickness
+      if (wall%input%has('hinge')) least_slenderness = min(wall%input%number('hinge'), 1.0_wp - wall%input%number('hinge')) &
+         & *wall%input%number('height')/wall%input%number('thickness')
    end function least_slenderness
 
    !> The rotation rises from 0 to the limit, and the integral of sqrt(J/J(0)) leads back to y

@@ -55,16 +55,16 @@ contains
       type(wall_type) :: wall
       type(wall_input_type) :: input
 
-      input%mechanism = mechanism
-      input%height = 3.0_wp
-      input%thickness = 0.25_wp
+      call input%set('mechanism', mechanism)
+      call input%set('height', 3.0_wp)
+      call input%set('thickness', 0.25_wp)
       select case (mechanism)
       case ('two_block')
-         input%hinge = 0.6_wp
-         input%restitution_factor = 0.87_wp
+         call input%set('hinge', 0.6_wp)
+         call input%set('restitution_factor', 0.87_wp)
       case ('free_standing')
-         input%height = 2.0_wp
-         input%thickness = 0.5_wp
+         call input%set('height', 2.0_wp)
+         call input%set('thickness', 0.5_wp)
       end select
       call new_wall(wall, input, error)
       call check_ok(error, mechanism)

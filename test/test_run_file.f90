@@ -7,7 +7,7 @@ program test_run_file
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_settings, only : settings_type
+   use dondolo_echo, only : echo_type
    use dondolo_warning, only : warning_type, warnings_type
    use dondolo_warning_sentence, only : warning_objects, warning_sentences
    implicit none
@@ -107,19 +107,19 @@ contains
    end subroutine check_sum
 
    subroutine test_settings()
-      type(settings_type) :: settings
+      type(echo_type) :: echo
       type(lines_type) :: lines
       type(json_type) :: json
       character(len=:), allocatable :: text
 
       call suite('settings')
-      call settings%add('job', 'title', 'It''s "one"')
-      call settings%add('job', 'threads', 2)
-      call settings%add('solver', 'rtol', 1.0e-8_wp)
-      call settings%add('solver', 'atol', 1.0e-10_wp, joins=.true.)
-      call settings%add('solver', 'estimate_error', .false.)
-      call settings%add('stripes', 'levels', [0.5_wp, 1.0_wp])
-      call settings%to_namelist(lines)
+      call echo%add('job', 'title', 'It''s "one"')
+      call echo%add('job', 'threads', 2)
+      call echo%add('solver', 'rtol', 1.0e-8_wp)
+      call echo%add('solver', 'atol', 1.0e-10_wp, joins=.true.)
+      call echo%add('solver', 'estimate_error', .false.)
+      call echo%add('stripes', 'levels', [0.5_wp, 1.0_wp])
+      call echo%to_namelist(lines)
       call check(lines%count == 5, 'lines')
       call check_text(lines%line(1)%text, '&job title = ''It''''s "one"''', 'a title')
       call check_text(lines%line(2)%text, '     threads = 2 /', 'the end of a group')
@@ -128,7 +128,7 @@ contains
       call check_text(lines%line(5)%text, '&stripes levels = 0.5, 1 /', 'a list')
       json = json_type(is_compact=.true.)
       call json%open_object()
-      call settings%to_json(json)
+      call echo%to_json(json)
       call json%close_object()
       call json%get(text)
       call check_text(text, '{"settings": {"job": {"title": "It''s \"one\"", "threads": 2}, "solver": {"rtol": 1e-8, '// &

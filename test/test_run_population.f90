@@ -306,7 +306,7 @@ contains
          fraction = 0.0_wp
          weight = 0.0_wp
          do i = 1, size(rows)
-            if (members(i)%wall%input%mechanism /= results%typologies(1, k)%mechanism) cycle
+            if (members(i)%wall%mechanism_name() /= results%typologies(1, k)%mechanism) cycle
             weight = weight + rows(i)%weight*rows(i)%p_occ
             fraction = fraction + rows(i)%weight*rows(i)%p_occ*real(rows(i)%reached(:, k), wp)/real(rows(i)%histories, wp)
          end do
@@ -344,7 +344,7 @@ contains
       end associate
       ! The first row can be run, no other can.
       members = members([1, (2, i=1, 7)])
-      members(2)%wall%input%name = 'the first'
+      members(2)%wall%name() = 'the first'
       do threads = 1, 4
          call run_some_rows(case, members, 1, rows, work, error, threads)
          call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')

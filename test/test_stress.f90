@@ -85,9 +85,9 @@ contains
       integer :: j, k
 
       random = new_random(20260101, 0)
-      input%mechanism = 'free_standing'
-      input%height = 2.0_wp
-      input%thickness = 0.5_wp
+      call input%set('mechanism', 'free_standing')
+      call input%set('height', 2.0_wp)
+      call input%set('thickness', 0.5_wp)
       call new_wall(wall, input, error)
       call check_ok(error, 'wall')
       do j = 1, 50

@@ -449,8 +449,9 @@ contains
       do k = 1, 3
          do i = 1, size(numbers)
             if (.not. weights(i) > 0.0_wp .or. numbers(i) >= found(k)) cycle
-            if (sum(weights, numbers <= numbers(i)) >= (fractile_shares(k) - 1.0e-12_wp)*sum(weights)) &
-               & found(k) = numbers(i)
+            if (sum(weights, numbers <= numbers(i)) >= (fractile_shares(k) - 1.0e-12_wp)*sum(weights)) then
+               found(k) = numbers(i)
+            end if
          end do
       end do
    end function sorted_fractiles
@@ -483,8 +484,9 @@ contains
          weights(1) = 0.5_wp
          ! Numbers with no more digits than real64
          numbers = real(real(numbers, real64), wp)
-         if (any(abs(fractiles_of(numbers, weights, bits) - sorted_fractiles(numbers, weights)) > 0.0_wp)) &
-            & wrong = wrong + 1
+         if (any(abs(fractiles_of(numbers, weights, bits) - sorted_fractiles(numbers, weights)) > 0.0_wp)) then
+            wrong = wrong + 1
+         end if
       end do
       call check(wrong == 0, to_text(wrong)//' of 300 samples differ from sorting')
    end subroutine test_fractiles_by_sorting

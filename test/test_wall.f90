@@ -37,9 +37,9 @@ contains
    function parapet() result(input)
       type(wall_input_type) :: input
 
-      input%mechanism = 'one_sided'
-      input%height = 3.0_wp
-      input%thickness = 0.25_wp
+      call input%set('mechanism', 'one_sided')
+      call input%set('height', 3.0_wp)
+      call input%set('thickness', 0.25_wp)
    end function parapet
 
    !> A two-block wall
@@ -47,10 +47,10 @@ contains
       real(wp), intent(in) :: height, thickness, hinge
       type(wall_input_type) :: input
 
-      input%mechanism = 'two_block'
-      input%height = height
-      input%thickness = thickness
-      input%hinge = hinge
+      call input%set('mechanism', 'two_block')
+      call input%set('height', height)
+      call input%set('thickness', thickness)
+      call input%set('hinge', hinge)
    end function strip
 
    subroutine test_single_block()
@@ -73,19 +73,19 @@ contains
       call check_close(wall%mechanism%trigger_acceleration()/g, 0.0833333333333333_wp, tight, 'trigger')
       call check(.not. wall%mechanism%two_sided, 'it rocks to one side')
       input = parapet()
-      input%mechanism = 'free_standing'
+      call input%set('mechanism', 'free_standing')
       wall = made(input)
       call check(wall%mechanism%two_sided, 'a free-standing wall rocks to both')
       call check_close(wall%mechanism%restitution, 0.989655172413793_wp, tight, 'free-standing: speed ratio')
       input = parapet()
-      input%height = 6.0_wp
-      input%thickness = 0.40_wp
+      call input%set('height', 6.0_wp)
+      call input%set('thickness', 0.40_wp)
       wall = made(input)
       call check_close(wall%mechanism%frequency_parameter(), 1.56431074267338_wp, tight, 'H = 6, t = 0.40: p')
       call check_close(wall%mechanism%restitution, 0.486835501338626_wp, tight, 'H = 6, t = 0.40: speed ratio')
       ! A squat wall would be pushed through its restraint: the impact is plastic.
-      input%height = 1.0_wp
-      input%thickness = 1.0_wp
+      call input%set('height', 1.0_wp)
+      call input%set('thickness', 1.0_wp)
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.0_wp, 0.0_wp, 'squat wall: speed ratio')
    end subroutine test_single_block
@@ -184,8 +184,8 @@ contains
       do m = 1, 3
          input = strip(3.0_wp, 0.3_wp, 0.65_wp)
          if (m == 1) input = parapet()
-         if (m == 3) input%overburden = 4.0e4_wp
-         if (m == 3) input%eccentricity = 0.05_wp
+         if (m == 3) call input%set('overburden', 4.0e4_wp)
+         if (m == 3) call input%set('eccentricity', 0.05_wp)
          wall = made(input)
          do i = 1, 9
             q = 0.1_wp*real(i, wp)*wall%mechanism%capacity
@@ -211,7 +211,7 @@ contains
       call suite('overburden')
       input = strip(3.0_wp, 0.25_wp, 0.6_wp)
       bare = made(input)
-      input%overburden = 2.0e4_wp
+      call input%set('overburden', 2.0e4_wp)
       wall = made(input)
       call wall%mechanism%terms(0.0_wp, j, c, gravity, l, load)
       ! At rest Q(0) = -N [2 b (1 + T) - (b - e) T] with T = 1.5, b = 0.125.
@@ -223,10 +223,10 @@ contains
       call check_close(gravity - load, 0.0_wp, 0.0_wp, 'G - Q at the capacity', 1.0e-9_wp)
       call check_close(wall%mechanism%frequency_parameter()**2, &
          & wall%mechanism%trigger_acceleration()*1215.0_wp/(1584.5625_wp*sin(wall%mechanism%capacity)), tight, 'p^2')
-      input%eccentricity = 0.125_wp
+      call input%set('eccentricity', 0.125_wp)
       wall = made(input)
       call check_close(wall%mechanism%capacity, wall%alpha, 0.0_wp, 'load on the hinge: capacity')
-      input%overburden = 0.0_wp
+      call input%set('overburden', 0.0_wp)
       wall = made(input)
       call check_terms(wall, 0.0_wp, [1584.5625_wp, -717.5390625_wp, 3310.875_wp, 1215.0_wp])
    end subroutine test_overburden
@@ -238,37 +238,37 @@ contains
 
       call suite('bearing')
       input = strip(3.0_wp, 0.25_wp, 0.6_wp)
-      input%overburden = 8.0e3_wp
-      input%bearing = 'inner'
-      input%bearing_distance = 0.06_wp
+      call input%set('overburden', 8.0e3_wp)
+      call input%set('bearing', 'inner')
+      call input%set('bearing_distance', 0.06_wp)
       wall = made(input)
-      call check_close(wall%input%eccentricity, -0.065_wp, tight, 'inner face')
-      call check(.not. (allocated(wall%input%bearing) .or. allocated(wall%input%bearing_distance)), 'one form is kept')
-      input%bearing = 'outer'
+      call check_close(wall%input%number('eccentricity'), -0.065_wp, tight, 'inner face')
+      call check(.not. (wall%input%has('bearing') .or. wall%input%has('bearing_distance')), 'one form is kept')
+      call input%set('bearing', 'outer')
       wall = made(input)
-      call check_close(wall%input%eccentricity, 0.065_wp, tight, 'outer face')
-      input%bearing_distance = 0.0_wp
+      call check_close(wall%input%number('eccentricity'), 0.065_wp, tight, 'outer face')
+      call input%set('bearing_distance', 0.0_wp)
       wall = made(input)
       call check_close(wall%mechanism%capacity, wall%alpha, 0.0_wp, 'on the outer edge: on the hinge')
-      input%eccentricity = 0.0_wp
+      call input%set('eccentricity', 0.0_wp)
       call refuse(input, 'eccentricity = 0: give either eccentricity or bearing and bearing_distance')
-      deallocate (input%eccentricity)
-      input%bearing_distance = 0.3_wp
+      call input%clear('eccentricity')
+      call input%set('bearing_distance', 0.3_wp)
       call refuse(input, 'bearing_distance = 0.3: must lie between 0 and 0.25 (the thickness)')
-      input%bearing = 'inside'
+      call input%set('bearing', 'inside')
       call refuse(input, 'bearing = ''inside'': must be one of ''inner'', ''outer'', ''centre''')
-      input%bearing = 'centre'
+      call input%set('bearing', 'centre')
       call refuse(input, 'bearing_distance = 0.3: not with bearing = ''centre'', measure it from a face')
-      deallocate (input%bearing)
+      call input%clear('bearing')
       call refuse(input, 'bearing_distance = 0.3: only with bearing = ''inner'' or ''outer''')
-      deallocate (input%bearing_distance)
-      input%bearing = 'outer'
+      call input%clear('bearing_distance')
+      call input%set('bearing', 'outer')
       call refuse(input, 'bearing_distance: must be given with bearing = ''outer''')
-      input%bearing = 'centre'
+      call input%set('bearing', 'centre')
       wall = made(input)
-      call check_close(wall%input%eccentricity, 0.0_wp, 0.0_wp, 'centreline')
+      call check_close(wall%input%number('eccentricity'), 0.0_wp, 0.0_wp, 'centreline')
       input = parapet()
-      input%bearing = 'centre'
+      call input%set('bearing', 'centre')
       call refuse(input, 'bearing = ''centre'': only for mechanism = ''two_block''')
    end subroutine test_bearing
 
@@ -278,20 +278,20 @@ contains
 
       call suite('models of restitution')
       input = strip(3.0_wp, 0.25_wp, 0.6_wp)
-      input%restitution = 'impulse'
-      input%restitution_factor = 0.87_wp
+      call input%set('restitution', 'impulse')
+      call input%set('restitution_factor', 0.87_wp)
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.87_wp*0.85356762513312_wp, tight, 'factor on impulse')
-      input%restitution = 'constant'
-      input%restitution_value = 0.5_wp
+      call input%set('restitution', 'constant')
+      call input%set('restitution_value', 0.5_wp)
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.435_wp, tight, 'factor on constant')
       input = parapet()
-      input%restitution = 'sorrentino'
+      call input%set('restitution', 'sorrentino')
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.479576776415597_wp, tight, 'one-sided, by name')
-      input%restitution = 'constant'
-      input%restitution_value = 0.0_wp
+      call input%set('restitution', 'constant')
+      call input%set('restitution_value', 0.0_wp)
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.0_wp, 0.0_wp, 'plastic')
    end subroutine test_restitution_models
@@ -302,56 +302,56 @@ contains
       call suite('wrong input')
       call refuse(input, 'mechanism: must be given, one of ''one_sided'', ''free_standing'', ''two_block''')
       input = parapet()
-      input%mechanism = 'three_block'
+      call input%set('mechanism', 'three_block')
       call refuse(input, 'mechanism = ''three_block'': must be one of ''one_sided'', ''free_standing'', ''two_block''')
       input = parapet()
-      deallocate(input%height)
+      call input%clear('height')
       call refuse(input, 'height: must be given')
       input = parapet()
-      input%thickness = -0.25_wp
+      call input%set('thickness', -0.25_wp)
       call refuse(input, 'thickness = -0.25: must be positive')
       input = parapet()
-      input%density = 0.0_wp
+      call input%set('density', 0.0_wp)
       call refuse(input, 'density = 0: must be positive')
       input = parapet()
-      input%height = 1.0e5_wp
+      call input%set('height', 1.0e5_wp)
       call refuse(input, 'height = 100000: must lie between 0.001 and 1000')
       input = parapet()
-      input%hinge = 0.5_wp
+      call input%set('hinge', 0.5_wp)
       call refuse(input, 'hinge = 0.5: only for mechanism = ''two_block''')
       input = parapet()
-      input%overburden = 100.0_wp
+      call input%set('overburden', 100.0_wp)
       call refuse(input, 'overburden = 100: only for mechanism = ''two_block''')
       input = parapet()
-      input%restitution = 'impulse'
+      call input%set('restitution', 'impulse')
       call refuse(input, 'restitution = ''impulse'': must be one of ''default'', ''sorrentino'', ''constant''')
-      input%restitution = 'elastic'
+      call input%set('restitution', 'elastic')
       call refuse(input, 'restitution = ''elastic'': must be one of ''default'', ''sorrentino'', ''constant''')
-      input%mechanism = 'free_standing'
-      input%restitution = 'sorrentino'
+      call input%set('mechanism', 'free_standing')
+      call input%set('restitution', 'sorrentino')
       call refuse(input, 'restitution = ''sorrentino'': must be one of ''default'', ''impulse'', ''constant''')
-      input%restitution = 'constant'
+      call input%set('restitution', 'constant')
       call refuse(input, 'restitution_value: must be given with restitution = ''constant''')
-      input%restitution_value = 1.0_wp
+      call input%set('restitution_value', 1.0_wp)
       call refuse(input, 'restitution_value = 1: must be at least 0 and less than 1')
-      input%restitution = 'default'
-      input%restitution_value = 0.5_wp
+      call input%set('restitution', 'default')
+      call input%set('restitution_value', 0.5_wp)
       call refuse(input, 'restitution_value = 0.5: only with restitution = ''constant''')
-      deallocate(input%restitution_value)
-      input%restitution_factor = 1.1_wp
+      call input%clear('restitution_value')
+      call input%set('restitution_factor', 1.1_wp)
       call refuse(input, 'must be less than 1')
-      input%restitution_factor = -1.0_wp
+      call input%set('restitution_factor', -1.0_wp)
       call refuse(input, 'restitution_factor = -1: must be positive')
       input = strip(3.0_wp, 0.25_wp, 1.0_wp)
       call refuse(input, 'hinge = 1: must lie between 0.01 and 0.99')
       input = strip(3.0_wp, 0.25_wp, 0.5_wp)
-      input%eccentricity = 0.2_wp
+      call input%set('eccentricity', 0.2_wp)
       call refuse(input, 'eccentricity = 0.2: must lie between -0.125 and 0.125')
-      input%overburden = -1.0_wp
+      call input%set('overburden', -1.0_wp)
       call refuse(input, 'overburden = -1: must lie between 0 and')
       call refuse(input, new_line('a')//'eccentricity = 0.2: must lie between -0.125 and 0.125')
-      input%thickness = -0.25_wp
-      deallocate (input%height)
+      call input%set('thickness', -0.25_wp)
+      call input%clear('height')
       call refuse(input, 'height: must be given'//new_line('a')//'thickness = -0.25: must be positive'// &
          & new_line('a')//'overburden = -1: must lie between 0 and')
    end subroutine test_wrong_input

@@ -25,6 +25,7 @@ from dondolo.analysis.plots import (
     plot_overturning_spectrum,
     plot_stripes,
 )
+from dondolo.analysis.plots_cloud import plot_cloud, plot_incremental
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.analysis.work import Work
@@ -38,9 +39,10 @@ from dondolo.exchange.mean_functions import nrml_functions
 from dondolo.exchange.nrml import DiscreteFragility, write_nrml
 from dondolo.exchange.results import StoredResults, read_results
 from dondolo.populations.bootstrap import TypologyBootstrap
+from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
 from dondolo.populations.study import typology
-from dondolo.populations.typology import Group, Typology
+from dondolo.populations.typology import Typology
 from dondolo.records.intensity import Spectrum, intensity_table, response_spectrum
 from dondolo.records.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
 from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
@@ -49,7 +51,7 @@ from dondolo.records.synthetic import synthetic_records
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.plots import plot_cloud, plot_incremental, plot_risk
+from dondolo.risk.plots import plot_risk
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.walls.plots import plot_population
 from dondolo.walls.population import Population, read_population
@@ -84,6 +86,7 @@ __all__ = [
     "OneSidedWall",
     "OverturningSpectrum",
     "Population",
+    "PopulationCurve",
     "Record",
     "Regression",
     "Response",

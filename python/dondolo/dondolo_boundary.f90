@@ -11,12 +11,14 @@ module dondolo_boundary
    use dondolo_mechanism, only : mechanism_type
    use dondolo_memory, only : check_memory => check_room, raise_shortage
    use dondolo_population, only : member_type
+   use dondolo_property, only : is_text
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_response_spectrum, only : largest_period, smallest_period
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
-   use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
    implicit none
@@ -26,9 +28,6 @@ module dondolo_boundary
    public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_rotations, &
       & check_spectrum, check_room, check_parcel, check_trace, check_interrupt
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
-
-   !> Numbers of a wall, in this order in all flat arrays
-   integer, parameter, public :: wall_numbers = 8
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
@@ -324,94 +323,63 @@ contains
    end subroutine check_rotations
 
    !> Make walls
-   subroutine set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
+   subroutine set_walls(walls, texts, numbers, given, gravity, error)
       !> The walls
       type(wall_type), intent(out) :: walls(:)
-      !> Three lines a wall: name, mechanism, restitution; empty: not given
+      !> A line for each text of a wall, in the order of the table of properties; empty: not given
       character(len=*), intent(in) :: texts
-      !> height, thickness, density, hinge, restitution_value, restitution_factor, overburden, eccentricity
+      !> Numbers of each wall, in the order of the table (numbers, walls)
       real(c_double), intent(in) :: numbers(:, :)
-      !> 1 where the number was given
+      !> 1 where the number was given (numbers, walls)
       integer(c_int), intent(in) :: given(:, :)
       !> Gravity [m/s2]
       real(c_double), intent(in) :: gravity(:)
       !> The first thing that is wrong
       type(error_type), allocatable, intent(out) :: error
-      !> A line a wall: where its load bears; empty: not given
-      character(len=*), intent(in), optional :: bearings
-      !> Distance of the load from its face [m]
-      real(c_double), intent(in), optional :: distances(:)
-      !> 1 where that distance was given
-      integer(c_int), intent(in), optional :: measured(:)
 
       type(wall_input_type) :: input
-      character(len=:), allocatable :: bearing
-      integer :: i, at, line
+      character(len=:), allocatable :: text
+      integer :: i, k, at, number
 
+      if (size(numbers, 1) /= wall_numbers .or. size(given, 1) /= wall_numbers) then
+         call raise_input(error, 'walls: '//to_text(size(numbers, 1))//' numbers each: must be '//to_text(wall_numbers))
+         return
+      end if
       at = 1
-      line = 1
       do i = 1, size(walls)
          input = wall_input_type()
-         call set_text(input%name)
-         call set_text(input%mechanism)
-         call set_text(input%restitution)
-         call set_number(input%height, 1)
-         call set_number(input%thickness, 2)
-         call set_number(input%density, 3)
-         call set_number(input%hinge, 4)
-         call set_number(input%restitution_value, 5)
-         call set_number(input%restitution_factor, 6)
-         call set_number(input%overburden, 7)
-         call set_number(input%eccentricity, 8)
-         if (present(bearings)) then
-            call next_line(bearings, line, bearing)
-            if (len(bearing) > 0) input%bearing = bearing
-            if (measured(i) /= 0) input%bearing_distance = distances(i)
-         end if
+         number = 0
+         do k = 1, size(wall_properties)
+            associate (property => wall_properties(k))
+               if (property%kind == is_text) then
+                  call next_line(texts, at, text)
+                  if (len(text) > 0) call input%set(property%name, text)
+               else
+                  number = number + 1
+                  if (given(number, i) /= 0) call input%set(property%name, numbers(number, i))
+               end if
+            end associate
+         end do
          call new_wall(walls(i), input, error, gravity(i))
          if (.not. allocated(error)) cycle
-         if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
+         if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%name()//'''')
          return
       end do
-
-   contains
-
-      !> Set a text to the next line, if it was given
-      subroutine set_text(variable)
-         !> The variable
-         character(len=:), allocatable, intent(inout) :: variable
-
-         character(len=:), allocatable :: text
-
-         call next_line(texts, at, text)
-         if (len(text) > 0) call move_alloc(text, variable)
-      end subroutine set_text
-
-      !> Set a number that was given
-      subroutine set_number(variable, k)
-         !> The variable
-         real(c_double), allocatable, intent(inout) :: variable
-         !> Its place among the numbers
-         integer, intent(in) :: k
-
-         if (given(k, i) /= 0) variable = numbers(k, i)
-      end subroutine set_number
-
    end subroutine set_walls
 
    !> Walls as they were understood: names, numbers and static quantities
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: a wall's 8 given, two_sided; reals: its 8 numbers, gravity, R, alpha, p, trigger, q_c, e;
-      !> text: its three lines
+      !> Integers: a wall's numbers given, two_sided; reals: its numbers, gravity, R, alpha, p, trigger, q_c, e; text: its
+      !> texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
       integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = wall_numbers + 7
       type(lines_type) :: lines
       integer(c_int), allocatable :: integers(:, :)
       real(c_double), allocatable :: reals(:, :)
-      integer :: i
+      integer :: i, k, number
 
       if (.not. allocated(parcel%integers)) allocate (parcel%integers(0))
       if (.not. allocated(parcel%reals)) allocate (parcel%reals(0))
@@ -419,41 +387,27 @@ contains
       allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)))
       do i = 1, size(walls)
          associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
-            call get_number(1, input%height)
-            call get_number(2, input%thickness)
-            call get_number(3, input%density)
-            call get_number(4, input%hinge)
-            call get_number(5, input%restitution_value)
-            call get_number(6, input%restitution_factor)
-            call get_number(7, input%overburden)
-            call get_number(8, input%eccentricity)
+            number = 0
+            do k = 1, size(wall_properties)
+               associate (property => wall_properties(k))
+                  if (property%kind == is_text) then
+                     call lines%add(input%word(property%name))
+                  else
+                     number = number + 1
+                     integers(number, i) = merge(1, 0, input%has(property%name))
+                     reals(number, i) = input%number(property%name)
+                  end if
+               end associate
+            end do
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
             reals(wall_numbers + 1:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
                & mechanism%restitution]
-            call lines%add(input%name)
-            call lines%add(input%mechanism)
-            call lines%add(input%restitution)
          end associate
       end do
       parcel%integers = [parcel%integers, integers]
       parcel%reals = [parcel%reals, reals]
       parcel%text = parcel%text//pack_lines(lines)
-
-   contains
-
-      !> Put a number among the others
-      subroutine get_number(k, variable)
-         !> Its place
-         integer, intent(in) :: k
-         !> The number; not allocated: it does not apply
-         real(c_double), allocatable, intent(in) :: variable
-
-         integers(k, i) = merge(1, 0, allocated(variable))
-         reals(k, i) = 0.0_c_double
-         if (allocated(variable)) reals(k, i) = variable
-      end subroutine get_number
-
    end subroutine pack_walls
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their

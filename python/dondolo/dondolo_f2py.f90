@@ -1,7 +1,8 @@
 ! The one boundary between Fortran and Python: all that f2py reads.
 !
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
-! A wall is three lines of text (name, mechanism, restitution), 8 numbers with a mask of those given, and gravity;
+! A wall is its properties in the order of their table (dondolo_wall_properties): a line for each text, q numbers with a
+! mask of those given; and gravity;
 ! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
 ! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that call
 ! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
@@ -28,6 +29,43 @@ subroutine constants(defaults, version, statuses)
       statuses = trim(statuses)//' '//status_names(i)
    end do
 end subroutine constants
+
+! The table of properties of a group, one of table_names; a line for each, its entries separated by tabs
+! (describe_property)
+subroutine properties(group, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_lines, only : lines_type
+   use dondolo_property, only : describe_property, property_type
+   use dondolo_property_tables, only : property_table, table_names
+   use dondolo_text, only : join
+   implicit none
+   character(len=*), intent(in) :: group
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(property_type), allocatable :: table(:)
+   type(lines_type) :: lines
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   character(len=:), allocatable :: line
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   table = property_table(group)
+   do i = 1, size(table)
+      call describe_property(table(i), line)
+      call lines%add(line)
+   end do
+   if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
+   if (.not. allocated(error)) then
+      parcel%text = pack_lines(lines)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine properties
 
 ! Build variant that the engine lanes runs; the environment may change it from call to call
 subroutine variant(name, stat, message)
@@ -84,17 +122,16 @@ subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    call take(handle, integers, reals, characters)
 end subroutine take_parcel
 
-! Walls with their defaults filled in and their static quantities, as pack_walls has them. Here alone a load can be given
-! by its bearing, a line a wall, and its distance, with a mask of those given: they become the eccentricity
-subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, measured, w, handle, sizes, stat, message)
+! Walls with their defaults filled in and their static quantities, as pack_walls has them
+subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_room, pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
-   character(len=*), intent(in) :: texts, bearings
-   integer(c_int), intent(in) :: w, given(8, w), measured(w)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), distances(w)
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -107,7 +144,7 @@ subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, m
    call check_room(error, walls=w)
    if (.not. allocated(error)) then
       allocate (walls(w))
-      call set_walls(walls, texts, numbers, given, gravity, error, bearings, distances, measured)
+      call set_walls(walls, texts, numbers, given, gravity, error)
    end if
    if (.not. allocated(error)) then
       call pack_walls(walls, parcel)
@@ -117,7 +154,7 @@ subroutine describe_walls(texts, numbers, given, gravity, bearings, distances, m
 end subroutine describe_walls
 
 ! Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
-subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, message)
+subroutine wall_terms(texts, numbers, given, q, gravity, rotation, n, terms, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : check_rotations, report, set_walls
    use dondolo_error, only : error_type
@@ -125,8 +162,8 @@ subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, 
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: n, given(8)
-   real(c_double), intent(in) :: numbers(8), gravity, rotation(n)
+   integer(c_int), intent(in) :: q, n, given(q)
+   real(c_double), intent(in) :: numbers(q), gravity, rotation(n)
    real(c_double), intent(out) :: terms(n, 6)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
@@ -135,7 +172,7 @@ subroutine wall_terms(texts, numbers, given, gravity, rotation, n, terms, stat, 
    integer :: i
 
    terms = 0
-   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
    if (.not. allocated(error)) call check_rotations(walls(1)%mechanism, rotation, error)
    if (.not. allocated(error)) then
       associate (mechanism => walls(1)%mechanism)
@@ -517,7 +554,7 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
 end subroutine read_walls
 
 ! What the executable would warn of, of a wall and a record, before it runs one motion
-subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, sizes, stat, message)
+subroutine warn_of_motion(texts, numbers, given, q, gravity, record, pga, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
@@ -528,8 +565,8 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
    use dondolo_warnings, only : warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, record
-   integer(c_int), intent(in) :: given(8)
-   real(c_double), intent(in) :: numbers(8), gravity, pga
+   integer(c_int), intent(in) :: q, given(q)
+   real(c_double), intent(in) :: numbers(q), gravity, pga
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -542,7 +579,7 @@ subroutine warn_of_motion(texts, numbers, given, gravity, record, pga, handle, s
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
    if (.not. allocated(error)) then
       call oddities%look(walls(1))
       call oddities%warn(warnings)
@@ -560,7 +597,7 @@ end subroutine warn_of_motion
 
 ! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
 ! side and whether it is just after an impact
-subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
+subroutine simulate(texts, numbers, given, q, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_trace, pack_response, parcel_type, report, &
@@ -575,8 +612,8 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts, name, engine
-   integer(c_int), intent(in) :: n, given(8), history
-   real(c_double), intent(in) :: numbers(8), gravity, acceleration(n), dt, scale, settings(5)
+   integer(c_int), intent(in) :: q, n, given(q), history
+   real(c_double), intent(in) :: numbers(q), gravity, acceleration(n), dt, scale, settings(5)
    real(c_double), intent(out) :: edp, time_of_peak, edp_error
    integer(c_int), intent(out) :: collapsed, impacts
    integer(c_intptr_t), intent(out) :: handle
@@ -593,7 +630,7 @@ subroutine simulate(texts, numbers, given, gravity, acceleration, n, dt, name, s
    handle = 0
    sizes = 0
    call check_room(error, samples=n)
-   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
    solver = as_solver(engine, settings)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
@@ -624,7 +661,7 @@ end subroutine simulate
 
 ! Check what stripes of some walls would be, without running them. Integers: histories of a stripe of each wall, then
 ! record and polarity of each history of the last wall; reals: its scales (histories, levels); text: warnings
-subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
+subroutine plan(texts, numbers, given, q, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : as_solver, check_room, pack_warnings, parcel_type, report, send, set_records, &
@@ -643,8 +680,8 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
    use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
    character(len=*), intent(in) :: texts, names, im, polarity, engine
-   integer(c_int), intent(in) :: w, r, n, m, threads, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
+   integer(c_int), intent(in) :: q, w, r, n, m, threads, given(q, w), lengths(r)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -688,7 +725,7 @@ subroutine plan(texts, numbers, given, gravity, w, names, lengths, dt, r, accele
             call check_limit(study%solver, walls(i)%mechanism, error)
          end if
          if (allocated(error)) then
-            if (w > 1) call add_place(error, 'wall '''//walls(i)%input%name//'''')
+            if (w > 1) call add_place(error, 'wall '''//walls(i)%name()//'''')
             exit
          end if
          histories(i) = size(stripes%record)
@@ -710,7 +747,7 @@ end subroutine plan
 
 ! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe. Counts of
 ! what was computed come in the order of work_names
-subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
+subroutine run_block(texts, numbers, given, q, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
       & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
       & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
@@ -727,8 +764,8 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, im, polarity, engine
-   integer(c_int), intent(in) :: w, r, n, m, threads, first, count, given(8, w), lengths(r)
-   real(c_double), intent(in) :: numbers(8, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
+   integer(c_int), intent(in) :: q, w, r, n, m, threads, first, count, given(q, w), lengths(r)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
    real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count), work(7)
    integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
    character(len=2048), intent(out) :: message
@@ -799,7 +836,7 @@ subroutine run_block(texts, numbers, given, gravity, w, names, lengths, dt, r, a
 end subroutine run_block
 
 ! Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
-subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
+subroutine run_scaled(texts, numbers, given, q, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
       & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, &
@@ -815,8 +852,8 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    implicit none
    !f2py threadsafe
    character(len=*), intent(in) :: texts, names, engine
-   integer(c_int), intent(in) :: given(8), r, n, k, threads, lengths(r), record(k)
-   real(c_double), intent(in) :: numbers(8), gravity, dt(r), acceleration(n), scale(k), settings(5)
+   integer(c_int), intent(in) :: q, given(q), r, n, k, threads, lengths(r), record(k)
+   real(c_double), intent(in) :: numbers(q), gravity, dt(r), acceleration(n), scale(k), settings(5)
    real(c_double), intent(out) :: edp(k), time_of_peak(k)
    integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
    character(len=2048), intent(out) :: message
@@ -836,7 +873,7 @@ subroutine run_scaled(texts, numbers, given, gravity, names, lengths, dt, r, acc
    solver = as_solver(engine, settings)
    call check_room(error, 1, r, n, real(k, c_double))
    if (.not. allocated(error)) call check_threads(threads, error)
-   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), &
+   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), &
       & [gravity], error)
    if (.not. allocated(error)) call check_solver(solver, error)
    if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
@@ -1018,7 +1055,7 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
 end subroutine fit_walls
 
 ! What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
-subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp, curve, status, handle, sizes, stat, &
+subroutine warn_of_curve(texts, numbers, given, q, gravity, levels, m, largest_edp, curve, status, handle, sizes, stat, &
       & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
@@ -1030,8 +1067,8 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
    use dondolo_warnings, only : warn_of_fit
    implicit none
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: m, given(8), status
-   real(c_double), intent(in) :: numbers(8), gravity, levels(m), largest_edp, curve(8)
+   integer(c_int), intent(in) :: q, m, given(q), status
+   real(c_double), intent(in) :: numbers(q), gravity, levels(m), largest_edp, curve(8)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
@@ -1044,7 +1081,7 @@ subroutine warn_of_curve(texts, numbers, given, gravity, levels, m, largest_edp,
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [8, 1]), reshape(given, [8, 1]), [gravity], error)
+   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
    if (.not. allocated(error)) then
       fragility%status = status_names(status)
       fragility%theta = curve(1)

@@ -20,6 +20,7 @@ def body(path):
     return [line for line in path.read_text().splitlines() if not line.startswith("#")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_every_number(name, root, run, tmp_path):
     case = root / f"data/cases/{name}.nml"

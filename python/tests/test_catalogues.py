@@ -159,6 +159,7 @@ FILES = {
 }
 
 
+@pytest.mark.slow
 def test_vertical_components_and_velocities(tmp_path):
     for name, (content, _) in FILES.items():
         (tmp_path / name).write_text(content)
@@ -183,6 +184,7 @@ def test_vertical_channels(tmp_path):
     assert err == f"dondolo: left out: {tmp_path / 'three.txt'}: a vertical component, by its channel 'V (g)'\n"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", ["italy", "formats"])
 def test_vertical_components_of_recordings(part, root, tmp_path):
     recorded = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
@@ -197,6 +199,7 @@ def test_vertical_components_of_recordings(part, root, tmp_path):
     assert len(files) == {"italy": 54, "formats": 31}[part]
 
 
+@pytest.mark.slow
 def test_nothing_to_read(tmp_path):
     code, _, err = run("catalogue", tmp_path)
     assert code == 2
@@ -207,6 +210,7 @@ def test_nothing_to_read(tmp_path):
     assert "no such folder" in err
 
 
+@pytest.mark.slow
 def test_table(folder, executable, tmp_path):
     run("catalogue", folder)
     code, out, err = run("records", folder / "catalogue.csv")
@@ -226,6 +230,7 @@ def test_table(folder, executable, tmp_path):
     assert "none.csv: no such file" in err
 
 
+@pytest.mark.slow
 def test_only_a_catalogue_is_replaced(folder, tmp_path):
     target = tmp_path / "list.csv"
     for _ in range(2):

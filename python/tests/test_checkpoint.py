@@ -20,7 +20,7 @@ from dondolo.populations.checkpoint import Checkpoint
 
 import dondolo as dd
 
-pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 
 # Says of every block that it is kept, and ends with all results in a folder
 RUN = """

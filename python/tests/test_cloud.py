@@ -84,6 +84,7 @@ def test_it_is_one_call_for_many_records(wall, records, monkeypatch):
     assert len(calls) <= 3
 
 
+@pytest.mark.slow
 def test_fits_against_statsmodels(cloud):
     api = pytest.importorskip("statsmodels.api")
     x = np.log(cloud.intensity)

@@ -6,7 +6,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo.analysis.work import Work
-from dondolo.populations import members, plots
+from dondolo.curves import members
+from dondolo.populations import plots
 from dondolo.populations.combination import combine
 from matplotlib.colors import to_rgba
 
@@ -96,7 +97,7 @@ X = np.array([0.12, 0.2, 0.3, 0.45, 0.6, 0.9, 1.4])
 @pytest.mark.parametrize("group", ["", "facades", "towers"])
 def test_mean_of_all_mechanisms(people, group):
     capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
-    assert close(people.mean(X, group=group), capacity, X)
+    assert close(people["all", group].mean(X), capacity, X)
 
 
 @pytest.mark.parametrize("mechanism", list(KINDS))
@@ -104,9 +105,9 @@ def test_mean_of_one_mechanism(people, mechanism):
     capacity, _ = simulate(WALLS, mechanism)
     # Given that it can occur: walls count as often as it does.
     capacity = capacity[np.isfinite(capacity)]
-    assert close(people.mean(X, mechanism), capacity, X)
+    assert close(people[mechanism].mean(X), capacity, X)
     chances = [wall[2] * wall[3][mechanism][2] for wall in WALLS if mechanism in wall[3]]
-    assert people.group(mechanism).weight == pytest.approx(sum(chances))
+    assert people[mechanism].weight == pytest.approx(sum(chances))
 
 
 def test_the_simulation_tells_wrong_formulas():
@@ -133,7 +134,7 @@ def test_dispersion_of_one_mechanism(people):
         capacity, _ = simulate(WALLS, mechanism)
         ln = np.log(capacity[np.isfinite(capacity)])
         error = np.sqrt(np.mean((ln - ln.mean()) ** 4) - ln.var() ** 2) / np.sqrt(len(ln))
-        curve = people.group(mechanism)
+        curve = people[mechanism]
         assert abs(curve.beta_walls**2 + curve.beta_records**2 - ln.var()) < 4.0 * error + 1e-4
         assert curve.beta_total**2 == pytest.approx(curve.beta_walls**2 + curve.beta_records**2)
         assert curve.fitted == 1.0
@@ -142,7 +143,7 @@ def test_dispersion_of_one_mechanism(people):
 def test_dispersion_of_all():
     """Walls that collapse by one of two mechanisms alike: theirs are the wall's own theta and beta."""
     walls = [("a", "", 1.0, {"one_sided": (0.3, 0.4, 1.0)}), ("b", "", 3.0, {"two_block": (0.6, 0.2, 1.0)})]
-    curve = typology_of(walls).group()
+    curve = typology_of(walls)["all"]
     ln = np.log(simulate(walls)[0])
     assert curve.mechanism == "all"
     assert curve.beta_walls**2 + curve.beta_records**2 == pytest.approx(ln.var(), rel=0.01)
@@ -153,11 +154,11 @@ def test_saturation(people):
     """The mean curve ends where nothing more can occur; the lognormal is that of the walls that can collapse."""
     for group in ("", "facades", "towers"):
         capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
-        curve = people.group(group=group)
+        curve = people["all", group]
         finite = np.isfinite(capacity)
         error = np.sqrt(curve.saturation * (1.0 - curve.saturation) / len(capacity))
         assert abs(curve.saturation - finite.mean()) < 4.0 * error
-        assert people.mean(1e3, group=group) == pytest.approx(curve.saturation, rel=1e-6)
+        assert people["all", group].mean(1e3) == pytest.approx(curve.saturation, rel=1e-6)
         assert curve.fit(1e3) == pytest.approx(curve.saturation, rel=1e-6)
         assert curve.fit.theta == pytest.approx(np.median(capacity[finite]), rel=0.1)
     assert all(curve.saturation == 1.0 for curve in people.groups if curve.mechanism != "all")
@@ -168,7 +169,7 @@ def test_dispersion_where_no_mechanism_may_occur():
     walls = [("a", "", 1.0, {"one_sided": (0.3, 0.4, 0.5)}), ("b", "", 3.0, {"two_block": (0.6, 0.2, 0.25)})]
     capacity, _ = simulate(walls)
     ln = np.log(capacity[np.isfinite(capacity)])
-    wide, narrow = typology_of(walls).group(), typology_of(walls, LEVELS[LEVELS < 1.0]).group()
+    wide, narrow = typology_of(walls)["all"], typology_of(walls, LEVELS[LEVELS < 1.0])["all"]
     assert wide.saturation == pytest.approx(0.3125, rel=1e-12)
     assert wide.beta_walls**2 + wide.beta_records**2 == pytest.approx(ln.var(), rel=0.02)
     assert (wide.fit.theta, wide.fit.beta) == pytest.approx((np.exp(ln.mean()), ln.std()), rel=0.05)
@@ -177,7 +178,7 @@ def test_dispersion_where_no_mechanism_may_occur():
 
 def test_each_wall(people):
     capacity, drawn = simulate(WALLS)
-    walls = people.probabilities(X)
+    walls = people["all"].probabilities(X)
     assert walls.shape == (5, len(X))
     for i, row in enumerate(walls):
         assert close(row, capacity[drawn == i], X)
@@ -205,25 +206,25 @@ def test_fractiles_by_sorting():
     walls += [(f"again {name}", *rest) for name, *rest in walls[:20]]
     result = typology_of(walls, LEVELS[::3])
     weights = np.array([wall[2] for wall in walls if wall[2]])
-    at_levels = result.probabilities(result.levels)
+    at_levels = result["all"].probabilities(result.levels)
     for k, share in enumerate((0.16, 0.5, 0.84)):
         expected = [by_sorting(column, weights, share) for column in at_levels.T]
-        assert result.group().fractiles[k] == pytest.approx(expected, rel=1e-12)
+        assert result["all"].level_fractiles[k] == pytest.approx(expected, rel=1e-12)
     between = rng.uniform(0.1, 2.0, (2, 7))
-    found = result.fractiles(between, q=[0.01, 0.3, 1.0])
+    found = result["all"].fractiles(between, q=[0.01, 0.3, 1.0])
     assert found.shape == (3, 2, 7)
-    columns = result.probabilities(between).reshape(len(weights), -1).T
+    columns = result["all"].probabilities(between).reshape(len(weights), -1).T
     expected = [[by_sorting(column, weights, share) for column in columns] for share in (0.01, 0.3, 1.0)]
     assert np.array_equal(found.reshape(3, -1), expected)
-    assert result.fractiles(0.4, q=0.5).shape == ()
+    assert result["all"].fractiles(0.4, q=0.5).shape == ()
 
 
 def test_curves_at_levels_are_those_of_fortran(people):
     for group in people.groups:
         key = (group.mechanism, group.group)
-        assert people.mean(LEVELS, *key) == pytest.approx(group.mean_curve, rel=1e-12)
-        found = people.fractiles(LEVELS, mechanism=key[0], group=key[1])
-        assert found == pytest.approx(group.fractiles, rel=1e-12)
+        assert people[key].mean(LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
+        found = people[key[0], key[1]].fractiles(LEVELS)
+        assert found == pytest.approx(group.level_fractiles, rel=1e-12)
 
 
 def test_which_curves_there_are(people):
@@ -232,25 +233,25 @@ def test_which_curves_there_are(people):
         *(("facades", name) for name in ("one_sided", "two_block", "free_standing", "all")),
         *(("towers", name) for name in ("two_block", "all")),
     ]
-    assert people.group() is people.groups[3]
-    assert people.weight == 10.5
-    assert people.group("all", "facades").walls == 3
-    assert people.fit("two_block", "towers") is people.groups[8].fit
+    assert people["all"].fit is people.groups[3].fit
+    assert people["all"].weight == 10.5
+    assert people["all", "facades"].walls == 3
+    assert people["two_block", "towers"].fit is people.groups[8].fit
     with pytest.raises(dd.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
-        people.group(group="ruins")
+        people["all", "ruins"]
     with pytest.raises(dd.InputError, match="mechanism = 'one_sided': must be one of 'two_block', 'all'"):
-        people.mean(0.3, "one_sided", "towers")
+        people["one_sided", "towers"].mean(0.3)
     with pytest.raises(dd.InputError, match="q: must be shares"):
-        people.fractiles(0.3, q=0.0)
+        people["all"].fractiles(0.3, q=0.0)
 
 
 def test_memory_in_parts(people, monkeypatch):
     x = np.linspace(0.0, 2.0, 50)
-    mean, fractiles = people.mean(x), people.fractiles(x)
+    mean, fractiles = people["all"].mean(x), people["all"].fractiles(x)
     monkeypatch.setattr(members, "_NUMBERS", 30)
-    assert people.mean(x) == pytest.approx(mean, rel=1e-14, abs=0.0)
-    assert np.array_equal(people.fractiles(x), fractiles)
-    assert people.mean([]).shape == (0,)
+    assert people["all"].mean(x) == pytest.approx(mean, rel=1e-14, abs=0.0)
+    assert np.array_equal(people["all"].fractiles(x), fractiles)
+    assert people["all"].mean([]).shape == (0,)
 
 
 def test_walls_without_a_fit():
@@ -268,10 +269,10 @@ def test_walls_without_a_fit():
     ]
     step = np.where(LEVELS < 0.5, 0.0, 1.0)
     expected = 1.0 - (1.0 - 0.5 * step) * (1.0 - stepped.curves[1](LEVELS))
-    assert stepped.mean_curve == pytest.approx(expected, rel=1e-12, abs=1e-15)
-    assert np.isnan(stepped.group("one_sided").beta_walls)
-    assert stepped.group("one_sided").fitted == 0.0
-    assert stepped.group().fitted == 1.0
+    assert stepped["all"].mean_curve == pytest.approx(expected, rel=1e-12, abs=1e-15)
+    assert np.isnan(stepped["one_sided"].beta_walls)
+    assert stepped["one_sided"].fitted == 0.0
+    assert stepped["all"].fitted == 1.0
 
 
 def test_a_wall_has_the_fewest_histories_of_its_mechanisms(people):
@@ -280,7 +281,7 @@ def test_a_wall_has_the_fewest_histories_of_its_mechanisms(people):
     complete = np.ones(len(histories), dtype=bool)
     again = combine(people.population, "pga", LEVELS, np.ones(1), people.exceedances, histories, complete, Work())
     assert list(again.combined["a"].histories) == [HISTORIES] * len(LEVELS)
-    assert again.group("two_block").fit.histories[0] > people.group("two_block").fit.histories[0]
+    assert again["two_block"].fit.histories[0] > people["two_block"].fit.histories[0]
 
 
 def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
@@ -317,17 +318,17 @@ def test_damage_states(states, tmp_path):
     typology, stripes = states
     last = typology.at(1.0)
     assert np.array_equal(typology.collapses, last.collapses)
-    assert last.mean(0.5) == typology.mean(0.5)
+    assert last["all"].mean(0.5) == typology["all"].mean(0.5)
     assert list(last.edp_thresholds) == [1.0]
     assert last.at(1.0) is last
     first = typology.at(0.1)
     assert typology.at(0.1) is first
-    assert pickle.loads(pickle.dumps(typology)).at(0.1).mean(0.5) == first.mean(0.5)
+    assert pickle.loads(pickle.dumps(typology)).at(0.1)["all"].mean(0.5) == first["all"].mean(0.5)
     for k, one in enumerate(stripes):
         assert np.array_equal(typology.exceedances[0, :, k], (one.edp >= 0.1).sum(axis=1))
         assert np.array_equal(first.curves[k].collapses, one.fit(0.1).collapses)
-    assert np.all(first.mean_fraction >= typology.at(0.4).mean_fraction)
-    assert np.any(typology.at(0.4).mean_fraction > last.mean_fraction)
+    assert np.all(first["all"].mean_fraction >= typology.at(0.4)["all"].mean_fraction)
+    assert np.any(typology.at(0.4)["all"].mean_fraction > last["all"].mean_fraction)
     with pytest.raises(dd.InputError, match=r"edp = 0\.2: must be one of 0\.1, 0\.4, 1"):
         typology.at(0.2)
     # As the executable writes them: curves of the population state by state, tables of walls wall by wall
@@ -374,7 +375,6 @@ def test_warnings_name_the_state(states, edp):
 
 
 def test_figures(people, states, monkeypatch):
-
     ax = dd.plot_typology(people, mechanism="one_sided", group="facades")
     assert ax.get_title(loc="left") == "one-sided, group facades"
     monkeypatch.setattr(plots, "_THIN", 2)
@@ -385,8 +385,8 @@ def test_figures(people, states, monkeypatch):
 
     ax = dd.plot_combination(people)
     lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
-    for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", None)):
-        assert np.array_equal(lines[name].get_ydata(), people.mean(lines[name].get_xdata(), mechanism))
+    for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", "all")):
+        assert np.array_equal(lines[name].get_ydata(), people[mechanism].mean(lines[name].get_xdata()))
     styles = [drawn.get_linestyle() for name, drawn in lines.items() if "occur" in name]
     assert len(set(styles)) == len(styles) == 3
 
@@ -399,7 +399,7 @@ def test_figures(people, states, monkeypatch):
         "thin",
     ]
     towers = next(drawn for drawn in ax.get_lines() if drawn.get_label().startswith("towers"))
-    assert np.array_equal(towers.get_ydata(), people.mean(towers.get_xdata(), "two_block", "towers"))
+    assert np.array_equal(towers.get_ydata(), people["two_block", "towers"].mean(towers.get_xdata()))
     labels = dd.plot_groups(people, "one_sided").get_legend_handles_labels()[1]
     assert [label.split(" (")[0] for label in labels[:-1]] == ["facades", "population"]
     with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
@@ -412,7 +412,7 @@ def test_figures(people, states, monkeypatch):
         assert [label.split(":")[0] for label in labels if "EDP" in label] == [f"EDP ≥ {one:g}" for one in edp]
         assert ("thin" in labels[-1]) == (what is typology)
         assert ax.get_ylabel() == "probability to reach the state"
-        curves = [what.at(one).mean if what is typology else what.fit(one) for one in edp]
+        curves = [what.at(one)["all"].mean if what is typology else what.fit(one) for one in edp]
         curves = [curve for curve in curves if what is typology or curve.has_fit]
         lines = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) > len(what.levels)]
         lines = [drawn for drawn in lines if not drawn.get_label().startswith("_")]
@@ -425,9 +425,9 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     typology = states[0]
     state = [typology.at(edp) for edp in typology.edp_thresholds]
     drawings = [
-        (dd.plot_combination(people), [people.group(name) for name in (*KINDS, None)]),
-        (dd.plot_groups(people), [people.group(group=name) for name in ("facades", "towers", "")]),
-        (dd.plot_damage_states(typology), [one.group() for one in state]),
+        (dd.plot_combination(people), [people[name] for name in (*KINDS, "all")]),
+        (dd.plot_groups(people), [people["all", name] for name in ("facades", "towers", "")]),
+        (dd.plot_damage_states(typology), [one["all"] for one in state]),
     ]
     for ax, curves in drawings:
         lines = ax.get_lines()
@@ -447,6 +447,7 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cost $x_{$", "_east", "__"])
 def test_figures_of_groups_with_any_name(name, tmp_path):
     walls = [(wall[0], name, *wall[2:]) for wall in WALLS[:3]]
@@ -465,4 +466,4 @@ def test_figures_of_groups_with_any_name(name, tmp_path):
 
 def test_populations_are_compared_with_a_warning(people):
     with pytest.warns(dd.DondoloWarning, match="share their records"):
-        dd.compare(people.fit("one_sided"), people.fit("two_block"))
+        dd.compare(people["one_sided"].fit, people["two_block"].fit)

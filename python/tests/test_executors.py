@@ -22,7 +22,7 @@ from dondolo.populations import blocks, crew
 
 import dondolo as dd
 
-pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 
 SPAWN = multiprocessing.get_context("spawn")
 

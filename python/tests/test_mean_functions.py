@@ -66,7 +66,7 @@ def agree(people, functions, sentences):
             assert np.all(lighter.probability >= heavier.probability)
         for edp, (name, state) in zip(people.edp_thresholds, states.items(), strict=True):
             x = np.geomspace(levels[0], levels[-1], 3001)
-            mean = people.at(edp).mean(x, curve.mechanism, curve.group)
+            mean = people.at(edp)[curve.mechanism, curve.group].mean(x)
             line = np.interp(x, levels, state.probability)
             assert np.all(line >= mean - 0.006 * mean - 1e-9)
             raised = (line - mean).max() > 0.006 * mean[np.argmax(line - mean)] + 1e-4
@@ -80,6 +80,7 @@ def frequency(curve):
     return 0.5 * (p[1:] + p[:-1]) @ -np.diff(2e-5 * x**-2.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["facades", "centre"])
 def test_functions_are_the_mean_curves(which, request, tmp_path):
     people = request.getfixturevalue(which)
@@ -90,7 +91,7 @@ def test_functions_are_the_mean_curves(which, request, tmp_path):
     assert list(check(tmp_path / "model.xml")) == list(functions)
     # The curves of collapse are raised by nobody: their risk is that of the mean curve.
     for curve, states in zip(people.groups, functions.values(), strict=True):
-        mean = frequency(lambda x, of=(curve.mechanism, curve.group): people.mean(x, *of))
+        mean = frequency(lambda x, of=(curve.mechanism, curve.group): people[of].mean(x))
         levels, p = (np.append(0.0, values) for values in (states["collapse"].levels, states["collapse"].probability))
         lines = frequency(lambda x, levels=levels, p=p: np.interp(x, levels, p))
         assert lines == pytest.approx(mean, rel=0.002)
@@ -99,7 +100,7 @@ def test_functions_are_the_mean_curves(which, request, tmp_path):
 def test_states_that_cross_are_raised_and_told(facades):
     functions, sentences = dd.nrml_functions(facades)
     x = functions["population/two_block"]["edp_0p4"].levels
-    mean = {edp: facades.at(edp).mean(x, "two_block") for edp in (0.4, 1.0)}
+    mean = {edp: facades.at(edp)["two_block"].mean(x) for edp in (0.4, 1.0)}
     lift = mean[1.0] - mean[0.4]
     most = np.argmax(lift)
     assert lift[most] > 1e-3

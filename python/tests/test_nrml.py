@@ -190,10 +190,10 @@ def test_range(path):
 def test_typology_and_stripes(path, stripes, few):
     walls = [dd.OneSidedWall(1.2, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     people = dd.typology(walls, few, [0.3, 0.5, 0.7, 0.9, 1.2, 1.6], progress=False)
-    mean = DiscreteFragility(people.levels, people.mean_curve, people.im)
+    mean = DiscreteFragility(people.levels, people["all"].mean_curve, people.im)
     dd.write_nrml(path, {"centre": {"collapse": mean}, "parapet": {"collapse": stripes.fit()}})
     found = check(path)
-    np.testing.assert_allclose(found["centre"][1]["collapse"](people.levels), people.mean(people.levels))
+    np.testing.assert_allclose(found["centre"][1]["collapse"](people.levels), people["all"].mean(people.levels))
     assert found["parapet"][1]["collapse"](0.8) == pytest.approx(stripes.fit()(0.8))
 
 

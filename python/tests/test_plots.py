@@ -139,12 +139,12 @@ def test_typology_shows_every_wall_and_the_mean(records):
     people = dd.typology(dd.Population(walls), records, levels=LEVELS, progress=False)
     ax = dd.plot_typology(people)
     mean = line(ax, "weighted mean")
-    np.testing.assert_allclose(mean.get_ydata(), people.mean(mean.get_xdata()))
+    np.testing.assert_allclose(mean.get_ydata(), people["all"].mean(mean.get_xdata()))
     grid = mean.get_xdata()
     thin = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
     # Walls, edges of the band and median, mean, lognormal
-    assert len(thin) == 3 + 3 + 1 + people.fit().has_fit
-    np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people.mean_fraction)
+    assert len(thin) == 3 + 3 + 1 + people["all"].fit.has_fit
+    np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people["all"].mean_fraction)
     assert dd.plot_typology(people, mechanism="one_sided").get_title(loc="left") == "one-sided"
     with pytest.raises(dd.InputError, match="must be one of"):
         dd.plot_typology(people, mechanism="two_block")
@@ -205,6 +205,7 @@ def test_one_sided_walls_do_not_turn_inwards(wall):
         dd.plot_wall(wall, rotation=-0.01)
 
 
+@pytest.mark.slow
 def test_animation_follows_the_motion(motion, tmp_path):
     animation = dd.animate_history(motion, frames_per_second=2, speed=4.0)
     animation.save(tmp_path / "motion.gif", writer="pillow")
@@ -219,6 +220,7 @@ def command(*arguments, folder):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "figures"),
     [

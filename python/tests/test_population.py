@@ -249,6 +249,7 @@ def test_the_executable_reads_it(run, root, tmp_path):
     assert same(case.population, PEOPLE)
 
 
+@pytest.mark.slow
 def test_many_walls_take_linear_time(tmp_path):
     """Eight times as many cost about eight times as much, and not 64 times."""
 

@@ -56,7 +56,7 @@ def rooms_of(folder):
     ("folder", "rooms"),
     [
         (".", ["base", "record", "wall", "motion", "fragility", "case"]),
-        ("base", ["numerics", "text", "system"]),
+        ("base", ["numerics", "text", "properties", "system"]),
     ],
 )
 def test_rooms(root, folder, rooms):
@@ -108,8 +108,8 @@ def test_python_sources(root):
 def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
-        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "analysis", "populations",
-        "risk", "exchange", "reporting", "__init__", "__main__",
+        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "risk", "analysis",
+        "populations", "exchange", "reporting", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
 
@@ -206,6 +206,7 @@ def test_procedures_that_compute_release_the_lock(root):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_import_is_quick():
     """NumPy's own import, in the same process, is the measure: a machine that is slow at the moment is so for both."""
     program = (
@@ -251,6 +252,7 @@ def test_documented():
             assert not thing.__doc__.startswith(f"{name}("), name
 
 
+@pytest.mark.slow
 def test_examples_in_the_docstrings(tmp_path, monkeypatch):
     """Each runs as a reader copies it: in an empty folder, with only the names that it imports."""
     monkeypatch.chdir(tmp_path)
@@ -268,6 +270,7 @@ def test_mutations_match_the_package(root):
     assert mutations.stale(Path(dd.__file__).parent) == []
 
 
+@pytest.mark.slow
 def test_warning_filters_do_not_import_the_package(root, tmp_path):
     """Coverage starts after pytest has read its filters, and misses what was imported before."""
     (tmp_path / "early.py").write_text(
@@ -284,6 +287,7 @@ def test_defaults_are_those_of_fortran(wall, sine):
     assert np.array_equal(default.rotation, said.rotation)
 
 
+@pytest.mark.slow
 def test_no_parcel_is_lost(wall, sine):
     import resource
 
@@ -295,3 +299,13 @@ def test_no_parcel_is_lost(wall, sine):
         dd.OneSidedWall(3.0, 0.25)
     # A history has about 50 kB; 3000 of them would be 150 MB.
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
+
+
+@pytest.mark.parametrize("command", ["ruff check", "ruff format --check", "fortitude check"])
+def test_linters(command, root):
+    tool, *options = command.split()
+    tool = Path(sys.executable).with_name(tool)
+    if not tool.exists():
+        pytest.skip(f"{tool.name} is not installed")
+    run = subprocess.run([tool, *options], cwd=root, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stdout + run.stderr

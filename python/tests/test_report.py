@@ -22,6 +22,8 @@ from dondolo.reporting.page import _environment
 
 import dondolo as dd
 
+pytestmark = pytest.mark.slow
+
 matplotlib.use("agg")
 
 VOID = {"meta", "link", "img", "br", "hr", "input"}
@@ -179,17 +181,17 @@ def test_numbers_are_those_of_the_results(people, pages):
         state = dataclasses.replace(people, _states={}).at(0.3)
     table = page.table("Damage state EDP ≥ 0.3")
     assert table["θ [g]"] == four(curve.fit.theta for curve in state.groups)
-    table, curve = page.table("Whole population, collapse"), people.group()
+    table, curve = page.table("Whole population, collapse"), people["all"]
     assert table["mean of curves"] == chances(curve.mean_curve)
-    assert table["16 % fractile"] == chances(curve.fractiles[0])
-    assert table["84 % fractile"] == chances(curve.fractiles[2])
+    assert table["16 % fractile"] == chances(curve.level_fractiles[0])
+    assert table["84 % fractile"] == chances(curve.level_fractiles[2])
     table = page.table("high, one-sided, collapse")
-    assert table["50 % fractile"] == chances(people.group("one_sided", "high").fractiles[1])
+    assert table["50 % fractile"] == chances(people["one_sided", "high"].level_fractiles[1])
     table = page.table("Walls and mechanisms")
     assert table["wall"] == ["a", "a", "b", "never"]
     assert table["θ [g]"] == four(curve.theta for curve in people.curves)
     assert table["status"] == [curve.status for curve in people.curves]
-    samples = people.bootstrap(500).parameter_interval()
+    samples = people["all"].bootstrap(500).parameter_interval()
     table = page.table("95 % intervals of the parameters")
     assert table["from"] == four(samples[name][0] for name in ("theta", "beta"))
     assert table["to"] == four(samples[name][1] for name in ("theta", "beta"))
@@ -220,7 +222,7 @@ def test_numbers_of_a_wall(stripes, pages):
 
 def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     page = read(pages / "typology.html")
-    risk = dd.mean_annual_frequency(people.mean, hazard)
+    risk = people["all"].risk(hazard)
     table = page.table("Mean annual frequencies")
     shown = dict(zip(table["curve"], table["annual frequency [1/year]"], strict=True))
 
@@ -243,7 +245,7 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
         return pytest.approx([low] if same else [low, high], rel=5e-3)
 
     assert ends(shown["whole population, collapse"]) == expected(*risk.bounds)
-    high = dd.mean_annual_frequency(lambda x: people.mean(x, group="high"), hazard)
+    high = people["all", "high"].risk(hazard)
     assert ends(shown["high, collapse"]) == expected(*high.bounds)
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
     np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
@@ -416,11 +418,11 @@ def test_a_wall_without_a_fit(records, tmp_path):
 
 def test_bootstrap_over_walls_needs_counts_only(people):
     counts = dataclasses.replace(people, flags=None)
-    expected, found = people.bootstrap(50, over="walls"), counts.bootstrap(50, over="walls")
+    expected, found = people["all"].bootstrap(50, over="walls"), counts["all"].bootstrap(50, over="walls")
     np.testing.assert_array_equal(found.theta, expected.theta)
     np.testing.assert_array_equal(found.mean_fraction, expected.mean_fraction)
     with pytest.raises(dd.DondoloError, match="must be 'walls'"):
-        counts.bootstrap(50)
+        counts["all"].bootstrap(50)
 
 
 def test_damage_states_that_cross_are_told(few, tmp_path):
@@ -431,7 +433,7 @@ def test_damage_states_that_cross_are_told(few, tmp_path):
     dd.report(people, tmp_path / "report.html")
     table = read(tmp_path / "report.html").table("Damage states that cross")
     x = np.linspace(0.0, 1.2, 201)[1:]
-    gap = people.at(0.4).mean(x) - people.at(0.1).mean(x)
+    gap = people.at(0.4)["all"].mean(x) - people.at(0.1)["all"].mean(x)
     assert gap.max() > 1e-3
     assert table["curve"] == ["whole population, two-block"]
     assert (table["more probable is"], table["than"]) == (["EDP ≥ 0.4"], ["EDP ≥ 0.1"])

@@ -210,7 +210,7 @@ def test_a_step_is_the_hazard_itself(hazard):
     assert abs(risk.frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.frequency)
 
 
-@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
 def test_degenerate_curves(hazard):
     with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
         never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
@@ -250,7 +250,7 @@ def test_time(hazard, curve):
             risk.probability(wrong)
 
 
-@pytest.mark.filterwarnings("ignore:the curve is a plain function:dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
 def test_both_ends_are_told(curve):
     """A hazard curve that is too short: the lower end alone would look safer than it is."""
     with pytest.warns(dd.DondoloWarning, match="too short"):
@@ -329,7 +329,7 @@ def losses(people, hazard, years, group=""):
 def test_time_of_a_population(people, hazard, endless, group):
     """Each wall has its own frequency, and where a mechanism may not occur, several."""
     hazard = dd.HazardCurve.power_law(2e-3, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
-    risk = dd.mean_annual_frequency(functools.partial(people.mean, group=group), hazard)
+    risk = people["all", group].risk(hazard)
     for years in (1e-3, 50.0, 475.0, 1e5):
         bounds = risk.probability_bounds(years)
         np.testing.assert_allclose(bounds, losses(people, hazard, years, group), rtol=1e-6)
@@ -344,34 +344,36 @@ def test_time_of_a_population(people, hazard, endless, group):
     assert f"probability in 50 years {'between ' * (not endless)}{risk.probability(50.0):.4g}" in repr(risk)
 
 
-def test_another_function_of_a_typology_is_taken_for_one_wall(people):
-    hazard = dd.HazardCurve.power_law(2e-3, 2.5)
+def test_any_function_is_taken_for_one_wall(people):
+    """What matters is the curve, and not which function gives its values."""
+    hazard, high = dd.HazardCurve.power_law(2e-3, 2.5), people["all", "high"]
 
     def fractile(x):
-        return people.fractiles(x, 0.84, group="high")
+        return high.fractiles(x, 0.84)
 
-    direct = functools.partial(people.fractiles, q=0.84, group="high")
-    risks = [dd.mean_annual_frequency(curve, hazard) for curve in (direct, fractile)]
+    risks = [dd.mean_annual_frequency(f, hazard) for f in (functools.partial(high.fractiles, q=0.84), fractile)]
     assert risks[0].bounds == risks[1].bounds
-    assert risks[0].probability(50.0) == -np.expm1(-50.0 * risks[0].frequency)
-    with pytest.warns(dd.DondoloWarning, match="plain function"):
-        assert risks[1].probability(50.0) == risks[0].probability(50.0)
-    assert "return period" in repr(risks[0])
+    for risk in risks:
+        with pytest.warns(dd.DondoloWarning, match="the curve is a function"):
+            assert risk.probability(50.0) == -np.expm1(-50.0 * risk.frequency)
+        assert "return period of one wall" in repr(risk)
 
 
-def test_a_function_around_a_mean_is_not_taken_in_silence(people):
-    """The mean itself knows its walls, a function around it does not."""
-    hazard = dd.HazardCurve.power_law(2e-3, 2.5)
-    mean, function = (dd.mean_annual_frequency(curve, hazard) for curve in (people.mean, lambda x: people.mean(x)))
-    assert mean.frequency == pytest.approx(function.frequency, rel=1e-9)
+def test_the_curve_of_a_population_knows_its_walls(people):
+    """A function does not, be it the mean itself or one around it: the probability is then higher, and told."""
+    hazard, curve = dd.HazardCurve.power_law(2e-3, 2.5), people["all"]
+    risk = curve.risk(hazard)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        share = mean.probability(475.0)
-        assert f"probability in 50 years {mean.probability(50.0):.4g}" in repr(mean)
-        assert "probability in 50 years of one wall" in repr(function)
-        assert function.probability(0.0) == 0.0
-    with pytest.warns(dd.DondoloWarning, match="plain function, taken for that of one wall"):
-        assert function.probability(475.0) > 1.05 * share
+        share = risk.probability(475.0)
+        assert f"probability in 50 years {risk.probability(50.0):.4g}" in repr(risk)
+    for function in (curve.mean, lambda x: curve.mean(x)):
+        other = dd.mean_annual_frequency(function, hazard)
+        assert other.frequency == pytest.approx(risk.frequency, rel=1e-9)
+        assert "probability in 50 years of one wall" in repr(other)
+        assert other.probability(0.0) == 0.0
+        with pytest.warns(dd.DondoloWarning, match="function, taken for that of one wall"):
+            assert other.probability(475.0) > 1.05 * share
 
 
 def test_shares_may_add_up_to_more_than_one_by_rounding():
@@ -385,25 +387,26 @@ def test_time_ends_at_the_saturation(people, records):
     hazard = dd.HazardCurve.power_law(8e-3, 2.5)
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
     two = dd.typology(dd.Population(walls, p_occ=[1.0, 0.0]), records[::4], people.levels, progress=False)
-    risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two.mean, two.combined["a"]))
+    risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two["all"], two.combined["a"]))
     assert risk.frequency == pytest.approx(0.5 * one.frequency, rel=1e-7)
     assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
     assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.frequency)
     assert risk.probability(1e6) == pytest.approx(0.5)
     never = dd.typology(dd.Population(walls, p_occ=[0.0, 0.0]), records[::4], people.levels, progress=False)
-    assert dd.mean_annual_frequency(never.mean, hazard).probability_bounds(50.0) == (0.0, 0.0)
+    assert never["all"].risk(hazard).probability_bounds(50.0) == (0.0, 0.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert dd.mean_annual_frequency(never.mean, dd.HazardCurve(LEVELS, FREQUENCY)).bounds == (0.0, 0.0)
+        assert never["all"].risk(dd.HazardCurve(LEVELS, FREQUENCY)).bounds == (0.0, 0.0)
     # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
-    fit = dd.mean_annual_frequency(two.fit(), hazard)
-    assert two.fit().saturation == 0.5
+    fit = dd.mean_annual_frequency(two["all"].fit, hazard)
+    assert two["all"].fit.saturation == 0.5
     assert fit.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=0.01)
     assert fit.probability(1e6) == pytest.approx(0.5)
-    alone = dd.mean_annual_frequency(functools.partial(two.mean, mechanism="one_sided"), hazard)
+    alone = two["one_sided"].risk(hazard)
     assert alone.probability(200.0) == pytest.approx(one.probability(200.0), rel=1e-7)
 
 
+@pytest.mark.slow
 def test_deaggregation(hazard, curve):
     risk = dd.mean_annual_frequency(curve, hazard)
     edges = np.array([0.001, 0.1, 0.3, 0.5, 0.7, 1.0, 9.0])
@@ -439,11 +442,11 @@ def test_measures_must_agree(hazard, curve, few):
         warnings.simplefilter("ignore")
         people = dd.typology(walls, few, [0.3, 0.6, 0.9, 1.2], progress=False)
         pgv = dd.HazardCurve(LEVELS, FREQUENCY, im="pgv")
-        for fragility in (people.mean, lognormal(0.6, 0.4), people.fit()):
+        for fragility in (people["all"], lognormal(0.6, 0.4), people["all"].fit):
             with pytest.raises(dd.InputError, match="im = 'pga' of the fragility and 'pgv' of the hazard: must be"):
                 dd.mean_annual_frequency(fragility, pgv)
-        risk = dd.mean_annual_frequency(people.mean, hazard)
-        assert risk.inside == pytest.approx(trapezoid(people.mean, hazard, 3001), rel=1e-5)
+        risk = people["all"].risk(hazard)
+        assert risk.inside == pytest.approx(trapezoid(people["all"].mean, hazard, 3001), rel=1e-5)
         assert dd.mean_annual_frequency(lambda x: curve(x), pgv).frequency > 0.0
 
 
@@ -593,6 +596,7 @@ def test_shown(hazard, curve):
     assert list(hazard.to_frame()["pga"]) == LEVELS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("endless", [False, True])
 def test_figure(hazard, curve, endless):
     hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])

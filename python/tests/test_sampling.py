@@ -217,6 +217,7 @@ def test_few_walls(seed):
         assert len(dd.sample_population("one_sided", n, seed, **few)) == n
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(rho=st.floats(-0.99, 0.99), n=st.integers(100, 500), seed=st.integers(0, 1000))
 def test_any_correlation(rho, n, seed):
@@ -396,6 +397,7 @@ def test_a_misspelt_property():
         sample(thicknes=0.3)
 
 
+@pytest.mark.slow
 def test_many_walls():
     """Eight times as many cost about eight times as much, and not 64 times."""
     correlation = {("height", "thickness"): 0.5}

@@ -14,6 +14,8 @@ from dondolo.analysis import request
 
 import dondolo as dd
 
+pytestmark = pytest.mark.slow
+
 LEVELS = np.linspace(0.1, 1.2, 12)
 
 

@@ -56,43 +56,43 @@ def test_a_fit_that_does_not_converge_ends_no_population(records):
     people = dd.Population(walls, [1e-12, 1.0], ["rare", "frequent"])
     with pytest.warns(dd.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
         result = dd.typology(people, records, [0.2, 0.4, 0.8], progress=False)
-    assert result.group().fit.status == "not_converged"
-    assert np.isnan(result.group().fit.theta)
-    assert result.group(group="rare").fit.has_fit
+    assert result["all"].fit.status == "not_converged"
+    assert np.isnan(result["all"].fit.theta)
+    assert result["all", "rare"].fit.has_fit
 
 
 def test_means(typology, population):
     share = population.weights / population.weights.sum()
-    assert typology.weight == population.weights.sum()
+    assert typology["all"].weight == population.weights.sum()
     fractions = typology.collapses / typology.histories
-    assert typology.mean_fraction == pytest.approx(fractions @ share, rel=1e-13)
-    assert typology.mean(LEVELS) == pytest.approx(typology.mean_curve, rel=1e-13)
-    assert isinstance(typology.mean(0.5), float)
-    assert typology.mean(0.0) == 0.0
+    assert typology["all"].mean_fraction == pytest.approx(fractions @ share, rel=1e-13)
+    assert typology["all"].mean(LEVELS) == pytest.approx(typology["all"].mean_curve, rel=1e-13)
+    assert isinstance(typology["all"].mean(0.5), float)
+    assert typology["all"].mean(0.0) == 0.0
     x = np.linspace(0.0, 3.0, 60)
-    assert np.all(np.diff(typology.mean(x)) >= 0.0)
+    assert np.all(np.diff(typology["all"].mean(x)) >= 0.0)
 
 
 def test_mechanisms(typology):
     names = [group.mechanism for group in typology.groups]
     assert names == ["one_sided", "two_block", "all"]
     parts = typology.groups[:-1]
-    assert sum(group.weight for group in parts) == pytest.approx(typology.weight)
-    mean = sum(group.weight * group.mean_curve for group in parts) / typology.weight
-    assert mean == pytest.approx(typology.mean_curve, rel=1e-12)
+    assert sum(group.weight for group in parts) == pytest.approx(typology["all"].weight)
+    mean = sum(group.weight * group.mean_curve for group in parts) / typology["all"].weight
+    assert mean == pytest.approx(typology["all"].mean_curve, rel=1e-12)
     for group in parts:
-        assert typology.mean(LEVELS, group.mechanism) == pytest.approx(group.mean_curve, rel=1e-12)
-        assert typology.fit(group.mechanism) is group.fit
+        assert typology[group.mechanism].mean(LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
+        assert typology[group.mechanism].fit is group.fit
     with pytest.raises(dd.InputError, match="mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"):
-        typology.fit("arch")
+        typology["arch"]
 
 
 def test_the_counts_behind_the_fit(typology):
     for group in typology.groups:
         again = dd.fit_fragility(group.fit.levels, group.fit.collapses, group.fit.histories)
         assert (again.theta, again.beta) == pytest.approx((group.fit.theta, group.fit.beta), rel=1e-12)
-    low, high = typology.fit().interval(0.6, method="profile")
-    assert low < typology.fit()(0.6) < high
+    low, high = typology["all"].fit.interval(0.6, method="profile")
+    assert low < typology["all"].fit(0.6) < high
 
 
 def test_weights_alike(few):
@@ -111,8 +111,8 @@ def test_executors(typology, population, few, kind):
     with executor:
         other = dd.typology(population, few, LEVELS, polarity="both", executor=executor, progress=False)
     assert np.array_equal(other.collapses, typology.collapses)
-    assert other.fit().theta == typology.fit().theta
-    assert np.array_equal(other.mean_curve, typology.mean_curve)
+    assert other["all"].fit.theta == typology["all"].fit.theta
+    assert np.array_equal(other["all"].mean_curve, typology["all"].mean_curve)
     assert other.work == typology.work
 
 
@@ -124,12 +124,12 @@ def test_threads_change_nothing(typology, population, few, threads, samples, mon
     other = dd.typology(population, few, LEVELS, polarity="both", threads=threads, progress=False)
     assert np.array_equal(other.collapses, typology.collapses)
     assert other.work == typology.work
-    assert other.fit().theta == typology.fit().theta
+    assert other["all"].fit.theta == typology["all"].fit.theta
 
 
 def test_pickle_and_shown(typology):
     again = pickle.loads(pickle.dumps(typology))
-    assert again.mean(0.5) == typology.mean(0.5)
+    assert again["all"].mean(0.5) == typology["all"].mean(0.5)
     assert "walls 5" in repr(typology)
     assert "<table>" in typology._repr_html_()
 
@@ -168,11 +168,11 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     monkeypatch.undo()
     alone = dd.typology(population[: len(partial.walls)], few, LEVELS, progress=False)
     np.testing.assert_array_equal(partial.collapses, alone.collapses)
-    assert alone.fit().has_fit
-    assert (partial.weight, partial.fit().theta, partial.fit().beta) == (
-        alone.weight,
-        alone.fit().theta,
-        alone.fit().beta,
+    assert alone["all"].fit.has_fit
+    assert (partial["all"].weight, partial["all"].fit.theta, partial["all"].fit.beta) == (
+        alone["all"].weight,
+        alone["all"].fit.theta,
+        alone["all"].fit.beta,
     )
 
 
@@ -246,10 +246,10 @@ print(largest() - before)
 
 
 def test_wrong_levels_and_shares(typology):
-    assert typology.probabilities([]).shape == (len(typology.combined), 0)
+    assert typology["all"].probabilities([]).shape == (len(typology.combined), 0)
     for wrong in ("a", [0.5, "b"], 0.0, 1.5, np.nan):
         with pytest.raises(dd.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
-            typology.fractiles(0.5, wrong)
+            typology["all"].fractiles(0.5, wrong)
     with pytest.raises(dd.InputError, match=r"edp = 1\.0000001: must be one of 1"):
         typology.at(1.0000001)
 
@@ -263,5 +263,5 @@ def test_a_partial_population_keeps_its_weights_and_origin():
     with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
         combine(*given, np.array([True, False, False]), dd.Work())
     partial = combine(*given, np.array([True, True, False]), dd.Work())
-    assert partial.weight == 2.0
+    assert partial["all"].weight == 2.0
     assert partial.population.origin == ("surveyed",)

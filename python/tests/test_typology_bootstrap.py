@@ -155,17 +155,17 @@ def test_of_a_typology():
     """Of real walls and records, which shake all walls alike."""
     given = study.arguments(edp_thresholds=None)
     typology = dd.typology(**given)
-    samples = typology.bootstrap(n=300)
+    samples = typology["all"].bootstrap(n=300)
     assert samples.over == ("records", "walls")
-    again = typology.bootstrap(n=300)
+    again = typology["all"].bootstrap(n=300)
     assert np.array_equal(samples.theta, again.theta, equal_nan=True)
-    assert np.std(np.log(typology.bootstrap(n=300, seed=1).theta)) == pytest.approx(samples.se_ln_theta, rel=0.2)
-    curve = typology.fit()
+    assert np.std(np.log(typology["all"].bootstrap(n=300, seed=1).theta)) == pytest.approx(samples.se_ln_theta, rel=0.2)
+    curve = typology["all"].fit
     assert samples.se_ln_theta > 2.0 * curve.se_ln_theta
-    records, walls = typology.bootstrap(n=300, over="records"), typology.bootstrap(n=300, over="walls")
+    records, walls = typology["all"].bootstrap(n=300, over="records"), typology["all"].bootstrap(n=300, over="walls")
     assert samples.se_ln_theta > max(records.se_ln_theta, walls.se_ln_theta)
     low, high = samples.mean_interval()
-    assert np.all((low <= typology.mean_fraction) & (typology.mean_fraction <= high))
+    assert np.all((low <= typology["all"].mean_fraction) & (typology["all"].mean_fraction <= high))
     low, high = samples.parameter_interval()["theta"]
     assert low < curve.theta < high
     low, high = samples.interval(curve.theta)
@@ -173,15 +173,17 @@ def test_of_a_typology():
     assert repr(samples) == "<TypologyBootstrap over records and walls: 300 samples, 0.0% without a fit>"
     # A damage state of its own
     states = dd.typology(**study.arguments())
-    light = states.at(0.1).bootstrap(n=50, over="walls")
+    light = states.at(0.1)["all"].bootstrap(n=50, over="walls")
     flags = states.flags.at(0)
     assert np.array_equal(
         light.theta, resample_population(states.population, flags, states.levels, 50, 0, "walls").theta
     )
-    assert np.median(light.theta) < np.median(states.bootstrap(n=50, over="walls").theta)
+    assert np.median(light.theta) < np.median(states["all"].bootstrap(n=50, over="walls").theta)
     # One wall drawn over its records is the bootstrap of its stripes.
     wall = given["population"][2]
-    alone = dd.typology([wall], given["records"], given["levels"], progress=False).bootstrap(n=100, over="records")
+    alone = dd.typology([wall], given["records"], given["levels"], progress=False)["all"].bootstrap(
+        n=100, over="records"
+    )
     stripes = dd.multiple_stripe(wall, given["records"], given["levels"], progress=False)
     if stripes.fit().has_fit:
         theta = stripes.fit().bootstrap(n=100).theta
@@ -242,8 +244,8 @@ def test_events_of_unequal_size(few):
     whole, *parts = (
         dd.typology(walls, records, LEVELS, polarity="both", progress=False) for records in (few, few[:6], few[6:])
     )
-    expected = np.array([one.mean_fraction for one in (whole, *parts)])
-    samples = whole.bootstrap(400, 3, "records", events=["large"] * 6 + ["small"] * 2)
+    expected = np.array([one["all"].mean_fraction for one in (whole, *parts)])
+    samples = whole["all"].bootstrap(400, seed=3, over="records", events=["large"] * 6 + ["small"] * 2)
     off = np.abs(samples.mean_fraction[:, None] - expected).max(axis=2)
     assert off.min(axis=1).max() < 1e-12
     often = np.bincount(off.argmin(axis=1), minlength=3)
@@ -254,6 +256,6 @@ def test_the_interval_ends_at_the_saturation(few):
     """At strong motions the interval is that of the saturation."""
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     typology = dd.typology(dd.Population(walls, p_occ=[0.5, 0.2]), few, LEVELS, progress=False)
-    assert typology.bootstrap(50, over="records").interval(1e3) == pytest.approx((0.35, 0.35), rel=1e-12)
+    assert typology["all"].bootstrap(50, over="records").interval(1e3) == pytest.approx((0.35, 0.35), rel=1e-12)
     # Some samples have the first wall twice, some the second.
-    assert typology.bootstrap(50, over="walls").interval(1e3) == pytest.approx((0.2, 0.5), rel=1e-12)
+    assert typology["all"].bootstrap(50, over="walls").interval(1e3) == pytest.approx((0.2, 0.5), rel=1e-12)

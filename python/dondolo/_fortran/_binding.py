@@ -26,19 +26,6 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFile
 
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
 
-WALL_NUMBERS = (
-    "height",
-    "thickness",
-    "density",
-    "hinge",
-    "restitution_value",
-    "restitution_factor",
-    "overburden",
-    "eccentricity",
-)
-_WALL_REALS = len(WALL_NUMBERS) + 7
-_WALL_INTEGERS = len(WALL_NUMBERS) + 1
-
 
 class Constants(NamedTuple):
     """What Fortran says of itself."""
@@ -49,6 +36,41 @@ class Constants(NamedTuple):
     gravity: float
     version: str
     statuses: tuple[str, ...]
+
+
+class Property(NamedTuple):
+    """A property of walls, or of another group, as Fortran's table has it.
+
+    Attributes
+    ----------
+    name : str
+        As in namelists and in Python.
+    kind : str
+        'real', 'integer', 'text', 'logical', 'list' or 'either'.
+    unit : str
+        '' for a number.
+    default : str
+        As in a namelist; 'required', or 'optional' where there is none.
+    smallest, largest : float
+        Range of a number.
+    choices, owners : tuple of str
+        What a text can be; the mechanisms that have it, () for all.
+    column : str
+        Its column in the tables of results.
+    meaning : str
+        One sentence.
+    """
+
+    name: str
+    kind: str
+    unit: str
+    default: str
+    smallest: float
+    largest: float
+    choices: tuple[str, ...]
+    owners: tuple[str, ...]
+    column: str
+    meaning: str
 
 
 class FlatWall(NamedTuple):
@@ -72,10 +94,7 @@ class FlatRecords(NamedTuple):
 class WallData(NamedTuple):
     """A wall as Fortran has understood it."""
 
-    name: str
-    mechanism: str
-    restitution: str
-    numbers: dict[str, float | None]
+    properties: dict[str, Any]
     gravity: float
     statics: tuple[float, ...]
     two_sided: bool
@@ -166,6 +185,16 @@ def constants() -> Constants:
         gravity,
         version=version.decode().strip(),
         statuses=tuple(statuses.decode().split()),
+    )
+
+
+@functools.cache
+def properties(group: str) -> tuple[Property, ...]:
+    """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
+    rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
+    return tuple(
+        Property(*row[:4], float(row[4]), float(row[5]), tuple(row[6].split()), tuple(row[7].split()), *row[8:])
+        for row in rows
     )
 
 
@@ -268,59 +297,42 @@ def _default_settings() -> FloatArray:
     return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
 
 
-def flat_wall(name: str, mechanism: str, restitution: str, numbers: Sequence[float | None], gravity: float) -> FlatWall:
-    """A wall as Fortran takes it, of values that it has checked."""
+def flat_wall(values: Mapping[str, Any], gravity: float) -> FlatWall:
+    """A wall as Fortran takes it, of properties that it has checked."""
+    numbers = [values.get(what) for what in WALL_NUMBERS]
     return FlatWall(
-        "\n".join((name, mechanism, restitution)).encode(),
+        "\n".join(values.get(what) or "" for what in WALL_TEXTS).encode(),
         np.array([0.0 if value is None else value for value in numbers]),
         np.array([value is not None for value in numbers], dtype=np.int32),
         gravity,
     )
 
 
-def describe_wall(
-    name: str | None,
-    mechanism: str,
-    restitution: str | None,
-    numbers: Mapping[str, Any],
-    gravity: Any,
-    bearing: str | None = None,
-) -> WallData:
+def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
-    values = {what: [as_number(what, value)] for what, value in numbers.items() if value is not None}
+    several = {
+        what: [value if what in WALL_TEXTS else as_number(what, value)]
+        for what, value in values.items()
+        if value is not None
+    }
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    return describe_walls([name], [mechanism], [restitution], values, [pull], [bearing])[0]
+    return describe_walls(1, several, [pull])[0]
 
 
-def describe_walls(
-    names: Sequence[str | None],
-    mechanisms: Sequence[str],
-    restitutions: Sequence[str | None],
-    numbers: Mapping[str, ArrayLike],
-    gravity: ArrayLike,
-    bearings: Sequence[str | None],
-) -> list[WallData]:
-    """The same for many walls; numbers that are not there get their defaults.
-
-    A bearing and the number bearing_distance become the eccentricity.
-    """
-    count = len(names)
-    distances, measured = np.zeros(count), np.zeros(count, dtype=np.int32)
-    values, given = np.zeros((count, len(WALL_NUMBERS))), np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
-    for what, column in numbers.items():
-        if what == "bearing_distance":
-            distances[:], measured[:] = column, 1
-            continue
-        values[:, WALL_NUMBERS.index(what)] = column
-        given[:, WALL_NUMBERS.index(what)] = 1
+def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
+    """The same for many walls: values of each property for all of them; what is not there gets its default."""
+    shape = (count, len(WALL_NUMBERS))
+    numbers, given = np.zeros(shape), np.zeros(shape, dtype=np.int32)
+    for i, what in enumerate(WALL_NUMBERS):
+        if what in values:
+            numbers[:, i], given[:, i] = values[what], 1
+    nothing = [None] * count
     texts = b"\n".join(
         b"" if text is None else as_text(what, text)
-        for wall in zip(names, mechanisms, restitutions, strict=True)
-        for what, text in zip(("name", "mechanism", "restitution"), wall, strict=True)
+        for wall in zip(*(values.get(what, nothing) for what in WALL_TEXTS), strict=True)
+        for what, text in zip(WALL_TEXTS, wall, strict=True)
     )
-    places = b"\n".join(b"" if text is None else as_text("bearing", text) for text in bearings)
-    parcel = receive(*_core.describe_walls(texts, values.T, given.T, gravity, places, distances, measured))
-    return unpack_walls(parcel, count)
+    return unpack_walls(receive(*_core.describe_walls(texts, numbers.T, given.T, gravity)), count)
 
 
 def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
@@ -337,18 +349,13 @@ def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
-    known = len(WALL_NUMBERS)
+    known, words = len(WALL_NUMBERS), len(WALL_TEXTS)
     rows = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
     masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
     return [
         WallData(
-            parcel.lines[lines + 3 * i],
-            parcel.lines[lines + 3 * i + 1],
-            parcel.lines[lines + 3 * i + 2],
-            {
-                what: value if mask else None
-                for what, value, mask in zip(WALL_NUMBERS, row[:known], given[:known], strict=True)
-            },
+            dict(zip(WALL_TEXTS, parcel.lines[lines + words * i : lines + words * (i + 1)], strict=True))
+            | {what: row[k] if given[k] else None for k, what in enumerate(WALL_NUMBERS)},
             row[known],
             tuple(row[known + 1 :]),
             bool(given[known]),
@@ -359,7 +366,7 @@ def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, 
 
 def walls_end(count: int) -> tuple[int, int, int]:
     """How many reals, integers and lines of a parcel so many walls take."""
-    return count * _WALL_REALS, count * _WALL_INTEGERS, 3 * count
+    return count * _WALL_REALS, count * _WALL_INTEGERS, len(WALL_TEXTS) * count
 
 
 def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
@@ -441,8 +448,9 @@ def read_walls(
     parcel = receive(*_core.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
     weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
-    warn(parcel.lines[4 * count :])
-    return unpack_walls(parcel, count), weights, parcel.lines[3 * count : 4 * count], p_occ
+    groups = len(WALL_TEXTS) * count
+    warn(parcel.lines[groups + count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[groups : groups + count], p_occ
 
 
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:
@@ -564,3 +572,11 @@ def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
     found: FloatArray = _core.probability(theta, beta, x)
     return found
+
+
+# What walls are made of, in Fortran's order; gravity crosses by itself
+WALL_PROPERTIES = properties("wall")
+WALL_TEXTS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "text")
+WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.kind != "text")
+_WALL_REALS = len(WALL_NUMBERS) + 7
+_WALL_INTEGERS = len(WALL_NUMBERS) + 1

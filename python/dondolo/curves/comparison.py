@@ -96,9 +96,7 @@ def compare(
     for curve in (first, second):
         curve._need_fit()
     if any(curve.wall is None and curve.edp is not None for curve in (first, second)):
-        sentence = (
-            "walls of a population share their records: the comparison is too sure; typology.bootstrap tells more"
-        )
+        sentence = "walls of a population share their records: the comparison is too sure; its bootstrap tells more"
         _binding.warn([sentence])
     if method == "likelihood":
         return _by_likelihood(first, second, level)

@@ -11,6 +11,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _binding
 from dondolo.errors import InputError, silent
 from dondolo.exchange.nrml import DiscreteFragility
+from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 
 # A function begins where no state is more probable, and ends where what is left to come of each is a smaller share:
@@ -86,8 +87,10 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
         if name != plain:
             sentences.append(f"'{name}': is that of the group {curve.group!r}; '{plain}' is another group's")
 
-        def means(x: FloatArray, who: tuple[str, str] = (curve.mechanism, curve.group)) -> FloatArray:
-            return np.array([state.mean(x, *who) for state in states.values()])
+        of_states = [state[curve.mechanism, curve.group] for state in states.values()]
+
+        def means(x: FloatArray, curves: list[PopulationCurve] = of_states) -> FloatArray:
+            return np.array([one.mean(x) for one in curves])
 
         levels, raw = _lines(means, typology.levels)
         ordered = _ordered(raw)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.files import as_file
+from dondolo._fortran import _binding
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -22,17 +23,8 @@ from dondolo.records.record import Record
 from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall
 
-# Columns of _walls.csv and the arguments of a wall
-_WALL_COLUMNS = {
-    "height_m": "height",
-    "thickness_m": "thickness",
-    "density_kg_m3": "density",
-    "hinge": "hinge",
-    "restitution_value": "restitution_value",
-    "restitution_factor": "restitution_factor",
-    "overburden_n_m": "overburden",
-    "eccentricity_m": "eccentricity",
-}
+# Columns of _walls.csv and the numbers of a wall
+_WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,9 @@ from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.errors import Interrupted
-from dondolo.populations.series import in_series
-from dondolo.populations.typology import Group, IntArray, Typology
+from dondolo.curves.series import in_series
+from dondolo.populations.curve import Group, IntArray
+from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population
 
 

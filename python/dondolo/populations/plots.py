@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.curves.fragility import Fragility
-    from dondolo.populations.typology import Group, Typology
+    from dondolo.populations.curve import Group
+    from dondolo.populations.typology import Typology
 
 # Points of a curve; enough for a smooth line
 _POINTS = 301
@@ -52,10 +53,10 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     InputError
         There are no such walls.
     """
-    curve = typology.group(mechanism, group)
+    curve = typology[mechanism or "all", group]
     ax = _axes(ax, 3)
     grid = _grid(typology.levels)
-    members = typology._members(mechanism, group)
+    members = curve.members
     walls = len(members.weights)
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
     thin = np.concatenate([members.at(part)[0][drawn] for part in members.parts(grid)], axis=1)
@@ -63,7 +64,7 @@ def plot_typology(typology: Typology, ax: Axes | None = None, mechanism: str | N
     text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, typology, grid, mechanism, group, style.BLUE)
-    mean = typology.mean(grid, mechanism, group)
+    mean = curve.mean(grid)
     ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
     if curve.fit.has_fit:
         fitted = f"lognormal, {_parameters(curve.fit)}"
@@ -103,7 +104,7 @@ def plot_combination(typology: Typology, ax: Axes | None = None, group: str = ""
         probability of occurrence.
     """
     curves = [curve for curve in typology.groups if curve.group == group and curve.mechanism != "all"]
-    whole = typology.group(None, group)
+    whole = typology["all", group]
     ax = _axes(ax, len(curves) + 4)
     grid = _grid(typology.levels)
     _band(ax, typology, grid, None, group, style.GREY)
@@ -143,13 +144,13 @@ def plot_groups(typology: Typology, mechanism: str | None = None, ax: Axes | Non
     """
     import matplotlib.pyplot as plt
 
-    whole = typology.group(mechanism)
+    whole = typology[mechanism or "all"]
     names = list(dict.fromkeys(curve.group for curve in typology.groups if curve.group))
     if not names:
         raise InputError("group: no wall of this population belongs to a group")
     known = {(curve.group, curve.mechanism) for curve in typology.groups}
     names = [name for name in names if mechanism is None or (name, mechanism) in known]
-    curves = [typology.group(mechanism, name) for name in names]
+    curves = [typology[mechanism or "all", name] for name in names]
     ax = _axes(ax, len(names) + 2)
     grid = _grid(typology.levels)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
@@ -214,12 +215,12 @@ def plot_damage_states(
                 ax.plot(grid, curve(grid), **look, label=text)
         else:
             state = states.at(threshold)
-            one = state.group(mechanism, group)
+            one = state[mechanism or "all", group]
             means.append(one)
             _mean(ax, state, grid, one, f"EDP ≥ {threshold:g}", look)
             ax.plot(states.levels, one.mean_fraction, **marks)
     _explain_fitted(ax, means)
-    whose = states.wall.name if isinstance(states, Stripes) else _name(states.group(mechanism, group), states)
+    whose = states.wall.name if isinstance(states, Stripes) else _name(states[mechanism or "all", group], states)
     _finish(ax, states, grid, whose)
     ax.set_ylabel("probability to reach the state")
     return ax
@@ -238,7 +239,7 @@ def _grid(levels: Any) -> Any:
 
 def _band(ax: Axes, typology: Typology, grid: Any, mechanism: str | None, group: str, color: str) -> None:
     """Fractiles of the walls: a band with edges, and the median."""
-    low, median, high = typology.fractiles(grid, mechanism=mechanism, group=group)
+    low, median, high = typology[mechanism or "all", group].fractiles(grid)
     ax.fill_between(grid, low, high, color=color, alpha=0.22, linewidth=0.0, label="16 to 84 % of the walls", zorder=2)
     for edge in (low, high):
         ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
@@ -249,7 +250,7 @@ def _mean(ax: Axes, typology: Typology, grid: Any, curve: Group, name: str, look
     """A mean curve, and thin beside it the lognormal whose parameters its label tells."""
     fitted = f"lognormal {_parameters(curve.fit)}" if curve.fit.has_fit else _parameters(curve.fit)
     text = style.label(f"{name}: mean; {fitted}")
-    ax.plot(grid, typology.mean(grid, curve.mechanism, curve.group), **look, label=text)
+    ax.plot(grid, typology[curve.mechanism, curve.group].mean(grid), **look, label=text)
     if curve.fit.has_fit:
         ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_FITTED, zorder=look.get("zorder"))
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
+from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
@@ -22,67 +20,11 @@ from dondolo._storage.run_file import RunFile
 from dondolo.analysis.stripes import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fragility_table
-from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
+from dondolo.errors import DondoloWarning, InputError
+from dondolo.populations.curve import Group, IntArray, PopulationCurve, Source
 from dondolo.populations.flags import Flags
-from dondolo.populations.members import Members
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
-
-IntArray = np.ndarray[Any, np.dtype[np.int32]]
-
-
-@dataclass(frozen=True, eq=False)
-class Group:
-    """A curve of a population, or of one of its groups: of one mechanism, or of all together.
-
-    Attributes
-    ----------
-    group : str
-        '' for the whole population.
-    mechanism : str
-        'all' for whatever makes the walls collapse: mechanisms in series, each with its probability of occurrence.
-    walls : int
-        How many walls, those of no weight left out.
-    weight : float
-        Sum of the weights, in walls; of one mechanism a wall counts as often as it can occur.
-    mean_fraction : ndarray, shape (levels,)
-        Weighted mean of the walls' fractions of collapse, 0 to 1.
-    mean_curve : ndarray, shape (levels,)
-        Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part
-        with its fractions.
-    fractiles : ndarray, shape (3, levels)
-        What 16, 50 and 84 % of the weight do not exceed.
-    beta_walls, beta_records : float
-        Dispersion between walls, the weighted standard deviation of ln theta, and between records, the weighted root
-        mean square of beta, over the walls with a curve; NaN if there are none.
-    fitted : float
-        Share of what can occur that has a curve.
-    saturation : float
-        What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
-    fit : Fragility
-        The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
-        its standard errors take the walls' histories for independent. Its values are those for all walls: they tend to
-        the saturation, as the mean curve does.
-    """
-
-    group: str
-    mechanism: str
-    walls: int
-    weight: float
-    mean_fraction: FloatArray
-    mean_curve: FloatArray
-    fractiles: FloatArray
-    beta_walls: float
-    beta_records: float
-    fitted: float
-    saturation: float
-    fit: Fragility
-
-    @property
-    def beta_total(self) -> float:
-        """Dispersion between walls and between records together."""
-        return math.hypot(self.beta_walls, self.beta_records)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -152,69 +94,38 @@ class Typology(Shown):
         collapses: IntArray = self.exceedances[-1]
         return collapses
 
-    @property
-    def weight(self) -> float:
-        """Sum of the weights of the walls."""
-        return self.group().weight
-
-    @property
-    def mean_fraction(self) -> FloatArray:
-        """Weighted mean of the walls' fractions of collapse, shape (levels,)."""
-        return self.group().mean_fraction
-
-    @property
-    def mean_curve(self) -> FloatArray:
-        """Weighted mean of the walls' curves, shape (levels,)."""
-        return self.group().mean_curve
-
-    def group(self, mechanism: str | None = None, group: str = "") -> Group:
-        """A curve of the population.
+    def __getitem__(self, key: str | tuple[str, str]) -> PopulationCurve:
+        """A curve of the population, or of a part of it: of a mechanism, or of a mechanism and a group.
 
         Parameters
         ----------
-        mechanism : str, optional
-            One of the mechanisms, or 'all'; all combined if left out.
-        group : str
-            One of the groups; '' for the whole population.
+        key : str or (str, str)
+            Mechanism, 'all' for whatever makes the walls collapse; group, '' for the whole population.
 
         Returns
         -------
-        Group
+        PopulationCurve
 
         Raises
         ------
         InputError
             There is no such mechanism or group.
         """
+        mechanism, group = (key, "") if isinstance(key, str) else key
         known = {one.group: None for one in self.groups}
         if group not in known:
             raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, known))}")
         of_group = {one.mechanism: one for one in self.groups if one.group == group}
-        if mechanism is None:
-            return list(of_group.values())[-1]
-        if mechanism not in of_group:
-            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, of_group))}")
-        return of_group[mechanism]
-
-    def fit(self, mechanism: str | None = None, group: str = "") -> Fragility:
-        """The lognormal curve of the walls that can collapse, see `Group`.
-
-        Parameters
-        ----------
-        mechanism, group : str, optional
-            As for `group`.
-
-        Returns
-        -------
-        Fragility
-            Its status says whether there is a curve.
-
-        Raises
-        ------
-        InputError
-            There is no such mechanism or group.
-        """
-        return self.group(mechanism, group).fit
+        # Where there is but one mechanism, and it can occur in all walls, its curve is that of all.
+        last = list(of_group)[-1]
+        if mechanism not in (*of_group, "all"):
+            raise InputError(
+                f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, dict.fromkeys([*of_group, 'all'])))}"
+            )
+        source = Source(
+            self.population, self.im, self.levels, self.curves, self.exceedances, self.histories, self.flags
+        )
+        return PopulationCurve.of(of_group[last if mechanism == "all" else mechanism], source)
 
     def at(self, edp: float) -> Typology:
         """The typology of one damage state.
@@ -258,175 +169,6 @@ class Typology(Shown):
             self._states[value] = dataclasses.replace(state, flags=flags)
             _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
-
-    def probabilities(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> FloatArray:
-        """Probability that each wall collapses, mechanisms in series; of one mechanism, if it can occur.
-
-        Parameters
-        ----------
-        x : array_like
-            Levels of intensity, not negative. Between the levels, the fractions of a wall without a fit are
-            interpolated linearly in x, from 0 at x = 0; above the highest level they stay.
-        mechanism, group : str
-            As for `group`.
-
-        Returns
-        -------
-        ndarray, shape (walls,) and that of x
-            Walls of no weight left out.
-
-        Raises
-        ------
-        InputError
-            No such mechanism or group, or a level that is negative or no number.
-        """
-        values = as_levels(x)
-        probabilities, _ = self._members(mechanism, group).at(values.ravel())
-        return probabilities.reshape((len(probabilities), *values.shape))
-
-    def mean(self, x: ArrayLike, mechanism: str | None = None, group: str = "") -> Any:
-        """Weighted mean of the walls' curves at any levels.
-
-        Parameters
-        ----------
-        x : array_like
-            Levels of intensity, as for `probabilities`.
-        mechanism, group : str, optional
-            As for `group`.
-
-        Returns
-        -------
-        float or ndarray, shape of x
-
-        Raises
-        ------
-        InputError
-            As `probabilities`.
-        """
-        values = as_levels(x)
-        members = self._members(mechanism, group)
-        parts = (members.at(part) for part in members.parts(values.ravel()))
-        mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
-        return shaped(np.minimum(mean, 1.0), values)
-
-    def fractiles(
-        self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84), mechanism: str | None = None, group: str = ""
-    ) -> FloatArray:
-        """Fractiles of the walls' curves at any levels: what a share of the weight does not exceed.
-
-        Parameters
-        ----------
-        x : array_like
-            Levels of intensity, as for `probabilities`.
-        q : array_like
-            Shares of the weight, above 0 and up to 1.
-        mechanism, group : str
-            As for `group`.
-
-        Returns
-        -------
-        ndarray, shape of q and that of x
-            At each level the smallest probability such that the walls up to it have at least the share.
-
-        Raises
-        ------
-        InputError
-            As `probabilities`, or a share beyond 0 and 1.
-        """
-        values = as_levels(x)
-        try:
-            shares = np.asarray(q, dtype=np.float64)
-        except (TypeError, ValueError):
-            shares = np.array(np.nan)
-        if not np.all((shares > 0.0) & (shares <= 1.0)):
-            raise InputError("q: must be shares of the weight, above 0 and up to 1")
-        members = self._members(mechanism, group)
-        found = np.zeros((shares.size, values.size))
-        done = 0
-        for part in members.parts(values.ravel()):
-            probabilities, weights = members.at(part)
-            order = np.argsort(probabilities, axis=0, kind="stable")
-            reached = np.cumsum(weights[order], axis=0)
-            # The rounding that Fortran allows, too
-            targets = (shares.ravel() - 1e-12)[:, None] * weights.sum()
-            for k in range(probabilities.shape[1]):
-                place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
-                found[:, done + k] = probabilities[order[place, k], k]
-            done += probabilities.shape[1]
-        return found.reshape(shares.shape + values.shape)
-
-    def _members(self, mechanism: str | None, group: str) -> Members:
-        """The walls behind a curve."""
-        curve = self.group(mechanism, group)
-        people = self.population
-        chosen = people.weights > 0.0
-        if group:
-            chosen &= np.array([name == group for name in people.groups])
-        if curve.mechanism != "all":
-            chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == curve.mechanism for wall in people.walls])
-        rows = np.flatnonzero(chosen)
-        counts = self.collapses[:, rows] / self.histories[rows]
-        curves = [self.curves[i] for i in rows]
-        if curve.mechanism == "all":
-            # Weights and groups are those of whole walls
-            first = np.searchsorted(rows, people.first_rows[chosen[people.first_rows]])
-            return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
-        weights = people.weights[rows] * people.p_occ[rows]
-        return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
-
-    def bootstrap(
-        self,
-        n: int = 1000,
-        seed: int | np.random.Generator | None = 0,
-        over: str | Iterable[str] = ("records", "walls"),
-        mechanism: str | None = None,
-        group: str = "",
-        events: Sequence[Any] | None = None,
-    ) -> TypologyBootstrap:
-        """Fit the curve again to records and walls drawn with replacement.
-
-        All walls are shaken by the same records: a record that is drawn counts for all of them, at all levels and in
-        both polarities, and a wall that is drawn brings all its mechanisms. The standard errors of the fit know nothing
-        of that and are too small.
-
-        Parameters
-        ----------
-        n : int
-            Number of samples.
-        seed : int, Generator or None
-            Of the random numbers; None: different every time.
-        over : {'records', 'walls'} or both
-            What is drawn. Of both, records alone where there is one wall.
-        mechanism : str, optional
-            The curve of one mechanism; all combined if left out.
-        group : str
-            The curve of one group; '' for the whole population.
-        events : sequence, optional
-            A label for each record, such as its recording or its earthquake: records with the same label are drawn
-            together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
-            much evidence as they are.
-
-        Returns
-        -------
-        TypologyBootstrap
-
-        Raises
-        ------
-        InputError
-            No such mechanism or group, fewer than two events or walls, labels that are not one for each record.
-        DondoloError
-            Records cannot be drawn where the results were read back from files.
-        """
-        flags = self.flags
-        if flags is None:
-            if over not in ("walls", ("walls",), ["walls"]):
-                raise DondoloError(
-                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts,"
-                    " and not which records they are of"
-                )
-            flags = Flags.of_counts(self.exceedances, self.histories)
-        self.group(mechanism, group)
-        return resample_population(self.population, flags, self.levels, n, seed, over, mechanism, group, events)
 
     def _tables(self) -> dict[str, Any]:
         return {
@@ -502,7 +244,7 @@ class Typology(Shown):
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
-        unit, whole = _binding.unit_of(self.im), self.group()
+        unit, whole = _binding.unit_of(self.im), self["all"]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
@@ -540,9 +282,9 @@ def _typology_of(typology: Typology) -> tables.Table:
         "beta": repeated(group.fit.beta for group in groups),
         "status": repeated(group.fit.status for group in groups),
         "group": repeated(group.group for group in groups),
-        "fractile_16": np.concatenate([group.fractiles[0] for group in groups]),
-        "fractile_50": np.concatenate([group.fractiles[1] for group in groups]),
-        "fractile_84": np.concatenate([group.fractiles[2] for group in groups]),
+        "fractile_16": np.concatenate([group.level_fractiles[0] for group in groups]),
+        "fractile_50": np.concatenate([group.level_fractiles[1] for group in groups]),
+        "fractile_84": np.concatenate([group.level_fractiles[2] for group in groups]),
         "beta_walls": repeated(group.beta_walls for group in groups),
         "beta_records": repeated(group.beta_records for group in groups),
         "saturation": repeated(group.saturation for group in groups),

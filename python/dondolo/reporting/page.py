@@ -180,7 +180,7 @@ def _lead(run: Run) -> str:
     parts = []
     if isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
-        counted = results.group().walls
+        counted = results["all"].walls
         parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
         if counted < walls:
             parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import warnings
 from collections.abc import Sequence
 from typing import Any
@@ -27,14 +26,10 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
     if population:
         limit = float(results.edp_thresholds[-1])
         cases = [
-            (f"whole population, {state_name(edp, limit)}", results.at(float(edp)).mean)
+            (f"whole population, {state_name(edp, limit)}", results.at(float(edp))["all"])
             for edp in results.edp_thresholds
         ]
-        cases += [
-            (f"{one.group}, collapse", functools.partial(results.mean, group=one.group))
-            for one in combined(results)
-            if one.group
-        ]
+        cases += [(f"{one.group}, collapse", results["all", one.group]) for one in combined(results) if one.group]
         main = len(results.edp_thresholds) - 1
     else:
         cases, main = [("collapse", curve)], 0

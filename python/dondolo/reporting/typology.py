@@ -11,7 +11,8 @@ import numpy as np
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
-from dondolo.populations.typology import Group, Typology
+from dondolo.populations.curve import Group
+from dondolo.populations.typology import Typology
 from dondolo.reporting.content import (
     BETA,
     THETA,
@@ -34,7 +35,7 @@ _SAMPLES = 500
 
 def summary(people: Typology) -> dict[str, Any]:
     """The main numbers, and what collapses at three of the levels."""
-    curve = people.group()
+    curve = people["all"]
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.fit.has_fit:
         whose = "of collapse, whole population"
@@ -71,7 +72,7 @@ def curves(people: Typology) -> dict[str, Any]:
         found["groups"] = figure(lambda: plot_groups(people), alt)
     if len(people.edp_thresholds) > 1:
         alt = "Probability to reach each damage state. "
-        alt += _in_words([people.at(edp).group() for edp in people.edp_thresholds])
+        alt += _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
         found["states"] = figure(lambda: plot_damage_states(people), alt)
         found["crossings"] = _crossings(people)
     return found
@@ -82,7 +83,7 @@ def _crossings(people: Typology) -> Table | None:
     limit = float(people.edp_thresholds[-1])
     states = {
         f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
-            partial(people.at(edp).mean, mechanism=curve.mechanism, group=curve.group) for edp in people.edp_thresholds
+            people.at(edp)[curve.mechanism, curve.group].mean for edp in people.edp_thresholds
         ]
         for curve in people.groups
     }
@@ -110,18 +111,18 @@ def _in_words(curves: Sequence[Group]) -> str:
 
 def numbers(people: Typology) -> dict[str, Any]:
     """Tables of parameters and of probabilities at the levels."""
-    limit = float(people.edp_thresholds[-1])
+    limit, whole_population = float(people.edp_thresholds[-1]), people["all"]
     return {
         "curves": _curves_table(people),
         "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp))) for edp in people.edp_thresholds[:-1]],
         "levels": [
-            (state_name(edp, limit), _levels_table(people, people.at(float(edp)).group()))
+            (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))
             for edp in people.edp_thresholds[::-1]
         ],
         "others": [
             (f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}", _levels_table(people, curve))
             for curve in people.groups
-            if curve is not people.group()
+            if (curve.group, curve.mechanism) != (whole_population.group, whole_population.mechanism)
         ],
     }
 
@@ -159,7 +160,7 @@ def _levels_table(people: Typology, curve: Group) -> Table:
         "mean of fractions": [probability(p) for p in curve.mean_fraction],
         "mean of curves": [probability(p) for p in curve.mean_curve],
     }
-    for share, row in zip(("16 %", "50 %", "84 %"), curve.fractiles, strict=True):
+    for share, row in zip(("16 %", "50 %", "84 %"), curve.level_fractiles, strict=True):
         columns[f"{share} fractile"] = [probability(p) for p in row]
     if curve.fit.has_fit:
         columns["lognormal"] = [probability(p) for p in curve.fit(people.levels)]
@@ -168,10 +169,10 @@ def _levels_table(people: Typology, curve: Group) -> Table:
 
 def uncertainty(people: Typology) -> dict[str, Any]:
     """Intervals of the bootstrap, or why there are none."""
-    curve = people.group()
+    curve = people["all"]
     stored = people.flags is None
     try:
-        samples = people.bootstrap(_SAMPLES, over=("walls",) if stored else ("records", "walls"))
+        samples = people["all"].bootstrap(_SAMPLES, over=("walls",) if stored else ("records", "walls"))
         intervals = samples.parameter_interval()
     except DondoloError as error:
         return {"problem": str(error)}

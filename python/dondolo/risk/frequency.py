@@ -8,7 +8,7 @@ collapse is (Cornell and Krawinkler 2000; McGuire 2004)
 Hazard
     Levels and frequencies are joined by straight lines of ln H against ln x: between two levels H is a power law,
     H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x): of a fitted lognormal in closed
-    form, of any other curve by Gauss's rule (dondolo._risk_integrals).
+    form, of any other curve by Gauss's rule (dondolo.risk.integrals).
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
@@ -34,7 +34,7 @@ Populations
 
     walls that never collapse take no part however long the time is, and weak ones collapse once. So it is computed
     from the walls behind the mean of a typology; a wall with mechanisms that may not occur is itself a mixture
-    (dondolo._risk_walls). There is no return period of a population.
+    (dondolo.risk.walls). There is no return period of a population.
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
@@ -47,7 +47,6 @@ seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic h
 from __future__ import annotations
 
 import functools
-import inspect
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -59,13 +58,13 @@ from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.mean_curve import MeanCurve
 from dondolo.errors import DondoloError, InputError
-from dondolo.populations.typology import Group, Typology
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
 from dondolo.risk.walls import WallFrequencies, wall_frequencies
 
-Curve = Fragility | Callable[[Any], Any]
+Curve = Fragility | MeanCurve | Callable[[Any], Any]
 
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
@@ -79,7 +78,7 @@ class Risk(Shown):
 
     Attributes
     ----------
-    fragility : Fragility or callable
+    fragility : Fragility, PopulationCurve or callable
     hazard : HazardCurve
     inside : float
         What the range of the hazard curve contributes [1/year].
@@ -144,7 +143,7 @@ class Risk(Shown):
         Warns
         -----
         DondoloWarning
-            The curve is a plain function, which is taken for that of one wall.
+            The curve is a function, which is taken for that of one wall.
         """
         return self.probability_bounds(years)[0]
 
@@ -168,15 +167,14 @@ class Risk(Shown):
         Warns
         -----
         DondoloWarning
-            The curve is a plain function, which is taken for that of one wall.
+            The curve is a function, which is taken for that of one wall.
 
         Notes
         -----
-        For the `mean` of a typology it is that of a wall drawn by weight, the share of the walls that is lost, from the
-        frequencies of all walls. Any other function is taken for the curve of one wall, and the fit of a population for
-        that of walls that are alike, but for its saturation. A plain function, such as ``lambda x: typology.mean(x)``,
-        hides the walls behind it: the probability is then too high for a population, and a warning says so. Give the
-        method itself, ``typology.mean`` or ``functools.partial(typology.mean, group="high")``.
+        Of the curve of a population it is that of a wall drawn by weight, the share of the walls that is lost, from the
+        frequencies of all walls. The fit of a population is taken for that of walls that are alike, but for its
+        saturation. Any function is taken for the curve of one wall: a function hides the walls behind it, so that the
+        probability is too high for a population, and a warning says so.
         """
         time = as_number("years", years)
         if not 0.0 <= time < np.inf:
@@ -187,8 +185,8 @@ class Risk(Shown):
         if self._of_function:
             _binding.warn(
                 [
-                    "the curve is a plain function, taken for that of one wall: for a population give typology.mean"
-                    " itself, or functools.partial of it with a mechanism or group"
+                    "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
+                    " typology[mechanism, group].risk(hazard)"
                 ]
             )
         return self._walls.probability(time)
@@ -196,22 +194,15 @@ class Risk(Shown):
     @functools.cached_property
     def _walls(self) -> WallFrequencies:
         """The walls behind the curve."""
-        if self._of_several:
-            curve = _curve_behind(self.fragility)
-            members = _object_of(self.fragility)._members(curve.mechanism, curve.group)
-            return wall_frequencies(members, self.hazard)
+        if isinstance(self.fragility, MeanCurve):
+            return wall_frequencies(self.fragility.members, self.hazard)
         share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
         return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
 
     @property
-    def _of_several(self) -> bool:
-        """Is the curve the mean of a typology?"""
-        return _is_mean(self.fragility)
-
-    @property
     def _of_function(self) -> bool:
-        """Whether the curve is a plain function, which does not show how many walls are behind it."""
-        return inspect.isfunction(_object_of(self.fragility))
+        """Whether the curve is a function, which does not show how many walls are behind it."""
+        return not isinstance(self.fragility, (Fragility, MeanCurve))
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
@@ -236,7 +227,7 @@ class Risk(Shown):
             raise InputError("x: must be positive")
         flat = values.ravel()
         inside = self.hazard._covers(flat)
-        found = integrand(functools.partial(_probability, self.fragility), self.hazard, np.log(flat))
+        found = integrand(functools.partial(probability, self.fragility), self.hazard, np.log(flat))
         return shaped(np.where(inside, found, 0.0), values)
 
     def deaggregate(self, edges: ArrayLike) -> FloatArray:
@@ -270,14 +261,14 @@ class Risk(Shown):
                 np.asarray(curve.theta), np.asarray(curve.beta), self.hazard, np.log(cuts)
             )
         else:
-            probability = functools.partial(_probability, self.fragility)
-            parts, _ = integrals(lambda u: integrand(probability, self.hazard, u), np.log(cuts))
+            curve_at = functools.partial(probability, self.fragility)
+            parts, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
     def _facts(self) -> list[tuple[str, str]]:
         of = " of one wall" if self._of_function else ""
         facts = [("mean annual frequency of collapse", between(*self.bounds, "a year"))]
-        if not self._of_several:
+        if not isinstance(self.fragility, MeanCurve):
             facts.append((f"return period{of}", between(*self.return_period_bounds, "years")))
         return [*facts, (f"probability in 50 years{of}", between(*self._walls.probability(50.0)))]
 
@@ -287,10 +278,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
 
     Parameters
     ----------
-    fragility : Fragility or callable
-        A fitted curve, or a function from intensities (an array) to probabilities that do not fall with the intensity,
-        such as the `mean` of a typology, given as such: wrapped in another function it is taken for the curve of one
-        wall (`Risk.probability_bounds`).
+    fragility : Fragility, PopulationCurve or callable
+        A fitted curve, that of a population, or a function from intensities (an array) to probabilities that do not
+        fall with the intensity, which is taken for the curve of one wall (`Risk.probability_bounds`).
     hazard : HazardCurve
         Of the same intensity measure.
 
@@ -312,7 +302,7 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
 
     Notes
     -----
-    The docstring of the module dondolo.risk has the formulas.
+    The docstring of the module dondolo.risk.frequency has the formulas.
 
     Examples
     --------
@@ -324,10 +314,10 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     """
     if not isinstance(hazard, HazardCurve):
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
-    if not callable(fragility):
+    if not callable(fragility) and not isinstance(fragility, MeanCurve):
         raise InputError(f"fragility: {type(fragility).__name__} is no curve")
-    # The object of a method knows its measure, as a typology does that of its mean; a plain function does not.
-    im = getattr(_object_of(fragility), "im", "")
+    # A function does not know its measure.
+    im = getattr(fragility, "im", "")
     if im and im != hazard.im:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):
@@ -335,9 +325,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
         inside, below, above, error = (most * float(part) for part in one)
     else:
-        one = of_function(functools.partial(_probability, fragility), hazard)
+        one = of_function(functools.partial(probability, fragility), hazard)
         inside, below, above, error = map(float, one)
-        most = _curve_behind(fragility).saturation if _is_mean(fragility) else 1.0
+        most = fragility.saturation if isinstance(fragility, MeanCurve) else 1.0
     if np.isinf(inside):
         raise DondoloError(
             "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
@@ -359,32 +349,9 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     return risk
 
 
-def _method_of(fragility: Curve) -> Any:
-    """A curve without what `functools.partial` gives it."""
-    return fragility.func if isinstance(fragility, functools.partial) else fragility
-
-
-def _object_of(fragility: Curve) -> Any:
-    """What a curve is a method of; the curve itself if it is none."""
-    method = _method_of(fragility)
-    return getattr(method, "__self__", method)
-
-
-def _is_mean(fragility: Curve) -> bool:
-    """Is a curve the mean of a typology?"""
-    return getattr(_method_of(fragility), "__func__", None) is Typology.mean
-
-
-def _curve_behind(fragility: Curve) -> Group:
-    """Of what mechanism and group the mean of a typology is."""
-    options = fragility.keywords if isinstance(fragility, functools.partial) else {}
-    typology: Typology = _object_of(fragility)
-    return typology.group(options.get("mechanism"), options.get("group", ""))
-
-
-def _probability(fragility: Curve, x: FloatArray) -> FloatArray:
+def probability(fragility: Curve, x: FloatArray) -> FloatArray:
     """Probabilities of collapse, checked."""
-    given = fragility(x)
+    given = fragility.mean(x) if isinstance(fragility, MeanCurve) else fragility(x)
     try:
         p = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):

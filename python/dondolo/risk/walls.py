@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo.populations.members import Members
-from dondolo.populations.series import in_series
+from dondolo.curves.members import Members
+from dondolo.curves.series import in_series
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import Contributions, of_function, of_lognormal
 

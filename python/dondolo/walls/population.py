@@ -367,7 +367,6 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
-    names = ["name", "mechanism", "height", "thickness", "density", "hinge", "restitution", "restitution_value"]
-    names += ["restitution_factor", "overburden", "eccentricity"]
+    names = [row.name for row in _binding.WALL_PROPERTIES if row.column]
     table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

@@ -23,8 +23,8 @@ from dondolo.walls.wall import MECHANISMS, Wall, wall_from
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
 
-_TEXTS = ("restitution", "bearing")
-_PROPERTIES = (*_binding.WALL_NUMBERS, "bearing_distance", *_TEXTS, "weight", "p_occ")
+_TEXTS = tuple(what for what in _binding.WALL_TEXTS if what not in ("name", "mechanism"))
+_PROPERTIES = (*_binding.WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
 # After so many the order hardly changes any more
 _PASSES = 5
 
@@ -341,9 +341,8 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     """Walls of one mechanism."""
     pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
-    numbers = {what: value for what, value in values.items() if what not in (*_TEXTS, "weight", "p_occ")}
-    restitutions, bearings = ([values.get(what)] * n for what in _TEXTS)
-    data = _binding.describe_walls(names, [mechanism] * n, restitutions, numbers, np.full(n, pull), bearings)
+    said = {what: [value] * n if what in _TEXTS else value for what, value in values.items()}
+    data = _binding.describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
     return [wall_from(one) for one in data]
 
 

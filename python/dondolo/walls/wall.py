@@ -63,25 +63,24 @@ class Wall:
     gravity: float = _DEFAULT
     name: str = _DEFAULT
 
-    def __post_init__(self, *bearing: Any) -> None:
+    def __post_init__(self) -> None:
+        self._understand()
+
+    def _understand(self, **more: Any) -> None:
+        """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
-        numbers = dict(zip(_binding.WALL_NUMBERS, self._numbers(), strict=True))
-        # A two-block wall comes with what takes the place of its eccentricity
-        place, numbers["bearing_distance"] = bearing or (None, None)
-        data = _binding.describe_wall(self.name, self.mechanism, self.restitution, numbers, self.gravity, place)
-        self._fill(data)
+        self._fill(_binding.describe_wall(self._properties() | more, self.gravity))
 
-    def _numbers(self) -> list[Any]:
-        """Its numbers in the order of Fortran, None where one does not apply."""
-        return [getattr(self, what, None) for what in _binding.WALL_NUMBERS]
+    def _properties(self) -> dict[str, Any]:
+        """Its properties by their names, None where one does not apply."""
+        return {row.name: getattr(self, row.name, None) for row in _binding.WALL_PROPERTIES}
 
     def _fill(self, data: _binding.WallData) -> None:
         """Take over what Fortran has understood."""
-        own = type(self).__dataclass_fields__
-        filled: dict[str, Any] = {what: value for what, value in data.numbers.items() if what in own}
-        filled |= {"name": data.name, "restitution": data.restitution, "gravity": data.gravity}
-        filled |= {"_statics": data.statics, "_two_sided": data.two_sided}
+        own = {field.name for field in dataclasses.fields(self)}
+        filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
+        filled |= {"gravity": data.gravity, "_statics": data.statics, "_two_sided": data.two_sided}
         for what, value in filled.items():
             object.__setattr__(self, what, value)
 
@@ -94,7 +93,7 @@ class Wall:
     @property
     def _flat(self) -> _binding.FlatWall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
-        return _binding.flat_wall(self.name, self.mechanism, self.restitution, self._numbers(), self.gravity)
+        return _binding.flat_wall(self._properties(), self.gravity)
 
     def _static(self, place: int) -> float:
         """One of the static quantities, in the order of Fortran."""
@@ -313,13 +312,16 @@ class TwoBlockWall(Wall):
     bearing: InitVar[str | None] = None
     bearing_distance: InitVar[float | None] = None
 
+    def __post_init__(self, bearing: str | None, bearing_distance: float | None) -> None:
+        self._understand(bearing=bearing, bearing_distance=bearing_distance)
+
 
 MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
 
 
 def wall_from(data: _binding.WallData) -> Wall:
     """A wall that Fortran has understood already."""
-    wall = object.__new__(MECHANISMS[data.mechanism])
+    wall = object.__new__(MECHANISMS[data.properties["mechanism"]])
     wall._fill(data)
     return wall
 
@@ -336,17 +338,7 @@ def walls_table(
         return [getattr(wall, what, None) for wall in walls]
 
     return {
-        "wall": column("name"),
-        "mechanism": column("mechanism"),
-        "height_m": column("height"),
-        "thickness_m": column("thickness"),
-        "density_kg_m3": column("density"),
-        "hinge": column("hinge"),
-        "restitution_model": column("restitution"),
-        "restitution_value": column("restitution_value"),
-        "restitution_factor": column("restitution_factor"),
-        "overburden_n_m": column("overburden"),
-        "eccentricity_m": column("eccentricity"),
+        **{row.column: column(row.name) for row in _binding.WALL_PROPERTIES if row.column},
         "alpha_rad": column("slenderness_angle"),
         "p_rad_s": column("frequency_parameter"),
         "trigger_acceleration_m_s2": column("trigger_acceleration"),

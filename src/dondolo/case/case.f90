@@ -1,9 +1,10 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
+   use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type, raise_input, status_missing
-   use dondolo_history_group, only : echo_history, find_record, history_input_type, read_history_group
-   use dondolo_job_group, only : echo_job, job_type, read_job
+   use dondolo_history_group, only : find_record, history_input_type, read_history_group
+   use dondolo_job_group, only : job_type, read_job
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : check_variant
    use dondolo_lines, only : lines_type
@@ -11,21 +12,23 @@ module dondolo_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
-   use dondolo_population_group, only : echo_population, read_population_group
+   use dondolo_population_group, only : put_population, read_population_group
+   use dondolo_property_tables, only : group_names
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_records_group, only : echo_records, read_records_group, records_input_type
+   use dondolo_records_group, only : read_records_group, records_input_type
+   use dondolo_settings, only : group_settings_type
+   use dondolo_settings_group, only : echo_settings, read_values
    use dondolo_simulate, only : check_history
-   use dondolo_settings, only : settings_type
    use dondolo_solver, only : check_limit
-   use dondolo_solver_group, only : echo_solver, read_solver_group, solver_input_type
-   use dondolo_stripes_group, only : check_states, echo_stripes, read_stripes_group, stripes_input_type
+   use dondolo_solver_group, only : read_solver_group, solver_input_type
+   use dondolo_stripes_group, only : check_states, read_stripes_group, stripes_input_type
    use dondolo_study, only : new_study, study_type
    use dondolo_suite, only : new_suite, suite_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
    use dondolo_text, only : to_text
-   use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use dondolo_wall_group, only : echo_wall, read_wall
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type
    implicit none
    private
 
@@ -34,10 +37,6 @@ module dondolo_case
 
    !> Memory that a sample of a record takes while the records are measured and joined [bytes]
    real(wp), parameter :: bytes_of_sample = 64.0_wp
-
-   !> Groups of a case
-   character(len=10), parameter :: group_names(7) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
-      & 'stripes', 'solver', 'history']
 
    !> A case
    type :: case_type
@@ -72,7 +71,7 @@ module dondolo_case
       procedure :: history_scale
       !> Path of the population
       procedure :: population_path
-      !> All settings in force
+      !> The case as namelist text
       procedure :: echo
       !> Paths of the files it is made of
       procedure :: inputs
@@ -107,7 +106,7 @@ contains
       if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
       if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
       if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
-      if (.not. allocated(error)) call read_wall(namelist%group('wall'), wall, error)
+      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error)
       if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
@@ -206,7 +205,7 @@ contains
       if (.not. allocated(error)) &
          & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
       call group%locate(error)
-      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%input%name//''')'
+      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall
 
    !> Check what belongs together
@@ -409,23 +408,34 @@ contains
       path = beside(self%population_file, self%file)
    end function population_path
 
-   !> Every value in force, and no group that the task does not use
-   subroutine echo(self, settings)
+   !> The case as namelist text: every value in force, and no group that the task does not use
+   subroutine echo(self, echoed)
       !> The case
       class(case_type), intent(in) :: self
-      !> Settings
-      type(settings_type), intent(out) :: settings
+      !> The echo
+      type(echo_type), intent(out) :: echoed
 
-      call echo_job(self%job, settings)
+      type(group_settings_type) :: settings
+
+      call self%job%put(settings)
+      call echo_settings('job', settings, echoed, owner=self%job%task)
       if (allocated(self%population_file)) then
-         call echo_population(self%population_file, settings)
+         call put_population(self%population_file, settings)
+         call echo_settings('population', settings, echoed)
       else
-         call echo_wall(self%wall%input, settings)
+         call echo_settings('wall', self%wall%input, echoed, last='restitution_factor')
       end if
-      call echo_records(self%records_input, settings)
-      if (self%is_scaled()) call echo_stripes(self%stripes, settings)
-      call echo_solver(self%solver, settings)
-      if (self%job%task == 'history') call echo_history(self%history, settings)
+      call self%records_input%put(settings)
+      call echo_settings('records', settings, echoed)
+      if (self%is_scaled()) then
+         call self%stripes%put(settings)
+         call echo_settings('stripes', settings, echoed)
+      end if
+      call self%solver%put(settings)
+      call echo_settings('solver', settings, echoed, beside='atol')
+      if (self%job%task /= 'history') return
+      call self%history%put(settings)
+      call echo_settings('history', settings, echoed)
    end subroutine echo
 
    !> Paths of the files it is made of

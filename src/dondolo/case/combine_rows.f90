@@ -77,11 +77,11 @@ contains
          if (.not. allocated(error) .and. .not. is_there) &
             & call raise_failure(error, case%population_path()//': has changed while it was read')
          if (allocated(error)) exit
-         associate (input => member%wall%input, curve => counts%curve(size(counts%curve)))
-            call fits%look(curve, input%name)
+         associate (curve => counts%curve(size(counts%curve)))
+            call fits%look(curve, member%wall%name())
             if (counts%row <= shown_rows) then
-               results%shown(counts%row)%name = input%name
-               results%shown(counts%row)%mechanism = input%mechanism
+               results%shown(counts%row)%name = member%wall%name()
+               results%shown(counts%row)%mechanism = member%wall%mechanism_name()
                results%shown(counts%row)%curve = curve
             end if
          end associate

@@ -3,17 +3,24 @@ module dondolo_history_group
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
+   use dondolo_property, only : is_number_or_name, property_type
    use dondolo_record, only : record_type
-   use dondolo_settings, only : settings_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: history_input_type, read_history_group, find_record, echo_history
-   public :: history_variables
+   public :: history_input_type, read_history_group, find_record
+   public :: history_properties
 
    !> Variables of the group
-   character(len=8), parameter :: history_variables(3) = [character(len=8) :: 'record', 'scale', 'im_level']
+   type(property_type), target, save, protected :: history_properties(3) = [ &
+      & property_type('record', is_number_or_name, default=1.0_wp, &
+      &   meaning='number in the catalogue from 1, or a record''s name in quotes'), &
+      & property_type('scale', default=1.0_wp, positive=.true., meaning='factor on the record'), &
+      & property_type('im_level', optional=.true., positive=.true., example='0.4', &
+      &   meaning='instead of scale: level to scale the record to, in the unit of &stripes im')]
 
    !> What is said of the time history
    type :: history_input_type
@@ -25,6 +32,9 @@ module dondolo_history_group
       real(wp), allocatable :: scale
       !> Level of the intensity measure to scale to, in its unit
       real(wp), allocatable :: im_level
+   contains
+      !> The same as settings
+      procedure :: put
    end type history_input_type
 
 contains
@@ -38,42 +48,25 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      call group%check_names(history_variables, error)
+      type(group_settings_type) :: settings
+
+      call new_settings(settings, history_properties)
+      call read_settings(group, settings, error)
       if (allocated(error)) return
-      if (group%has_text('record')) then
-         call group%get_text('record', history%record_name, error)
+      if (settings%has_word('record')) then
+         history%record_name = settings%word('record')
       else
-         call group%get_integer('record', history%record, error)
+         history%record = nint(settings%number('record'))
       end if
-      if (allocated(error)) return
       if (group%has('scale') .and. group%has('im_level')) then
          call raise_input(error, group%place()//': im_level: give either scale or im_level'// &
             & group%in_line('im_level'))
       else if (group%has('im_level')) then
-         call get_positive(group, 'im_level', history%im_level, error)
-      else if (group%has('scale')) then
-         call get_positive(group, 'scale', history%scale, error)
+         history%im_level = settings%number('im_level')
       else
-         history%scale = 1.0_wp
+         history%scale = settings%number('scale')
       end if
    end subroutine read_history_group
-
-   !> Take a number that must be positive
-   subroutine get_positive(group, name, value, error)
-      !> The group
-      type(group_type), intent(in) :: group
-      !> Name of the variable
-      character(len=*), intent(in) :: name
-      !> Its value
-      real(wp), allocatable, intent(inout) :: value
-      !> Not a positive number
-      type(error_type), allocatable, intent(out) :: error
-
-      value = 0.0_wp
-      call group%get_real(name, value, error)
-      if (allocated(error)) return
-      if (.not. value > 0.0_wp) call group%refuse(name, 'must be positive', error)
-   end subroutine get_positive
 
    !> Find the record in the catalogue
    subroutine find_record(group, history, records, error)
@@ -86,6 +79,7 @@ contains
       !> There is no such record
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: known
       integer :: i
 
       if (allocated(history%record_name)) then
@@ -93,7 +87,8 @@ contains
             history%record = i
             if (records(i)%name == history%record_name) return
          end do
-         call group%refuse('record', 'no such record; there are '//some_names(records), error)
+         call list_names(records, known)
+         call group%refuse('record', 'no such record; there are '//known, error)
       else if (history%record < 1 .or. history%record > size(records)) then
          call group%refuse('record', 'must lie between 1 and '//to_text(size(records))// &
             & ', the number of records in the catalogue', error)
@@ -101,11 +96,11 @@ contains
    end subroutine find_record
 
    !> The first names of a catalogue, as many as fit a message
-   pure function some_names(records) result(list)
+   subroutine list_names(records, list)
       !> The records
       type(record_type), intent(in) :: records(:)
       !> 'a', 'b', ... and 30 more
-      character(len=:), allocatable :: list
+      character(len=:), allocatable, intent(out) :: list
 
       integer, parameter :: shown = 8
       integer :: i
@@ -116,25 +111,26 @@ contains
          list = list//''''//records(i)%name//''''
       end do
       if (size(records) > shown) list = list//' and '//to_text(size(records) - shown)//' more'
-   end function some_names
+   end subroutine list_names
 
-   !> Write the group as namelist text with every value in force
-   subroutine echo_history(history, settings)
+   !> What is said of the time history, as settings
+   subroutine put(self, settings)
       !> What is said of the time history
-      type(history_input_type), intent(in) :: history
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      class(history_input_type), intent(in) :: self
+      !> Values of history_properties
+      type(group_settings_type), intent(out) :: settings
 
-      if (allocated(history%record_name)) then
-         call settings%add('history', 'record', history%record_name)
+      call new_settings(settings, history_properties)
+      if (allocated(self%record_name)) then
+         call settings%set('record', self%record_name)
       else
-         call settings%add('history', 'record', history%record)
+         call settings%set('record', self%record)
       end if
-      if (allocated(history%im_level)) then
-         call settings%add('history', 'im_level', history%im_level)
+      if (allocated(self%im_level)) then
+         call settings%set('im_level', self%im_level)
       else
-         call settings%add('history', 'scale', history%scale)
+         call settings%set('scale', self%scale)
       end if
-   end subroutine echo_history
+   end subroutine put
 
 end module dondolo_history_group

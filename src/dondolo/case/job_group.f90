@@ -1,22 +1,36 @@
 !> The group &job: what is to be done and where the results go.
 module dondolo_job_group
    use dondolo_error, only : error_type
+   use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : settings_type
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_property, only : blank, choices_length, is_integer, is_logical, is_text, most_choices, property_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
    use dondolo_threads, only : largest_threads
    implicit none
    private
 
-   public :: job_type, read_job, echo_job
-   public :: task_names, job_variables
+   public :: job_type, read_job
+   public :: task_names, job_properties
 
    !> Names of the tasks
-   character(len=8), parameter :: task_names(3) = [character(len=8) :: 'history', 'stripes', 'typology']
+   character(len=choices_length), parameter :: task_names(*) = &
+      & [character(len=choices_length) :: 'history', 'stripes', 'typology']
+
+   !> Tasks of populations
+   character(len=choices_length), parameter :: typology(most_choices) = &
+      & reshape([character(len=choices_length) :: 'typology'], [most_choices], pad=blank)
 
    !> Variables of the group
-   character(len=9), parameter :: job_variables(5) = &
-      & [character(len=9) :: 'task', 'title', 'output', 'threads', 'histories']
+   type(property_type), target, save, protected :: job_properties(5) = [ &
+      & property_type('task', is_text, word='stripes', choices=reshape(task_names, [most_choices], pad=blank), &
+      &   meaning='what is to be done'), &
+      & property_type('title', is_text, changes_results=.false., meaning='any text'), &
+      & property_type('output', is_text, word='dondolo', changes_results=.false., meaning='what the names of the '// &
+      &   'result files begin with, relative to the current folder'), &
+      & property_type('histories', is_logical, owners=typology, meaning='write the table of all histories too?'), &
+      & property_type('threads', is_integer, smallest=0.0_wp, largest=real(largest_threads, wp), zero='all', &
+      &   changes_results=.false., meaning='number of threads; 0: all, or OMP_NUM_THREADS')]
 
    !> What is to be done
    type :: job_type
@@ -32,6 +46,9 @@ module dondolo_job_group
       logical :: histories = .false.
       !> In which line the output was given, for messages
       character(len=:), allocatable :: output_line
+   contains
+      !> The same as settings
+      procedure :: put
    end type job_type
 
 contains
@@ -45,44 +62,40 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      job%task = 'stripes'
-      job%title = ''
-      job%output = 'dondolo'
-      call group%check_names(job_variables, error)
-      if (.not. allocated(error)) call group%get_text('task', job%task, error)
-      if (.not. allocated(error)) call group%get_text('title', job%title, error)
-      if (.not. allocated(error)) call group%get_text('output', job%output, error)
-      if (.not. allocated(error)) call group%get_integer('threads', job%threads, error)
-      if (.not. allocated(error)) call group%get_logical('histories', job%histories, error)
+      type(group_settings_type) :: settings
+
+      call new_settings(settings, job_properties)
+      call read_settings(group, settings, error)
       if (allocated(error)) return
-      job%task = lower(trim(job%task))
-      if (.not. any(job%task == task_names)) then
-         call group%refuse('task', 'must be one of '//join(task_names), error)
-      else if (len_trim(job%output) == 0) then
+      job%task = settings%word('task')
+      job%title = settings%word('title')
+      job%output = settings%word('output')
+      job%histories = settings%holds('histories')
+      job%threads = nint(settings%number('threads'))
+      if (len_trim(job%output) == 0) then
          call group%refuse('output', 'must not be empty: the names of all result files begin with it', error)
       else if (job%output(len(job%output):) == '/') then
          call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'wall''', &
             & error)
       else if (index(job%output, '\') > 0) then
          call group%refuse('output', 'must have / between folders, not \', error)
-      else if (job%threads < 0 .or. job%threads > largest_threads) then
-         call group%refuse('threads', 'must lie between 0 (all) and '//to_text(largest_threads), error)
       end if
       job%output_line = group%in_line('output')
    end subroutine read_job
 
-   !> Write the group as namelist text with every value in force
-   subroutine echo_job(job, settings)
+   !> What is to be done, as settings
+   subroutine put(self, settings)
       !> What is to be done
-      type(job_type), intent(in) :: job
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      class(job_type), intent(in) :: self
+      !> Values of job_properties
+      type(group_settings_type), intent(out) :: settings
 
-      call settings%add('job', 'task', job%task)
-      call settings%add('job', 'title', job%title)
-      call settings%add('job', 'output', job%output)
-      if (job%task == 'typology') call settings%add('job', 'histories', job%histories)
-      call settings%add('job', 'threads', job%threads)
-   end subroutine echo_job
+      call new_settings(settings, job_properties)
+      call settings%set('task', self%task)
+      call settings%set('title', self%title)
+      call settings%set('output', self%output)
+      call settings%set('histories', self%histories)
+      call settings%set('threads', self%threads)
+   end subroutine put
 
 end module dondolo_job_group

@@ -10,16 +10,24 @@ module dondolo_population
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_text, only : join, lower, must_be_plain, plain, to_text
-   use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use dondolo_wall_group, only : set_wall_number, set_wall_text, wall_numbers, wall_texts, wall_variables
+   use dondolo_property, only : is_text, property_type
+   use dondolo_settings, only : group_settings_type, new_settings, settings_type
+   use dondolo_text, only : join, lower, to_text
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
    public :: member_type, population_reader_type, read_population
+   public :: member_properties
 
-   !> Columns besides the variables of a wall
-   character(len=6), parameter :: own_columns(3) = [character(len=6) :: 'weight', 'group', 'p_occ']
+   !> Columns besides the properties of a wall
+   type(property_type), target, save, protected :: member_properties(3) = [ &
+      & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
+      &   meaning='weight of the wall in its population, such as the number of walls like it'), &
+      & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &
+      & property_type('p_occ', default=1.0_wp, smallest=0.0_wp, largest=1.0_wp, &
+      &   meaning='probability that the mechanism can occur')]
 
    !> Memory that a row takes where all are kept, and what the index of names takes for it while it grows [bytes]
    real(wp), parameter :: bytes_of_row = 4000.0_wp, bytes_of_name = 72.0_wp
@@ -139,15 +147,28 @@ contains
       if (allocated(error)) return
       do i = 1, size(self%table%columns)
          associate (column => self%table%columns(i)%text)
-            if (any(lower(column) == wall_variables) .or. any(lower(column) == own_columns)) cycle
+            if (any(lower(column) == wall_properties%name) .or. any(lower(column) == member_properties%name)) cycle
             call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(wall_variables)//', '//join(own_columns))
+               & join(wall_properties%name)//', '//join(member_properties%name))
          end associate
          call self%close()
          return
       end do
-      call self%table%find_decimal_mark([(self%table%column(trim(wall_numbers(i))), i=1, size(wall_numbers)), &
-         & self%table%column('weight'), self%table%column('p_occ')], error)
+      call self%table%find_decimal_mark([number_columns(wall_properties), number_columns(member_properties)], error)
+
+   contains
+
+      !> Columns of numbers, 0 where the table has none of the name
+      function number_columns(properties) result(columns)
+         !> Properties
+         type(property_type), intent(in) :: properties(:)
+         !> Their columns
+         integer, allocatable :: columns(:)
+
+         columns = [(self%table%column(trim(properties(i)%name)), i=1, size(properties))]
+         columns = pack(columns, properties%kind /= is_text)
+      end function number_columns
+
    end subroutine open_population
 
    !> Read the next row; after an error the rows behind it can be read
@@ -174,7 +195,7 @@ contains
          call place_row(self, member, error)
       else if (self%wall%has_name) then
          ! Rows behind a wall that is wrong do not go on with the one before it.
-         self%wall%has_name = self%wall%wall%input%name == member%wall%input%name
+         self%wall%has_name = self%wall%wall%name() == member%wall%name()
       end if
       call add_place(error, self%table%place())
       self%is_right = self%is_right .and. .not. allocated(error)
@@ -226,72 +247,66 @@ contains
       !> Every cell that is not a number or out of range
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), parameter :: largest_weight = 1.0e12_wp
       type(wall_input_type) :: input
+      type(group_settings_type) :: own
       type(problems_type) :: problems
-      real(wp) :: number
-      integer :: i, column
 
-      input%name = 'wall '//to_text(self%row)
-      do i = 1, size(wall_texts)
-         column = given(wall_texts(i))
-         if (column == 0) cycle
-         call set_wall_text(input, wall_texts(i), self%table%get_text(column))
-         member%has_name = member%has_name .or. wall_texts(i) == 'name'
-      end do
-      do i = 1, size(wall_numbers)
-         column = given(wall_numbers(i))
-         if (column == 0) cycle
-         call self%table%get_real(column, number, error)
-         if (.not. allocated(error)) call set_wall_number(input, wall_numbers(i), number)
-         call problems%take(error)
-      end do
-      member%wall%input%name = input%name
+      call input%set('name', 'wall '//to_text(self%row))
+      member%has_name = given(self, 'name') > 0
+      call read_cells(self, input, problems)
+      call member%wall%input%set('name', trim(input%word('name')))
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       call problems%take(error)
-      ! Blanks alone are no name
-      member%group = self%table%get_text(given('group'))
-      call read_share('weight', member%weight, largest_weight)
-      call read_share('p_occ', member%p_occ, 1.0_wp)
-      if (plain(member%group) /= member%group) &
-         & call problems%note('group = '''//member%group//''': '//must_be_plain)
+      call new_settings(own, member_properties)
+      call read_cells(self, own, problems)
+      call own%fill()
+      call own%check(problems)
+      ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
+      member%weight = abs(own%number('weight'))
+      member%p_occ = abs(own%number('p_occ'))
+      member%group = own%word('group')
       call problems%raise(error)
-
-   contains
-
-      !> Number of a column in which this row has something, else 0
-      integer function given(name)
-         !> Name of the column
-         character(len=*), intent(in) :: name
-
-         given = self%table%column(trim(name))
-         if (len_trim(self%table%get_text(given)) == 0) given = 0
-      end function given
-
-      !> Read a number that is 1 where it was not given
-      subroutine read_share(name, share, largest)
-         !> Name of the column
-         character(len=*), intent(in) :: name
-         !> The number
-         real(wp), intent(out) :: share
-         !> The largest that is allowed; the smallest is 0
-         real(wp), intent(in) :: largest
-
-         integer :: column
-
-         share = 1.0_wp
-         column = given(name)
-         if (column == 0) return
-         call self%table%get_real(column, share, error)
-         if (.not. allocated(error) .and. .not. (share >= 0.0_wp .and. share <= largest)) &
-            & call problems%note(name//' = '//to_text(share)//': must lie between 0 and '//to_text(largest))
-         call problems%take(error)
-         ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
-         share = abs(share)
-      end subroutine read_share
-
    end subroutine read_row
+
+   !> Number of a column in which the row has something, else 0; blanks alone are nothing
+   integer function given(reader, name)
+      !> The reader, with a row
+      type(population_reader_type), intent(in) :: reader
+      !> Name of the column
+      character(len=*), intent(in) :: name
+
+      given = reader%table%column(name)
+      if (len_trim(reader%table%get_text(given)) == 0) given = 0
+   end function given
+
+   !> Read the cells of a row that give properties
+   subroutine read_cells(reader, settings, problems)
+      !> The reader, with a row
+      type(population_reader_type), intent(in) :: reader
+      !> What is said in the row
+      class(settings_type), intent(inout) :: settings
+      !> Takes every cell that should be a number and is none
+      type(problems_type), intent(inout) :: problems
+
+      type(property_type), pointer :: table(:)
+      type(error_type), allocatable :: error
+      real(wp) :: number
+      integer :: i, column
+
+      call settings%get_table(table)
+      do i = 1, size(table)
+         column = given(reader, trim(table(i)%name))
+         if (column == 0) cycle
+         if (table(i)%kind == is_text) then
+            call settings%set(table(i)%name, reader%table%get_text(column))
+            cycle
+         end if
+         call reader%table%get_real(column, number, error)
+         if (.not. allocated(error)) call settings%set(table(i)%name, number)
+         call problems%take(error)
+      end do
+   end subroutine read_cells
 
    !> Place a row among those before it: a further mechanism of the wall before, or a new wall
    subroutine place_row(self, member, error)
@@ -302,36 +317,37 @@ contains
       !> The name stands elsewhere too, or what is said of the wall differs
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: name, mechanism
       integer :: line
 
-      associate (name => member%wall%input%name, mechanism => member%wall%input%mechanism)
-         if (self%wall%has_name .and. member%has_name) member%continues = self%wall%wall%input%name == name
-         if (.not. member%continues) then
-            line = 0
-            if (self%is_checked) call self%names%note(name, self%table%line, line)
-            if (self%names%lacks_memory) then
-               call raise_shortage(bytes_of_name*real(self%row, wp), error)
-               return
-            end if
-            if (line > 0) then
-               call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
-                  & '); mechanisms of one wall must stand one after the other')
-               return
-            end if
-            self%wall = member
-            self%mechanisms = mechanism//' '
-         else if (index(self%mechanisms, mechanism//' ') > 0) then
-            call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
-         else if (abs(self%wall%weight - member%weight) > 0.0_wp) then
-            call raise_input(error, 'weight = '//to_text(member%weight)//': must be '//to_text(self%wall%weight)// &
-               & ' as in the row before, which is of the same wall')
-         else if (self%wall%group /= member%group) then
-            call raise_input(error, 'group = '''//member%group//''': must be '''//self%wall%group// &
-               & ''' as in the row before, which is of the same wall')
-         else
-            self%mechanisms = self%mechanisms//mechanism//' '
+      name = member%wall%name()
+      mechanism = member%wall%mechanism_name()
+      if (self%wall%has_name .and. member%has_name) member%continues = self%wall%wall%name() == name
+      if (.not. member%continues) then
+         line = 0
+         if (self%is_checked) call self%names%note(name, self%table%line, line)
+         if (self%names%lacks_memory) then
+            call raise_shortage(bytes_of_name*real(self%row, wp), error)
+            return
          end if
-      end associate
+         if (line > 0) then
+            call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
+               & '); mechanisms of one wall must stand one after the other')
+            return
+         end if
+         self%wall = member
+         self%mechanisms = mechanism//' '
+      else if (index(self%mechanisms, mechanism//' ') > 0) then
+         call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
+      else if (abs(self%wall%weight - member%weight) > 0.0_wp) then
+         call raise_input(error, 'weight = '//to_text(member%weight)//': must be '//to_text(self%wall%weight)// &
+            & ' as in the row before, which is of the same wall')
+      else if (self%wall%group /= member%group) then
+         call raise_input(error, 'group = '''//member%group//''': must be '''//self%wall%group// &
+            & ''' as in the row before, which is of the same wall')
+      else
+         self%mechanisms = self%mechanisms//mechanism//' '
+      end if
    end subroutine place_row
 
    !> Close it before its end is reached

@@ -1,16 +1,20 @@
 !> The group &population: the file of a population of walls.
 module dondolo_population_group
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : settings_type
+   use dondolo_property, only : is_text, property_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
    implicit none
    private
 
-   public :: read_population_group, echo_population
-   public :: population_variables
+   public :: read_population_group, put_population
+   public :: population_properties
 
    !> Variables of the group
-   character(len=4), parameter :: population_variables(1) = ['file']
+   type(property_type), target, save, protected :: population_properties(1) = [ &
+      & property_type('file', is_text, required=.true., names='a CSV table with one row a wall', changes_results=.false., &
+      &   example='data/walls/population.csv', meaning='table with one row a wall, from the folder of this file')]
 
 contains
 
@@ -23,26 +27,22 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      file = ''
-      call group%check_names(population_variables, error)
-      if (.not. allocated(error)) call group%get_text('file', file, error)
-      if (allocated(error)) return
-      if (.not. group%has('file')) then
-         call raise_input(error, group%place()//': file: must be given, a CSV table with one row a wall'// &
-            & group%in_line(''))
-      else if (len_trim(file) == 0) then
-         call group%refuse('file', 'must name a CSV table with one row a wall', error)
-      end if
+      type(group_settings_type) :: settings
+
+      call new_settings(settings, population_properties)
+      call read_settings(group, settings, error)
+      file = settings%word('file')
    end subroutine read_population_group
 
-   !> Write the group as namelist text
-   subroutine echo_population(file, settings)
+   !> The file as settings
+   subroutine put_population(file, settings)
       !> Path of the table of walls as it was given
       character(len=*), intent(in) :: file
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      !> Values of population_properties
+      type(group_settings_type), intent(out) :: settings
 
-      call settings%add('population', 'file', file)
-   end subroutine echo_population
+      call new_settings(settings, population_properties)
+      call settings%set('file', file)
+   end subroutine put_population
 
 end module dondolo_population_group

@@ -1,18 +1,24 @@
 !> The group &records: the accelerograms and their polarity.
 module dondolo_records_group
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : settings_type
+   use dondolo_property, only : blank, choices_length, is_text, most_choices, property_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
    use dondolo_study, only : polarity_names
-   use dondolo_text, only : join, lower
    implicit none
    private
 
-   public :: records_input_type, read_records_group, echo_records
-   public :: records_variables
+   public :: records_input_type, read_records_group
+   public :: records_properties
 
    !> Variables of the group
-   character(len=9), parameter :: records_variables(2) = [character(len=9) :: 'catalogue', 'polarity']
+   type(property_type), target, save, protected :: records_properties(2) = [ &
+      & property_type('catalogue', is_text, required=.true., names='a CSV table with one row a record', &
+      &   changes_results=.false., example='data/records/synthetic44.csv', meaning='table with one row a record, from '// &
+      &   'the folder of this file; its columns: file, dt_s, units, channel, format, and any others'), &
+      & property_type('polarity', is_text, word='as_recorded', meaning='polarity of the records; ''both'' not for a '// &
+      &   'time history', choices=reshape([character(len=choices_length) :: polarity_names], [most_choices], pad=blank))]
 
    !> What is said of the accelerograms
    type :: records_input_type
@@ -20,6 +26,9 @@ module dondolo_records_group
       character(len=:), allocatable :: catalogue
       !> Polarity, one of polarity_names
       character(len=:), allocatable :: polarity
+   contains
+      !> The same as settings
+      procedure :: put
    end type records_input_type
 
 contains
@@ -33,32 +42,24 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      records%catalogue = ''
-      records%polarity = 'as_recorded'
-      call group%check_names(records_variables, error)
-      if (.not. allocated(error)) call group%get_text('catalogue', records%catalogue, error)
-      if (.not. allocated(error)) call group%get_text('polarity', records%polarity, error)
-      if (allocated(error)) return
-      records%polarity = lower(trim(records%polarity))
-      if (.not. group%has('catalogue')) then
-         call raise_input(error, group%place()//': catalogue: must be given, a CSV table with one row a record'// &
-            & group%in_line(''))
-      else if (len_trim(records%catalogue) == 0) then
-         call group%refuse('catalogue', 'must name a CSV table with one row a record', error)
-      else if (.not. any(records%polarity == polarity_names)) then
-         call group%refuse('polarity', 'must be one of '//join(polarity_names), error)
-      end if
+      type(group_settings_type) :: settings
+
+      call new_settings(settings, records_properties)
+      call read_settings(group, settings, error)
+      records%catalogue = settings%word('catalogue')
+      records%polarity = settings%word('polarity')
    end subroutine read_records_group
 
-   !> Write the group as namelist text with every value in force
-   subroutine echo_records(records, settings)
+   !> What is said of the accelerograms, as settings
+   subroutine put(self, settings)
       !> What is said of the accelerograms
-      type(records_input_type), intent(in) :: records
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      class(records_input_type), intent(in) :: self
+      !> Values of records_properties
+      type(group_settings_type), intent(out) :: settings
 
-      call settings%add('records', 'catalogue', records%catalogue)
-      call settings%add('records', 'polarity', records%polarity)
-   end subroutine echo_records
+      call new_settings(settings, records_properties)
+      if (allocated(self%catalogue)) call settings%set('catalogue', self%catalogue)
+      call settings%set('polarity', self%polarity)
+   end subroutine put
 
 end module dondolo_records_group

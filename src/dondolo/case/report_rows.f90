@@ -3,21 +3,21 @@ module dondolo_report_rows
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type
+   use dondolo_property, only : column_name
    use dondolo_response, only : response_type
    use dondolo_text, only : to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_properties, only : wall_properties
    implicit none
    private
 
-   public :: wall_head, wall_row, stripes_head, stripes_row, fragility_head, fragility_row
+   public :: make_wall_head, make_wall_row, stripes_head, stripes_row, fragility_head, fragility_row
    public :: typology_head, typology_row, history_head, history_row, wall_cells
 
    !> Names of the columns of each table
    character(len=*), parameter :: &
-      & wall_head = 'wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,'// &
-      & 'restitution_factor,overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,'// &
-      & 'capacity_rad,restitution,weight,group,p_occ', &
+      & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
       & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
       & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
       & 'bracket_high,edp_threshold', &
@@ -34,26 +34,53 @@ contains
       !> Two cells
       character(len=:), allocatable :: cells
 
-      cells = quoted(wall%input%name)//','//wall%input%mechanism
+      cells = quoted(wall%name())//','//wall%mechanism_name()
    end function wall_cells
 
-   !> A wall and its static quantities
-   function wall_row(member) result(row)
+   !> Names of the columns of a wall: its properties, and what follows from them
+   subroutine make_wall_head(head)
+      !> Names
+      character(len=:), allocatable, intent(out) :: head
+
+      integer :: i
+
+      head = ''
+      do i = 1, size(wall_properties)
+         if (wall_properties(i)%replaced) cycle
+         if (len(head) > 0) head = head//','
+         head = head//trim(column_name(wall_properties(i)))
+      end do
+      head = head//wall_tail
+   end subroutine make_wall_head
+
+   !> A wall: its properties, empty cells for those that it does not have, and its static quantities
+   subroutine make_wall_row(member, row)
       !> The wall, one mechanism of it
       type(member_type), intent(in) :: member
       !> Row
-      character(len=:), allocatable :: row
+      character(len=:), allocatable, intent(out) :: row
 
+      integer :: i
+
+      row = ''
       associate (wall => member%wall)
-         row = wall_cells(wall)//','//to_table(wall%input%height)//','//to_table(wall%input%thickness)//','// &
-            & to_table(wall%input%density)//','//given(wall%input%hinge)//','//wall%input%restitution//','// &
-            & given(wall%input%restitution_value)//','//to_table(wall%input%restitution_factor)//','// &
-            & given(wall%input%overburden)//','//given(wall%input%eccentricity)//','//to_table(wall%alpha)//','// &
-            & to_table(wall%mechanism%frequency_parameter())//','//to_table(wall%mechanism%trigger_acceleration())// &
-            & ','//to_table(wall%mechanism%capacity)//','//to_table(wall%mechanism%restitution)//','// &
-            & to_table(member%weight)//','//quoted(member%group)//','//to_table(member%p_occ)
+         do i = 1, size(wall_properties)
+            associate (name => wall_properties(i)%name)
+               if (wall_properties(i)%replaced) cycle
+               if (i > 1) row = row//','
+               if (wall%input%has_word(name)) then
+                  row = row//quoted(wall%input%word(name))
+               else if (wall%input%has(name)) then
+                  row = row//to_table(wall%input%number(name))
+               end if
+            end associate
+         end do
+         row = row//','//to_table(wall%alpha)//','//to_table(wall%mechanism%frequency_parameter())//','// &
+            & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
+            & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','//quoted(member%group)//','// &
+            & to_table(member%p_occ)
       end associate
-   end function wall_row
+   end subroutine make_wall_row
 
    !> Histories that reach an EDP threshold at a level
    pure function stripes_row(cells, im, level, histories, reached, threshold) result(row)
@@ -168,17 +195,6 @@ contains
       end do
       cell = cell//'"'
    end function quoted
-
-   !> A number that not every wall has
-   pure function given(value) result(cell)
-      !> The number
-      real(wp), allocatable, intent(in) :: value
-      !> Cell, empty if there is no number
-      character(len=:), allocatable :: cell
-
-      cell = ''
-      if (allocated(value)) cell = to_table(value)
-   end function given
 
    !> A bound of the median
    pure function bound(value) result(cell)

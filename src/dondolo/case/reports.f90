@@ -11,7 +11,7 @@ module dondolo_reports
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
    use dondolo_run_file, only : write_run
-   use dondolo_settings, only : settings_type
+   use dondolo_echo, only : echo_type
    use dondolo_text, only : to_table, to_text
    use dondolo_version, only : dondolo_version_text
    use dondolo_warning_sentence, only : warning_sentences
@@ -141,15 +141,15 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      type(settings_type) :: settings
+      type(echo_type) :: echo
       type(lines_type) :: lines, warnings
       integer :: i
 
       call files%line(mark//dondolo_version_text)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
       call files%line('# engine and build variant: '//results%engine())
-      call case%echo(settings)
-      call settings%to_namelist(lines)
+      call case%echo(echo)
+      call echo%to_namelist(lines)
       do i = 1, lines%count
          call files%line('# '//lines%line(i)%text)
       end do

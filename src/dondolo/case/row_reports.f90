@@ -7,7 +7,7 @@ module dondolo_row_reports
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_report_rows, only : fragility_head, fragility_row, history_head, history_row, stripes_head, &
-      & stripes_row, wall_cells, wall_head, wall_row
+      & stripes_row, wall_cells, make_wall_head, make_wall_row
    use dondolo_result_files, only : result_files_type
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
@@ -82,9 +82,12 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: line
+
       select case (name)
       case ('_walls.csv')
-         call files%line(wall_head)
+         call make_wall_head(line)
+         call files%line(line)
       case ('_histories.csv')
          if (case%solver%solver%estimate_error) then
             call files%line(history_head//',edp_error')
@@ -113,9 +116,12 @@ contains
       !> Its histories cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: line
+
       select case (name)
       case ('_walls.csv')
-         call files%line(wall_row(member))
+         call make_wall_row(member, line)
+         call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)
       case ('_stripes.csv')

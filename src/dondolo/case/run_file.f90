@@ -9,7 +9,7 @@ module dondolo_run_file
    use dondolo_paths, only : beside
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type
-   use dondolo_settings, only : settings_type
+   use dondolo_echo, only : echo_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_warning_sentence, only : put_warnings
    use dondolo_work, only : work_names
@@ -33,7 +33,7 @@ contains
       type(result_files_type), intent(inout) :: files
 
       type(json_type) :: json
-      type(settings_type) :: settings
+      type(echo_type) :: echo
       character(len=:), allocatable :: text
 
       call json%open_object()
@@ -42,8 +42,8 @@ contains
       call json%put('compiler', compiler_version())
       call json%put('real_bits', storage_size(1.0_wp))
       call json%put('engine', results%engine())
-      call case%echo(settings)
-      call settings%to_json(json)
+      call case%echo(echo)
+      call echo%to_json(json)
       call put_inputs(case, json)
       if (case%job%task == 'history') then
          call put_history(case, results, json)

@@ -18,6 +18,8 @@ module dondolo_run_population
    use dondolo_result_files, only : make_folders
    use dondolo_results, only : results_type
    use dondolo_run_rows, only : run_rows
+   use dondolo_settings, only : group_settings_type
+   use dondolo_settings_key, only : add_settings
    use dondolo_study, only : study_type
    use dondolo_survey, only : check_size, fingerprint_lines, number_of_group
    use dondolo_system, only : cut_file, remove_file
@@ -146,6 +148,7 @@ contains
       type(counts_key_type) :: key
 
       type(fingerprint_type) :: records, settings
+      type(group_settings_type) :: group
       integer :: i
 
       key%walls = case%survey%fingerprint%text()
@@ -155,44 +158,16 @@ contains
          call records%add_reals(case%suite%records(i)%acceleration)
       end do
       key%records = records%text()
-      call add_word('version', dondolo_version_text)
-      call add_word('im', case%stripes%scaling%name)
-      call add_word('polarity', case%records_input%polarity)
-      call add_word('engine', trim(case%solver%solver%engine))
-      call add_numbers('levels', case%stripes%levels)
-      call add_numbers('edp_thresholds', case%stripes%thresholds)
-      call add_numbers('gravity', [case%solver%gravity])
-      call add_numbers('rtol', [case%solver%solver%rtol])
-      call add_numbers('atol', [case%solver%solver%atol])
-      call add_numbers('edp_limit', [case%solver%solver%edp_limit])
+      call settings%add_text(dondolo_version_text)
+      call case%records_input%put(group)
+      call add_settings(settings, group)
+      call case%stripes%put(group)
+      call add_settings(settings, group)
+      call case%solver%put(group)
+      call add_settings(settings, group)
       key%settings = settings%text()
       key%variant = build_variant()
       key%shape = shape_type(size(case%stripes%levels), size(case%stripes%thresholds), case%job%histories)
-
-   contains
-
-      !> Add a setting that is a word
-      subroutine add_word(name, word)
-         !> Name of the setting
-         character(len=*), intent(in) :: name
-         !> Its value
-         character(len=*), intent(in) :: word
-
-         call settings%add_text(name)
-         call settings%add_text(word)
-      end subroutine add_word
-
-      !> Add a setting that is one number or several; how many is part of the fingerprint
-      subroutine add_numbers(name, numbers)
-         !> Name of the setting
-         character(len=*), intent(in) :: name
-         !> Its values
-         real(wp), intent(in) :: numbers(:)
-
-         call settings%add_text(name)
-         call settings%add_reals(numbers)
-      end subroutine add_numbers
-
    end function key_of
 
    !> Check that a file belongs to a case

@@ -104,7 +104,7 @@ contains
       type(stripes_type) :: stripes
 
       row%continues = member%continues
-      row%mechanism = findloc(mechanism_names == member%wall%input%mechanism, .true., dim=1)
+      row%mechanism = findloc(mechanism_names == member%wall%mechanism_name(), .true., dim=1)
       row%weight = member%weight
       row%p_occ = member%p_occ
       call plan_stripes(stripes, member%wall, study, error)
@@ -114,7 +114,7 @@ contains
          work = stripes%work
          if (study%keeps_histories) call move_alloc(stripes%response, row%response)
       end if
-      call add_place(error, 'wall '''//member%wall%input%name//'''')
+      call add_place(error, 'wall '''//member%wall%name()//'''')
    end subroutine run_row
 
 end module dondolo_run_rows

@@ -3,22 +3,14 @@ module dondolo_solver_group
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : settings_type
-   use dondolo_solver, only : check_solver, engine_names, solver_type
-   use dondolo_text, only : join, lower
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
+   use dondolo_solver, only : put_solver, solver_properties, solver_type, take_solver
    use dondolo_wall, only : standard_gravity
    implicit none
    private
 
-   public :: solver_input_type, read_solver_group, echo_solver
-   public :: solver_variables
-
-   !> Variables of the group
-   character(len=14), parameter :: solver_variables(6) = &
-      & [character(len=14) :: 'engine', 'rtol', 'atol', 'edp_limit', 'estimate_error', 'gravity']
-
-   !> Largest gravity that makes sense [m/s2]
-   real(wp), parameter :: largest_gravity = 1.0e3_wp
+   public :: solver_input_type, read_solver_group
 
    !> What is said of the computation
    type :: solver_input_type
@@ -26,6 +18,9 @@ module dondolo_solver_group
       type(solver_type) :: solver
       !> Gravity [m/s2]
       real(wp) :: gravity = standard_gravity
+   contains
+      !> The same as settings
+      procedure :: put
    end type solver_input_type
 
 contains
@@ -39,42 +34,25 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: engine
+      type(group_settings_type) :: settings
 
-      engine = input%solver%engine
-      call group%check_names(solver_variables, error)
-      if (.not. allocated(error)) call group%get_text('engine', engine, error)
-      if (.not. allocated(error)) call group%get_real('rtol', input%solver%rtol, error)
-      if (.not. allocated(error)) call group%get_real('atol', input%solver%atol, error)
-      if (.not. allocated(error)) call group%get_real('edp_limit', input%solver%edp_limit, error)
-      if (.not. allocated(error)) call group%get_logical('estimate_error', input%solver%estimate_error, error)
-      if (.not. allocated(error)) call group%get_real('gravity', input%gravity, error)
+      call new_settings(settings, solver_properties)
+      call read_settings(group, settings, error)
       if (allocated(error)) return
-      engine = lower(trim(engine))
-      if (.not. any(engine == engine_names)) then
-         call group%refuse('engine', 'must be one of '//join(engine_names), error)
-      else if (.not. (input%gravity > 0.0_wp .and. input%gravity <= largest_gravity)) then
-         call group%refuse('gravity', 'must be positive and at most 1000 m/s2', error)
-      else
-         input%solver%engine = engine
-         call check_solver(input%solver, error)
-         call group%locate(error)
-      end if
+      call take_solver(input%solver, settings)
+      input%gravity = settings%number('gravity')
    end subroutine read_solver_group
 
-   !> Write the group as namelist text with every value in force
-   subroutine echo_solver(input, settings)
+   !> What is said of the computation, as settings
+   subroutine put(self, settings)
       !> What is said of the computation
-      type(solver_input_type), intent(in) :: input
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      class(solver_input_type), intent(in) :: self
+      !> Values of solver_properties
+      type(group_settings_type), intent(out) :: settings
 
-      call settings%add('solver', 'engine', trim(input%solver%engine))
-      call settings%add('solver', 'rtol', input%solver%rtol)
-      call settings%add('solver', 'atol', input%solver%atol, joins=.true.)
-      call settings%add('solver', 'edp_limit', input%solver%edp_limit)
-      call settings%add('solver', 'estimate_error', input%solver%estimate_error)
-      call settings%add('solver', 'gravity', input%gravity)
-   end subroutine echo_solver
+      call new_settings(settings, solver_properties)
+      call put_solver(self%solver, settings)
+      call settings%set('gravity', self%gravity)
+   end subroutine put
 
 end module dondolo_solver_group

@@ -3,25 +3,38 @@ module dondolo_stripes_group
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
+   use dondolo_property, only : is_integer, is_list, is_text, property_type
    use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_settings, only : settings_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
    use dondolo_study, only : check_levels, check_thresholds
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: stripes_input_type, read_stripes_group, echo_stripes, check_states
-   public :: stripes_variables
-
-   !> Variables of the group
-   character(len=14), parameter :: stripes_variables(6) = &
-      & [character(len=14) :: 'im', 'levels', 'first', 'last', 'count', 'edp_thresholds']
-
-   !> Those that give equally spaced levels
-   character(len=5), parameter :: grid_variables(3) = [character(len=5) :: 'first', 'last', 'count']
+   public :: stripes_input_type, read_stripes_group, check_states
+   public :: stripes_properties
 
    !> More levels or thresholds than these are surely a slip
    integer, parameter :: most_levels = 1000, most_thresholds = 100
+
+   !> Variables of the group; first, last and count become levels
+   type(property_type), target, save, protected :: stripes_properties(6) = [ &
+      & property_type('im', is_text, word='pga', meaning='intensity measure: also ''sa(0.5)'', ''saavg(0.2:2)'' (periods '// &
+      &   'in s; levels in g), ''pgv'', ''arias'', ''cav'' (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)'), &
+      & property_type('levels', is_list, optional=.true., instead='first, last and count', &
+      &   example='0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8', meaning='levels of the measure, increasing, in its unit'), &
+      & property_type('first', optional=.true., positive=.true., example='0.1', changes_results=.false., &
+      &   meaning='instead of levels, with last and count: the first of equally spaced levels'), &
+      & property_type('last', optional=.true., example='0.8', changes_results=.false., &
+      &   meaning='the last of equally spaced levels'), &
+      & property_type('count', is_integer, optional=.true., smallest=2.0_wp, largest=real(most_levels, wp), example='8', &
+      &   changes_results=.false., meaning='number of equally spaced levels, both ends included'), &
+      & property_type('edp_thresholds', is_list, optional=.true., example='0.1, 0.4', &
+      &   meaning='damage states before collapse, rotation / capacity')]
+
+   !> Those that give equally spaced levels
+   character(len=5), parameter :: grid_variables(3) = [character(len=5) :: 'first', 'last', 'count']
 
    !> What is said of the stripes
    type :: stripes_input_type
@@ -31,6 +44,9 @@ module dondolo_stripes_group
       real(wp), allocatable :: levels(:)
       !> EDP thresholds, each a damage state; the last is the limit of the solver, collapse
       real(wp), allocatable :: thresholds(:)
+   contains
+      !> The same as settings
+      procedure :: put
    end type stripes_input_type
 
 contains
@@ -44,36 +60,31 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: im
+      type(group_settings_type) :: settings
 
-      im = 'pga'
-      call group%check_names(stripes_variables, error)
-      if (.not. allocated(error)) call group%get_text('im', im, error)
+      call new_settings(settings, stripes_properties)
+      call read_settings(group, settings, error)
       if (allocated(error)) return
-      call new_scaling(stripes%scaling, trim(im), error)
+      call new_scaling(stripes%scaling, settings%word('im'), error)
       call group%locate(error)
+      if (.not. allocated(error)) call make_grid(group, settings, stripes, error)
       if (allocated(error)) return
-      call read_grid(group, stripes, error)
-      if (allocated(error)) return
-      if (group%has('levels')) then
+      if (settings%has('levels')) then
          if (allocated(stripes%levels)) then
             call raise_input(error, group%place()//': levels: give either levels or first, last and count'// &
                & group%in_line('levels'))
             return
          end if
-         call group%get_reals('levels', stripes%levels, error)
-         if (allocated(error)) return
+         stripes%levels = settings%list('levels')
          if (size(stripes%levels) > most_levels) then
             call group%refuse('levels', 'must be at most '//to_text(most_levels)//' values', error)
             return
          end if
       end if
-      allocate (stripes%thresholds(0))
-      if (group%has('edp_thresholds')) then
-         call group%get_reals('edp_thresholds', stripes%thresholds, error)
-         if (.not. allocated(error) .and. size(stripes%thresholds) > most_thresholds) &
-            & call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', error)
-         if (allocated(error)) return
+      stripes%thresholds = settings%list('edp_thresholds')
+      if (size(stripes%thresholds) > most_thresholds) then
+         call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', error)
+         return
       end if
       if (.not. allocated(stripes%levels)) return
       call check_levels(stripes%levels, error)
@@ -94,10 +105,12 @@ contains
       stripes%thresholds = [pack(stripes%thresholds, stripes%thresholds < edp_limit), edp_limit]
    end subroutine check_states
 
-   !> Read first, last and count, if they were given
-   subroutine read_grid(group, stripes, error)
+   !> Make levels of first, last and count, if they were given
+   subroutine make_grid(group, settings, stripes, error)
       !> The group as it stands in the file
       type(group_type), intent(in) :: group
+      !> Its values
+      type(group_settings_type), intent(in) :: settings
       !> What is said of the stripes: equally spaced levels, both ends included
       type(stripes_input_type), intent(inout) :: stripes
       !> What is wrong with it
@@ -106,35 +119,27 @@ contains
       real(wp) :: first, last
       integer :: count, i
 
-      if (.not. any([group%has('first'), group%has('last'), group%has('count')])) return
+      if (.not. any([settings%has('first'), settings%has('last'), settings%has('count')])) return
       do i = 1, size(grid_variables)
-         if (group%has(trim(grid_variables(i)))) cycle
+         if (settings%has(trim(grid_variables(i)))) cycle
          call raise_input(error, group%place()//': '//trim(grid_variables(i))// &
             & ': must be given: first, last and count belong together'//group%in_line(''))
          return
       end do
-      first = 0.0_wp
-      last = 0.0_wp
-      count = 0
-      call group%get_real('first', first, error)
-      if (.not. allocated(error)) call group%get_real('last', last, error)
-      if (.not. allocated(error)) call group%get_integer('count', count, error)
-      if (allocated(error)) return
-      if (.not. first > 0.0_wp) then
-         call group%refuse('first', 'must be positive', error)
-      else if (.not. last > first) then
+      first = settings%number('first')
+      last = settings%number('last')
+      count = nint(settings%number('count'))
+      if (.not. last > first) then
          call group%refuse('last', 'must be greater than first = '//to_text(first), error)
-      else if (count < 2 .or. count > most_levels) then
-         call group%refuse('count', 'must lie between 2 and '//to_text(most_levels), error)
+         return
       end if
-      if (allocated(error)) return
       allocate (stripes%levels(count))
       do i = 1, count
          stripes%levels(i) = decimal((real(count - i, wp)*first + real(i - 1, wp)*last)/real(count - 1, wp))
       end do
       stripes%levels(1) = first
       stripes%levels(count) = last
-   end subroutine read_grid
+   end subroutine make_grid
 
    !> The nearest number of 14 decimal digits: 0.4 and 0.2 are 0.6, not 0.6000000000000001
    pure function decimal(value) result(rounded)
@@ -149,17 +154,18 @@ contains
       read (buffer, *) rounded
    end function decimal
 
-   !> Write the group as namelist text with every value in force
-   subroutine echo_stripes(stripes, settings)
+   !> What is said of the stripes, as settings; without levels only their measure
+   subroutine put(self, settings)
       !> What is said of the stripes
-      type(stripes_input_type), intent(in) :: stripes
-      !> Settings to add to
-      type(settings_type), intent(inout) :: settings
+      class(stripes_input_type), intent(in) :: self
+      !> Values of stripes_properties
+      type(group_settings_type), intent(out) :: settings
 
-      call settings%add('stripes', 'im', stripes%scaling%name)
-      if (.not. allocated(stripes%levels)) return
-      call settings%add('stripes', 'levels', stripes%levels)
-      call settings%add('stripes', 'edp_thresholds', stripes%thresholds)
-   end subroutine echo_stripes
+      call new_settings(settings, stripes_properties)
+      call settings%set('im', self%scaling%name)
+      if (.not. allocated(self%levels)) return
+      call settings%set('levels', self%levels)
+      call settings%set('edp_thresholds', self%thresholds)
+   end subroutine put
 
 end module dondolo_stripes_group

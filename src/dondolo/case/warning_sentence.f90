@@ -3,8 +3,10 @@ module dondolo_warning_sentence
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_property, only : find_property
    use dondolo_record_table, only : describe_pga
    use dondolo_text, only : rounded, to_text
+   use dondolo_wall_properties, only : wall_properties
    use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
@@ -24,7 +26,7 @@ contains
 
       call warning%get_word('record', record)
       select case (warning%code)
-      case ('height_large', 'thickness_large', 'density_small', 'density_large', 'overburden_small', 'overburden_large')
+      case ('value_below_usual', 'value_above_usual')
          call say_implausible(warning, text)
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
@@ -59,35 +61,24 @@ contains
       end select
    end subroutine make_sentence
 
-   !> Of a value that no masonry has: the question is what may have happened
+   !> Of a value that no masonry has: the table of properties asks what may have happened
    subroutine say_implausible(warning, text)
       type(warning_type), intent(in) :: warning
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=:), allocatable :: wall, variable, unit, question
+      character(len=:), allocatable :: wall, variable, unit
 
       call warning%get_word('wall', wall)
       call warning%get_word('variable', variable)
       call warning%get_word('unit', unit)
-      select case (warning%code)
-      case ('density_small')
-         question = 'is it in kN/m3 or t/m3?'
-      case ('density_large')
-         question = 'is it in N/m3?'
-      case ('overburden_small')
-         question = 'is it in kN/m?'
-      case ('overburden_large')
-         question = 'is it per metre of wall?'
-      case default
-         question = 'is it in centimetres?'
-      end select
       text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//' '//unit
-      if (warning%value('value') < warning%value('limit')) then
-         text = text//' is less than '
-      else
-         text = text//' is more than '
-      end if
-      text = text//to_text(warning%value('limit'))//' '//unit//': '//question
+      associate (property => wall_properties(find_property(wall_properties, variable)))
+         if (warning%code == 'value_below_usual') then
+            text = text//' is less than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_less)
+         else
+            text = text//' is more than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_more)
+         end if
+      end associate
       if (warning%value('walls') > 1.0_wp) text = text//' ('//to_text(warning%value('walls_beyond'))//' of '// &
          & to_text(warning%value('walls'))//' in all)'
    end subroutine say_implausible

@@ -155,7 +155,7 @@ contains
 
       if (fragility%status == 'ok') return
       warning%code = fragility%status
-      call warning%about('wall', wall%input%name)
+      call warning%about('wall', wall%name())
       call warning%with('levels', size(stripes%levels))
       call warning%with('first_level', stripes%levels(1))
       call warning%with('last_level', stripes%levels(size(stripes%levels)))

@@ -2,6 +2,7 @@
 module dondolo_restitution
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_property, only : choices_length
    use dondolo_text, only : join, to_text
    implicit none
    private
@@ -10,8 +11,8 @@ module dondolo_restitution
    public :: restitution_models
 
    !> Names of the models
-   character(len=10), parameter :: restitution_models(4) = &
-      & [character(len=10) :: 'default', 'sorrentino', 'impulse', 'constant']
+   character(len=choices_length), parameter :: restitution_models(*) = &
+      & [character(len=choices_length) :: 'default', 'sorrentino', 'impulse', 'constant']
 
    !> What the user asks of the impacts
    type :: restitution_type
@@ -30,7 +31,8 @@ module dondolo_restitution
 contains
 
    !> Speed after an impact / speed before it: the model's value times the factor. A coefficient of the
-   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3)
+   !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3). Ranges of value and factor are
+   !> those of their properties (dondolo_wall_properties)
    subroutine speed_ratio(self, ratio, error, sorrentino, impulse)
       !> What the user asks
       class(restitution_type), intent(in) :: self
@@ -66,11 +68,6 @@ contains
             return
          end if
          coefficient = self%value
-         if (.not. (coefficient >= 0.0_wp .and. coefficient < 1.0_wp)) then
-            call raise_input(error, 'restitution_value = '//to_text(coefficient)// &
-               & ': must be at least 0 and less than 1')
-            return
-         end if
       end select
       if (.not. known) then
          call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
@@ -80,10 +77,6 @@ contains
       if (allocated(self%value) .and. self%model /= 'constant') then
          call raise_input(error, 'restitution_value = '//to_text(self%value)// &
             & ': only with restitution = ''constant''')
-         return
-      end if
-      if (.not. (self%factor > 0.0_wp .and. self%factor <= huge(self%factor))) then
-         call raise_input(error, 'restitution_factor = '//to_text(self%factor)//': must be positive')
          return
       end if
       ratio = max(0.0_wp, self%factor*coefficient)

@@ -190,7 +190,7 @@ contains
       !> Ratio of the angular velocities after and before an impact
       real(wp) :: eta
 
-      real(wp) :: t, sin1, cos1, tan2, m1r1, m2r1, common
+      real(wp) :: t, sin1, cos1, tan2, m1r1, m2r1, core
 
       sin1 = sin(lower%alpha)
       cos1 = cos(lower%alpha)
@@ -198,9 +198,9 @@ contains
       t = tan2/tan(lower%alpha)
       m1r1 = lower%mass*lower%radius**2
       m2r1 = upper%mass*lower%radius**2
-      common = m1r1 + lower%central_inertia - upper%central_inertia*t
-      eta = (common - 2.0_wp*m1r1*sin1**2 + m2r1*(2.0_wp + sin1*cos1/tan2 - sin1**2*(4.0_wp + t))) &
-         & /(common + m2r1*(2.0_wp + sin1*cos1*(1.0_wp/tan2 + tan2)))
+      core = m1r1 + lower%central_inertia - upper%central_inertia*t
+      eta = (core - 2.0_wp*m1r1*sin1**2 + m2r1*(2.0_wp + sin1*cos1/tan2 - sin1**2*(4.0_wp + t))) &
+         & /(core + m2r1*(2.0_wp + sin1*cos1*(1.0_wp/tan2 + tan2)))
    end function two_block_sorrentino
 
    !> Inelastic impact of the two-body chain with the horizontal impulse of the top support

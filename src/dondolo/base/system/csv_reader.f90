@@ -189,8 +189,9 @@ contains
       if (allocated(error)) return
       if (size(self%cells) /= self%width) then
          hint = ''
-         if (self%separator == ',' .and. size(self%cells) > self%width) &
-            & hint = ' (columns separated by commas need decimal points)'
+         if (self%separator == ',' .and. size(self%cells) > self%width) then
+            hint = ' (columns separated by commas need decimal points)'
+         end if
          call raise_input(error, self%place()//': '//to_text(size(self%cells))//' cells: must be '// &
             & to_text(self%width)//' as in the header'//hint)
          return

@@ -96,7 +96,8 @@ contains
 
       call move_alloc(self%key, key)
       call move_alloc(self%line, line)
-      allocate (self%key(places), self%line(places), stat=stat)
+      allocate (self%key(places), stat=stat)
+      if (stat == 0) allocate (self%line(places), stat=stat)
       self%lacks_memory = stat /= 0
       if (self%lacks_memory) return
       self%key = 0

@@ -45,8 +45,9 @@ contains
       if (highest > peak) then
          d(:n - 1) = b(1:) - b(:n - 1)
          place = nowhere
-         if (any(d(:n - 1) < 0.0_wp) .and. any(d(:n - 1) > 0.0_wp)) &
-            & place = first_descent(d(:n - 1)*initial_sign(d(:n - 1)))
+         if (any(d(:n - 1) < 0.0_wp) .and. any(d(:n - 1) > 0.0_wp)) then
+            place = first_descent(d(:n - 1)*initial_sign(d(:n - 1)))
+         end if
          if (place < x) then
             x = place
             event = turning

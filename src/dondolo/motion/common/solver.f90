@@ -3,15 +3,20 @@ module dondolo_solver
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_text, only : join, to_text
+   use dondolo_property, only : blank, check_number, check_word, choices_length, is_logical, is_text, most_choices, &
+      & property_type
+   use dondolo_settings, only : settings_type
+   use dondolo_text, only : to_text
+   use dondolo_wall_properties, only : gravity_property
    implicit none
    private
 
    public :: solver_type, check_solver, check_limit, refined, perturbed
-   public :: engine_names
+   public :: solver_properties, take_solver, put_solver, engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
-   character(len=5), parameter :: engine_names(3) = [character(len=5) :: 'auto', 'rk45', 'lanes']
+   character(len=choices_length), parameter :: engine_names(*) = &
+      & [character(len=choices_length) :: 'auto', 'rk45', 'lanes']
 
    !> Settings of the computation
    type :: solver_type
@@ -31,7 +36,56 @@ module dondolo_solver
       integer :: steps_per_sample = 1
    end type solver_type
 
+   !> Settings unless the user sets them
+   type(solver_type), parameter :: standard = solver_type()
+
+   !> Tasks that keep every EDP
+   character(len=choices_length), parameter :: with_edps(most_choices) = &
+      & reshape([character(len=choices_length) :: 'history', 'stripes'], [most_choices], pad=blank)
+
+   !> What a user can set; gravity, which walls have, stands among it for all walls of a case
+   type(property_type), target, save, protected :: solver_properties(6) = [ &
+      & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' takes the one that suits the task', &
+      &   choices=reshape(engine_names, [most_choices], pad=blank)), &
+      & property_type('rtol', default=standard%rtol, smallest=10.0_wp*epsilon(1.0_wp), largest=1.0e-2_wp, &
+      &   meaning='relative error of a step'), &
+      & property_type('atol', default=standard%atol, positive=.true., largest=1.0e-2_wp, &
+      &   meaning='absolute error of a step, 1 = the capacity'), &
+      & property_type('edp_limit', default=standard%edp_limit, positive=.true., &
+      &   meaning='rotation / capacity rotation that counts as collapse'), &
+      & property_type('estimate_error', is_logical, owners=with_edps, changes_results=.false., &
+      &   meaning='how far is each EDP off? Takes two to three times as long'), &
+      & gravity_property]
+
 contains
+
+   !> Take settings from what a user has said
+   subroutine take_solver(solver, settings)
+      !> Settings of the computation
+      type(solver_type), intent(out) :: solver
+      !> Values of solver_properties, defaults filled in
+      class(settings_type), intent(in) :: settings
+
+      solver%engine = settings%word('engine')
+      solver%rtol = settings%number('rtol')
+      solver%atol = settings%number('atol')
+      solver%edp_limit = settings%number('edp_limit')
+      solver%estimate_error = settings%holds('estimate_error')
+   end subroutine take_solver
+
+   !> Say settings as a user would
+   subroutine put_solver(solver, settings)
+      !> Settings of the computation
+      type(solver_type), intent(in) :: solver
+      !> Values of solver_properties
+      class(settings_type), intent(inout) :: settings
+
+      call settings%set('engine', solver%engine)
+      call settings%set('rtol', solver%rtol)
+      call settings%set('atol', solver%atol)
+      call settings%set('edp_limit', solver%edp_limit)
+      call settings%set('estimate_error', solver%estimate_error)
+   end subroutine put_solver
 
    !> Check the ranges of the settings
    subroutine check_solver(solver, error)
@@ -40,19 +94,41 @@ contains
       !> `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), parameter :: loosest = 1.0e-2_wp, tightest_rtol = 10.0_wp*epsilon(1.0_wp), tightest_atol = tiny(1.0_wp)
+      character(len=:), allocatable :: allowed
+      integer :: i
 
-      if (.not. any(solver%engine == engine_names)) then
-         call raise_input(error, 'engine = '''//trim(solver%engine)//''': must be one of '//join(engine_names))
-      else if (.not. (solver%rtol >= tightest_rtol .and. solver%rtol <= loosest)) then
-         call raise_input(error, 'rtol = '//to_text(solver%rtol)//': must lie between '// &
-            & to_text(tightest_rtol)//' and '//to_text(loosest))
-      else if (.not. (solver%atol >= tightest_atol .and. solver%atol <= loosest)) then
-         call raise_input(error, 'atol = '//to_text(solver%atol)//': must be positive and at most '//to_text(loosest))
-      else if (.not. (solver%edp_limit > 0.0_wp .and. solver%edp_limit <= huge(1.0_wp))) then
-         call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be positive')
-      end if
+      do i = 1, size(solver_properties)
+         associate (property => solver_properties(i))
+            select case (property%name)
+            case ('engine')
+               call check_word(property, trim(solver%engine), allowed)
+               if (allocated(allowed)) allowed = ''''//trim(solver%engine)//''': '//allowed
+            case ('rtol')
+               call check_range(property, solver%rtol, allowed)
+            case ('atol')
+               call check_range(property, solver%atol, allowed)
+            case ('edp_limit')
+               call check_range(property, solver%edp_limit, allowed)
+            end select
+            if (.not. allocated(allowed)) cycle
+            call raise_input(error, trim(property%name)//' = '//allowed)
+            return
+         end associate
+      end do
    end subroutine check_solver
+
+   !> Check a number of the settings
+   subroutine check_range(property, value, allowed)
+      !> Its property
+      type(property_type), intent(in) :: property
+      !> Its value
+      real(wp), intent(in) :: value
+      !> `value: what is allowed`; not allocated: it is right
+      character(len=:), allocatable, intent(out) :: allowed
+
+      call check_number(property, value, allowed)
+      if (allocated(allowed)) allowed = to_text(value)//': '//allowed
+   end subroutine check_range
 
    !> Settings that halve the steps, whether samples or tolerances limit them; where a tolerance is so tight that
    !> rounding would undo that, they double the steps

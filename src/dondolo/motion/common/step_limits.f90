@@ -29,8 +29,9 @@ contains
 
       longest_step = huge(dt)
       ! A step too short to advance the time would be repeated forever.
-      if (steps_per_sample > 1) &
-         & longest_step = max(shortest_motion*dt, slack*(dt - time)/real(steps_per_sample, wp))
+      if (steps_per_sample > 1) then
+         longest_step = max(shortest_motion*dt, slack*(dt - time)/real(steps_per_sample, wp))
+      end if
    end function longest_step
 
 end module dondolo_step_limits

@@ -33,8 +33,9 @@ contains
 
       constants%wall_constants_type = new_wall_constants(mechanism, solver)
       constants%form = new_normal_form(mechanism, constants%limit)
-      if (constants%form%exists) &
-         & constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
+      if (constants%form%exists) then
+         constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
+      end if
       if (.not. solver%collapses_only) return
       constants%first_peak = y_limit
       constants%first_rotation = constants%limit

@@ -86,8 +86,9 @@ contains
       motion%steps = motion%steps + 1
 
       ! The signs in a shorter step are rounding; the next step shows what happened.
-      if (h > shortest_motion*dt) &
-         & call find_event(dense_rotation(h, start, next), motion%peak, constants%limit, event, x)
+      if (h > shortest_motion*dt) then
+         call find_event(dense_rotation(h, start, next), motion%peak, constants%limit, event, x)
+      end if
       if (event /= no_event) call land(mechanism, constants%limit, motion, h, event, x, next)
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(dt, min(motion%time + h, dt), sample_reached)

@@ -37,19 +37,19 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: content
       real(wp) :: factor
-      integer :: open, close, from
+      integer :: opening, closing, from
 
       units = ''
       from = 1
       do
-         open = scan(title(from:), '([')
-         if (open == 0) return
-         open = from - 1 + open
-         close = scan(title(open:), ')]')
-         if (close == 0) return
-         close = open - 1 + close
-         from = close + 1
-         content = trim(adjustl(title(open + 1:close - 1)))
+         opening = scan(title(from:), '([')
+         if (opening == 0) return
+         opening = from - 1 + opening
+         closing = scan(title(opening:), ')]')
+         if (closing == 0) return
+         closing = opening - 1 + closing
+         from = closing + 1
+         content = trim(adjustl(title(opening + 1:closing - 1)))
          if (len(content) == 0) cycle
          call unit_factor(content, factor, error)
          units = content

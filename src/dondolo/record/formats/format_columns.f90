@@ -208,8 +208,9 @@ contains
       dt = 0.0_wp
       if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
       if (allocated(error)) then
-         if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) &
-            & error%message = error%message//' (columns separated by commas need decimal points)'
+         if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) then
+            error%message = error%message//' (columns separated by commas need decimal points)'
+         end if
          return
       end if
       allocate (samples%channels(max(cells - 1, 1)))

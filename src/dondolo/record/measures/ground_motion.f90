@@ -63,8 +63,9 @@ contains
       associate (a => record%acceleration)
          do i = 2, size(velocity)
             ! Where the acceleration passes zero, after the part a0/(a0 - a1) of the step
-            if (a(i - 1)*a(i) < 0.0_wp) &
-               & peak = max(peak, abs(velocity(i - 1) + 0.5_wp*record%dt*a(i - 1)**2/(a(i - 1) - a(i))))
+            if (a(i - 1)*a(i) < 0.0_wp) then
+               peak = max(peak, abs(velocity(i - 1) + 0.5_wp*record%dt*a(i - 1)**2/(a(i - 1) - a(i))))
+            end if
          end do
       end associate
    end function peak_velocity

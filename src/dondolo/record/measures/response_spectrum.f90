@@ -147,9 +147,10 @@ contains
                do k = 1, lanes
                   if (.not. max(abs(u(k)), abs(u_new(k))) + curb(k)*max(abs(q(k)), abs(q_new(k))) > peak(k)) cycle
                   ! The velocity vanishes within the step if it changes sign, or if it turns towards zero and back
-                  if (w(k)*w_new(k) < 0.0_wp .or. (q(k)*w(k) < 0.0_wp .and. q_new(k)*w_new(k) > 0.0_wp)) &
-                     & peak(k) = max(peak(k), &
-                     & turn(series(u(k), w(k), start, finish - start, damper(k), spring(k), order(k))))
+                  if (w(k)*w_new(k) < 0.0_wp .or. (q(k)*w(k) < 0.0_wp .and. q_new(k)*w_new(k) > 0.0_wp)) then
+                     peak(k) = max(peak(k), &
+                      & turn(series(u(k), w(k), start, finish - start, damper(k), spring(k), order(k))))
+                  end if
                end do
             end if
             u = u_new

@@ -9,7 +9,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.fragility import Fragility
-from dondolo.populations.series import in_series
+from dondolo.curves.series import in_series
 
 # Numbers that curves of many walls are computed at together: a few tens of MB
 _NUMBERS = 2_000_000

@@ -1,5 +1,5 @@
-!> Settings in force: groups of variables and their values, to be written as namelist text or as JSON.
-module dondolo_settings
+!> The echo of a case: groups of variables and their values in force, to be written as namelist text or as JSON.
+module dondolo_echo
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -7,7 +7,7 @@ module dondolo_settings
    implicit none
    private
 
-   public :: settings_type
+   public :: echo_type
 
    !> A variable and its value
    type :: setting_type
@@ -21,8 +21,8 @@ module dondolo_settings
       logical :: joins = .false.
    end type setting_type
 
-   !> Settings in the order in which they were added; the variables of a group follow each other
-   type :: settings_type
+   !> Variables in the order in which they were added; those of a group follow each other
+   type :: echo_type
       integer, private :: count = 0
       type(setting_type), allocatable, private :: item(:)
    contains
@@ -33,12 +33,12 @@ module dondolo_settings
       procedure :: to_namelist
       !> Write them as JSON
       procedure :: to_json
-   end type settings_type
+   end type echo_type
 
 contains
 
    subroutine add_text(self, group, name, value)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       character(len=*), intent(in) :: value
 
@@ -48,7 +48,7 @@ contains
 
    !> Add a number; `joins`: on the line of the variable before it
    subroutine add_real(self, group, name, value, joins)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       real(wp), intent(in) :: value
       logical, intent(in), optional :: joins
@@ -58,7 +58,7 @@ contains
    end subroutine add_real
 
    subroutine add_reals(self, group, name, values)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       real(wp), intent(in) :: values(:)
 
@@ -74,7 +74,7 @@ contains
    end subroutine add_reals
 
    subroutine add_integer(self, group, name, value)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       integer, intent(in) :: value
 
@@ -82,7 +82,7 @@ contains
    end subroutine add_integer
 
    subroutine add_logical(self, group, name, value)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       logical, intent(in) :: value
 
@@ -91,7 +91,7 @@ contains
 
    !> Append a variable; JSON is the namelist's notation unless it is given
    subroutine append(self, group, name, namelist, json)
-      class(settings_type), intent(inout) :: self
+      class(echo_type), intent(inout) :: self
       character(len=*), intent(in) :: group, name
       character(len=*), intent(in), optional :: namelist, json
 
@@ -116,7 +116,7 @@ contains
 
    !> Append them to lines as namelist text: one variable a line, but for those that join
    subroutine to_namelist(self, lines)
-      class(settings_type), intent(in) :: self
+      class(echo_type), intent(in) :: self
       type(lines_type), intent(inout) :: lines
 
       character(len=:), allocatable :: line, value
@@ -151,7 +151,7 @@ contains
 
    !> Write them as a JSON object of groups, each an object of variables
    subroutine to_json(self, json)
-      class(settings_type), intent(in) :: self
+      class(echo_type), intent(in) :: self
       type(json_type), intent(inout) :: json
 
       integer :: i
@@ -174,7 +174,7 @@ contains
 
    !> Is a variable the first of its group?
    pure logical function is_first(self, i)
-      class(settings_type), intent(in) :: self
+      class(echo_type), intent(in) :: self
       integer, intent(in) :: i
 
       is_first = i == 1
@@ -197,4 +197,4 @@ contains
       end do
    end subroutine quote
 
-end module dondolo_settings
+end module dondolo_echo

@@ -1,0 +1,121 @@
+"""The mean of the curves of many walls, and the fractiles about it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo.curves.members import Members
+from dondolo.errors import InputError
+
+
+class MeanCurve(ABC):
+    """Weighted mean of the curves of walls; a subclass says which walls, and of which measure.
+
+    Attributes
+    ----------
+    im : str
+        Intensity measure.
+    saturation : float
+        What the mean tends to.
+    """
+
+    im: str
+    saturation: float
+
+    @property
+    @abstractmethod
+    def members(self) -> Members:
+        """The walls behind the curve."""
+
+    def probabilities(self, x: ArrayLike) -> FloatArray:
+        """Probability that each wall collapses, mechanisms in series; of one mechanism, if it can occur.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative. Between the levels of the analysis, the fractions of a wall without a fit
+            are interpolated linearly in x, from 0 at x = 0; above the highest level they stay.
+
+        Returns
+        -------
+        ndarray, shape (walls,) and that of x
+            Walls of no weight left out.
+
+        Raises
+        ------
+        InputError
+            A level that is negative or no number.
+        """
+        values = as_levels(x)
+        probabilities, _ = self.members.at(values.ravel())
+        return probabilities.reshape((len(probabilities), *values.shape))
+
+    def mean(self, x: ArrayLike) -> Any:
+        """Weighted mean of the walls' curves at any levels.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, as for `probabilities`.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+
+        Raises
+        ------
+        InputError
+            As `probabilities`.
+        """
+        values = as_levels(x)
+        members = self.members
+        parts = (members.at(part) for part in members.parts(values.ravel()))
+        mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
+        return shaped(np.minimum(mean, 1.0), values)
+
+    def fractiles(self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84)) -> FloatArray:
+        """Fractiles of the walls' curves at any levels: what a share of the weight does not exceed.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, as for `probabilities`.
+        q : array_like
+            Shares of the weight, above 0 and up to 1.
+
+        Returns
+        -------
+        ndarray, shape of q and that of x
+            At each level the smallest probability such that the walls up to it have at least the share.
+
+        Raises
+        ------
+        InputError
+            As `probabilities`, or a share beyond 0 and 1.
+        """
+        values = as_levels(x)
+        try:
+            shares = np.asarray(q, dtype=np.float64)
+        except (TypeError, ValueError):
+            shares = np.array(np.nan)
+        if not np.all((shares > 0.0) & (shares <= 1.0)):
+            raise InputError("q: must be shares of the weight, above 0 and up to 1")
+        members = self.members
+        found = np.zeros((shares.size, values.size))
+        done = 0
+        for part in members.parts(values.ravel()):
+            probabilities, weights = members.at(part)
+            order = np.argsort(probabilities, axis=0, kind="stable")
+            reached = np.cumsum(weights[order], axis=0)
+            # The rounding that Fortran allows, too
+            targets = (shares.ravel() - 1e-12)[:, None] * weights.sum()
+            for k in range(probabilities.shape[1]):
+                place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
+                found[:, done + k] = probabilities[order[place, k], k]
+            done += probabilities.shape[1]
+        return found.reshape(shares.shape + values.shape)

@@ -1,0 +1,219 @@
+"""The curve of a population or of a part of it: an object that knows the walls behind it."""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, fields
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo.curves.fragility import Fragility
+from dondolo.curves.mean_curve import MeanCurve
+from dondolo.curves.members import Members
+from dondolo.errors import DondoloError
+from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
+from dondolo.populations.flags import Flags
+from dondolo.risk.frequency import Risk, mean_annual_frequency
+from dondolo.risk.hazard import HazardCurve
+from dondolo.walls.population import Population
+
+IntArray = np.ndarray[Any, np.dtype[np.int32]]
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """What Fortran says of a curve of a population, or of one of its groups: of one mechanism, or of all together.
+
+    Attributes
+    ----------
+    group : str
+        '' for the whole population.
+    mechanism : str
+        'all' for whatever makes the walls collapse: mechanisms in series, each with its probability of occurrence.
+    walls : int
+        How many walls, those of no weight left out.
+    weight : float
+        Sum of the weights, in walls; of one mechanism a wall counts as often as it can occur.
+    mean_fraction : ndarray, shape (levels,)
+        Weighted mean of the walls' fractions of collapse, 0 to 1.
+    mean_curve : ndarray, shape (levels,)
+        Weighted mean of the walls' curves (the red line of figure 5 of Nale et al.); a wall without a fit takes part
+        with its fractions.
+    level_fractiles : ndarray, shape (3, levels)
+        What 16, 50 and 84 % of the weight do not exceed.
+    beta_walls, beta_records : float
+        Dispersion between walls, the weighted standard deviation of ln theta, and between records, the weighted root
+        mean square of beta, over the walls with a curve; NaN if there are none.
+    fitted : float
+        Share of what can occur that has a curve.
+    saturation : float
+        What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
+    fit : Fragility
+        The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
+        its standard errors take the walls' histories for independent. Its values are those for all walls: they tend to
+        the saturation, as the mean curve does.
+    """
+
+    group: str
+    mechanism: str
+    walls: int
+    weight: float
+    mean_fraction: FloatArray
+    mean_curve: FloatArray
+    level_fractiles: FloatArray
+    beta_walls: float
+    beta_records: float
+    fitted: float
+    saturation: float
+    fit: Fragility
+
+    @property
+    def beta_total(self) -> float:
+        """Dispersion between walls and between records together."""
+        return math.hypot(self.beta_walls, self.beta_records)
+
+
+class Source(NamedTuple):
+    """The analysis of one damage state that a curve is of: see `Typology` for its arrays."""
+
+    population: Population
+    im: str
+    levels: FloatArray
+    curves: Sequence[Fragility]
+    exceedances: IntArray
+    histories: IntArray
+    flags: Flags | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PopulationCurve(Group, MeanCurve):
+    """The curve of a population or of one of its groups, of one mechanism or of all: ``typology[mechanism, group]``.
+
+    Has the attributes of `Group`, at the levels of the analysis, and the means, fractiles and probabilities of the
+    walls at any level.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> curve = dd.typology(walls, records, levels=[0.6, 0.8, 1.0], progress=False)["all"]
+    >>> curve.mean(0.9) > curve.mean(0.6)
+    True
+    """
+
+    _source: Source = field(repr=False)
+
+    @classmethod
+    def of(cls, data: Group, source: Source) -> PopulationCurve:
+        """The curve of some walls of an analysis."""
+        return cls(**{one.name: getattr(data, one.name) for one in fields(data)}, _source=source)
+
+    @property
+    def im(self) -> str:  # type: ignore[override]
+        """Intensity measure."""
+        return self._source.im
+
+    @property
+    def levels(self) -> FloatArray:
+        """Levels of the analysis, shape (levels,)."""
+        return self._source.levels
+
+    @functools.cached_property
+    def members(self) -> Members:
+        """The walls behind the curve."""
+        source, people = self._source, self._source.population
+        chosen = people.weights > 0.0
+        if self.group:
+            chosen &= np.array([name == self.group for name in people.groups])
+        if self.mechanism != "all":
+            chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == self.mechanism for wall in people.walls])
+        rows = np.flatnonzero(chosen)
+        counts = source.exceedances[-1][:, rows] / source.histories[rows]
+        curves = [source.curves[i] for i in rows.tolist()]
+        if self.mechanism == "all":
+            # Weights and groups are those of whole walls
+            first = np.searchsorted(rows, people.first_rows[chosen[people.first_rows]])
+            return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
+        weights = people.weights[rows] * people.p_occ[rows]
+        return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+
+    def risk(self, hazard: HazardCurve) -> Risk:
+        """Mean annual frequency of collapse of a wall drawn by weight, as `mean_annual_frequency`.
+
+        Parameters
+        ----------
+        hazard : HazardCurve
+            Of the same intensity measure.
+
+        Returns
+        -------
+        Risk
+            Its probabilities within some years are those of the walls, each with its own frequency.
+
+        Raises
+        ------
+        InputError
+            The measures differ.
+        DondoloError
+            The frequency is not finite.
+        """
+        return mean_annual_frequency(self, hazard)
+
+    def bootstrap(
+        self,
+        n: int = 1000,
+        *,
+        seed: int | np.random.Generator | None = 0,
+        over: str | Iterable[str] = ("records", "walls"),
+        events: Sequence[Any] | None = None,
+    ) -> TypologyBootstrap:
+        """Fit the curve again to records and walls drawn with replacement.
+
+        All walls are shaken by the same records: a record that is drawn counts for all of them, at all levels and in
+        both polarities, and a wall that is drawn brings all its mechanisms. The standard errors of the fit know nothing
+        of that and are too small.
+
+        Parameters
+        ----------
+        n : int
+            Number of samples.
+        seed : int, Generator or None
+            Of the random numbers; None: different every time.
+        over : {'records', 'walls'} or both
+            What is drawn. Of both, records alone where there is one wall.
+        events : sequence, optional
+            A label for each record, such as its recording or its earthquake: records with the same label are drawn
+            together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
+            much evidence as they are.
+
+        Returns
+        -------
+        TypologyBootstrap
+
+        Raises
+        ------
+        InputError
+            Fewer than two events or walls, labels that are not one for each record.
+        DondoloError
+            Records cannot be drawn where the results were read back from files.
+        """
+        source = self._source
+        flags = source.flags
+        if flags is None:
+            if over not in ("walls", ("walls",), ["walls"]):
+                raise DondoloError(
+                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts,"
+                    " and not which records they are of"
+                )
+            flags = Flags.of_counts(source.exceedances, source.histories)
+        mechanism, group = self.mechanism, self.group
+        return resample_population(source.population, flags, self.levels, n, seed, over, mechanism, group, events)
+
+    def __repr__(self) -> str:
+        where = f", group {self.group!r}" if self.group else ""
+        return f"<PopulationCurve of {self.walls} walls: mechanism {self.mechanism!r}{where}>"

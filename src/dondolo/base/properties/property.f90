@@ -1,0 +1,294 @@
+!> A property: one parameter of a wall, of the solver or of a task, with all that is known of it.
+!>
+!> Tables of properties (dondolo_wall_properties, dondolo_solver, ...) are the one home of names, units, ranges, defaults
+!> and meanings: readers of namelists and populations, messages, templates, tables of results, the identity of a
+!> checkpoint and the Python package derive from them.
+module dondolo_property
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : join, lower, to_text
+   implicit none
+   private
+
+   public :: property_type, find_property, has_owner, number_of_choices, check_number, check_word
+   public :: column_name, default_text, describe_property
+   public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name
+   public :: choices_length, most_choices, blank, no_limit
+
+   !> Kinds of values: a real number, a whole number, a text, yes or no, a list of real numbers, a whole number or a name
+   integer, parameter :: is_real = 1, is_integer = 2, is_text = 3, is_logical = 4, is_list = 5, is_number_or_name = 6
+
+   !> Length of a choice, and how many a property can have
+   integer, parameter :: choices_length = 16, most_choices = 8
+
+   !> What fills a list of choices up: `reshape(names, [most_choices], pad=blank)`
+   character(len=choices_length), parameter :: blank(1) = ''
+
+   !> A limit that no number reaches
+   real(wp), parameter :: no_limit = huge(1.0_wp)
+
+   !> One property
+   type :: property_type
+      !> Name, in lower case, as it stands in namelists, in the columns of populations and in Python
+      character(len=18) :: name = ''
+      !> Kind of its value
+      integer :: kind = is_real
+      !> Unit; empty for a number without one
+      character(len=8) :: unit = ''
+      !> One sentence: what it is
+      character(len=180) :: meaning = ''
+      !> Must it be given?
+      logical :: required = .false.
+      !> Has it no value where it is not given? Else it has its default
+      logical :: optional = .false.
+      !> Default of a number; of a logical 1 for true
+      real(wp) :: default = 0.0_wp
+      !> Default of a text
+      character(len=16) :: word = ''
+      !> Must it be greater than 0?
+      logical :: positive = .false.
+      !> Smallest and largest value
+      real(wp) :: smallest = -no_limit, largest = no_limit
+      !> Must it be less than the largest value, not equal to it?
+      logical :: less = .false.
+      !> What 0 stands for, where it is no number like the others
+      character(len=8) :: zero = ''
+      !> Texts that it can be; empty: any
+      character(len=choices_length) :: choices(most_choices) = ''
+      !> Does the mechanism check which of its choices it has?
+      logical :: checked_by_owner = .false.
+      !> What has it, among mechanisms or tasks; empty: all
+      character(len=choices_length) :: owners(most_choices) = ''
+      !> What a text that must be given names, for messages
+      character(len=40) :: names = ''
+      !> What can take its place, where one of both must be given
+      character(len=24) :: instead = ''
+      !> What a template shows, where it is not the default
+      character(len=40) :: example = ''
+      !> Column in tables of results, where it is not the name and the unit
+      character(len=24) :: column = ''
+      !> Does another property take its place when a wall is made of it?
+      logical :: replaced = .false.
+      !> Does what is computed depend on it? Files that keep intermediate results belong to one set of values
+      logical :: changes_results = .true.
+      !> Range of what is usual: values beyond it are most likely typed in another unit
+      real(wp) :: usual_least = 0.0_wp, usual_most = no_limit
+      !> What may have happened where a value is less, or more
+      character(len=32) :: if_less = '', if_more = ''
+   end type property_type
+
+contains
+
+   !> Place of a property in a table, 0 if it has none of this name
+   pure integer function find_property(table, name)
+      !> Table
+      type(property_type), intent(in) :: table(:)
+      !> Name in lower case, not empty
+      character(len=*), intent(in) :: name
+
+      do find_property = size(table), 1, -1
+         ! The first letter tells most names apart, many times quicker than the whole
+         if (table(find_property)%name(1:1) /= name(1:1)) cycle
+         if (table(find_property)%name == name) return
+      end do
+   end function find_property
+
+   !> Does a mechanism or a task have a property?
+   pure logical function has_owner(property, owner)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Name of the mechanism or the task
+      character(len=*), intent(in) :: owner
+
+      integer :: i
+
+      has_owner = len_trim(property%owners(1)) == 0
+      if (has_owner .or. len_trim(owner) == 0) return
+      do i = 1, number_of_choices(property%owners)
+         has_owner = property%owners(i) == owner
+         if (has_owner) exit
+      end do
+   end function has_owner
+
+   !> Column of a property in tables of results: its name and its unit
+   pure function column_name(property) result(column)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Name of the column, such as density_kg_m3; blanks after it
+      character(len=len(property%column)) :: column
+
+      integer :: i
+
+      column = property%column
+      if (len_trim(column) > 0) return
+      column = property%name
+      if (len_trim(property%unit) > 0) column = trim(column)//'_'//lower(property%unit)
+      do i = 1, len(column)
+         if (column(i:i) == '/') column(i:i) = '_'
+      end do
+   end function column_name
+
+   !> How many texts a property, or its owners, are chosen from
+   pure integer function number_of_choices(choices)
+      !> Choices or owners
+      character(len=*), intent(in) :: choices(:)
+
+      do number_of_choices = 0, size(choices) - 1
+         if (choices(number_of_choices + 1)(1:1) == ' ') exit
+      end do
+   end function number_of_choices
+
+   !> A limit with few characters
+   pure function short_limit(limit) result(text)
+      !> Limit
+      real(wp), intent(in) :: limit
+      !> Its text, blanks after it
+      character(len=40) :: text
+
+      integer :: zeros
+
+      text = to_text(limit)
+      zeros = len_trim(text) - verify(trim(text), '0', back=.true.)
+      if (index(text, '.') == 0 .and. zeros > 4) text = text(:len_trim(text) - zeros)//'e'//to_text(zeros)
+   end function short_limit
+
+   !> A limit as it stands in messages
+   pure function limit_text(limit) result(text)
+      !> Limit
+      real(wp), intent(in) :: limit
+      !> Its shortest text: 1e9 rather than 1000000000
+      character(len=len_trim(short_limit(limit))) :: text
+
+      text = short_limit(limit)
+   end function limit_text
+
+   !> A property as a line: name, kind, unit, 'required', 'optional' or its default, smallest and largest value, choices,
+   !> owners, column (empty where it has none) and meaning, with a tab between two; entries with several names have blanks between
+   subroutine describe_property(property, line)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Its line
+      character(len=:), allocatable, intent(out) :: line
+
+      character(len=7), parameter :: kinds(6) = [character(len=7) :: 'real', 'integer', 'text', 'logical', 'list', 'either']
+      character(len=:), allocatable :: default
+
+      call default_text(property, default)
+      line = trim(property%name)
+      call add(kinds(property%kind))
+      call add(property%unit)
+      call add(trim(merge('required', merge('optional', '        ', property%optional), property%required))//default)
+      call add(to_text(property%smallest))
+      call add(to_text(property%largest))
+      call add(listed(property%choices))
+      call add(listed(property%owners))
+      call add(merge(repeat(' ', len(property%column)), column_name(property), property%replaced))
+      call add(property%meaning)
+
+   contains
+
+      !> Add an entry
+      subroutine add(entry)
+         !> The entry
+         character(len=*), intent(in) :: entry
+
+         line = line//achar(9)//trim(entry)
+      end subroutine add
+
+      !> Names with blanks between
+      pure function listed(names) result(text)
+         !> Names, empty ones after them
+         character(len=*), intent(in) :: names(:)
+         !> Text
+         character(len=(choices_length + 1)*most_choices) :: text
+
+         integer :: i
+
+         text = ''
+         do i = 1, number_of_choices(names)
+            text = trim(text)//' '//names(i)
+         end do
+         text = adjustl(text)
+      end function listed
+
+   end subroutine describe_property
+
+   !> Default of a property as it stands in a namelist, without the quotes of a text; empty where it has none
+   pure subroutine default_text(property, text)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Text
+      character(len=:), allocatable, intent(out) :: text
+
+      text = ''
+      if (property%required .or. property%optional) return
+      select case (property%kind)
+      case (is_text)
+         text = trim(property%word)
+      case (is_logical)
+         text = trim(merge('.true. ', '.false.', property%default > 0.0_wp))
+      case (is_list)
+         text = ''
+      case (is_integer, is_number_or_name)
+         text = to_text(nint(property%default))
+      case default
+         text = to_text(property%default)
+         if (verify(text, '-0123456789') == 0) text = text//'.0'
+      end select
+   end subroutine default_text
+
+   !> What is allowed of a number, if it is not
+   pure subroutine check_number(property, value, allowed)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Its value
+      real(wp), intent(in) :: value
+      !> 'must be positive', 'must lie between 0 and 1', ...; not allocated: the value is right
+      character(len=:), allocatable, intent(out) :: allowed
+
+      character(len=:), allocatable :: unit
+
+      associate (least => property%smallest, most => property%largest)
+         ! What has no range of its own is checked against other properties
+         if (.not. (property%positive .or. least > -no_limit .or. most < no_limit)) return
+         unit = ''
+         if (len_trim(property%unit) > 0) unit = ' '//trim(property%unit)
+         if (property%positive .and. .not. value >= tiny(value)) then
+            allowed = 'must be positive'
+            if (.not. least > 0.0_wp .and. most < no_limit) allowed = allowed//' and at most '//limit_text(most)//unit
+         else if (.not. (value >= least .and. (value < most .or. (value <= most .and. .not. property%less)))) then
+            if (property%positive .and. .not. least > 0.0_wp) then
+               allowed = 'must be positive'
+               if (most < no_limit) allowed = allowed//' and at most '//limit_text(most)//unit
+            else if (property%less) then
+               allowed = 'must be at least '//limit_text(least)//' and less than '//limit_text(most)//unit
+            else if (most < no_limit .and. len_trim(property%zero) > 0) then
+               allowed = 'must lie between 0 ('//trim(property%zero)//') and '//limit_text(most)//unit
+            else if (most < no_limit) then
+               allowed = 'must lie between '//limit_text(least)//' and '//limit_text(most)//unit
+            else
+               allowed = 'must be at least '//limit_text(least)//unit
+            end if
+         end if
+      end associate
+   end subroutine check_number
+
+   !> What is allowed of a text, if it is not
+   pure subroutine check_word(property, word, allowed)
+      !> Property
+      type(property_type), intent(in) :: property
+      !> Its value
+      character(len=*), intent(in) :: word
+      !> 'must be one of ...'; not allocated: the value is right
+      character(len=:), allocatable, intent(out) :: allowed
+
+      integer :: count
+
+      count = number_of_choices(property%choices)
+      if (property%required .and. len_trim(word) == 0 .and. len_trim(property%names) > 0) then
+         allowed = 'must name '//trim(property%names)
+      else if (count > 0 .and. .not. property%checked_by_owner) then
+         if (.not. any(property%choices(:count) == word)) allowed = 'must be one of '//join(property%choices(:count))
+      end if
+   end subroutine check_word
+
+end module dondolo_property

@@ -1,0 +1,56 @@
+!> All tables of properties, by the name of their group in a namelist.
+module dondolo_property_tables
+   use dondolo_history_group, only : history_properties
+   use dondolo_job_group, only : job_properties
+   use dondolo_population, only : member_properties
+   use dondolo_population_group, only : population_properties
+   use dondolo_property, only : property_type
+   use dondolo_records_group, only : records_properties
+   use dondolo_solver, only : solver_properties
+   use dondolo_stripes_group, only : stripes_properties
+   use dondolo_wall_properties, only : wall_properties
+   implicit none
+   private
+
+   public :: property_table
+   public :: group_names, table_names
+
+   !> Groups of a namelist
+   character(len=10), parameter :: group_names(*) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
+      & 'stripes', 'solver', 'history']
+
+   !> The same, and what rows of a population have besides the properties of a wall
+   character(len=10), parameter :: table_names(*) = [character(len=10) :: group_names, 'member']
+
+contains
+
+   !> The table of a group
+   pure function property_table(name) result(table)
+      !> One of table_names
+      character(len=*), intent(in) :: name
+      !> Its rows; none for another name
+      type(property_type), allocatable :: table(:)
+
+      select case (name)
+      case ('job')
+         table = job_properties
+      case ('wall')
+         table = wall_properties
+      case ('population')
+         table = population_properties
+      case ('records')
+         table = records_properties
+      case ('stripes')
+         table = stripes_properties
+      case ('solver')
+         table = solver_properties
+      case ('history')
+         table = history_properties
+      case ('member')
+         table = member_properties
+      case default
+         allocate (table(0))
+      end select
+   end function property_table
+
+end module dondolo_property_tables

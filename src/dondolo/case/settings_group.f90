@@ -1,0 +1,160 @@
+!> Settings out of the group of a namelist, and back: the table of their properties says what there is.
+module dondolo_settings_group
+   use dondolo_echo, only : echo_type
+   use dondolo_error, only : error_type, problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_namelist_group, only : group_type
+   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, property_type
+   use dondolo_settings, only : settings_type
+   implicit none
+   private
+
+   public :: read_values, read_settings, echo_settings
+
+contains
+
+   !> Read the values that a group gives; their ranges are checked where they are used
+   subroutine read_values(group, settings, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> Settings, without a value
+      class(settings_type), intent(inout) :: settings
+      !> A variable that does not exist or has a value of the wrong type
+      type(error_type), allocatable, intent(out) :: error
+
+      type(property_type), pointer :: table(:)
+      integer :: i
+
+      call settings%get_table(table)
+      call group%check_names(table%name, error)
+      do i = 1, size(table)
+         if (allocated(error)) return
+         if (group%has(trim(table(i)%name))) call read_value(group, table(i), settings, error)
+      end do
+   end subroutine read_values
+
+   !> Read a value
+   subroutine read_value(group, property, settings, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> A property that it gives
+      type(property_type), intent(in) :: property
+      !> Settings
+      class(settings_type), intent(inout) :: settings
+      !> It is of the wrong type
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name, text
+      real(wp), allocatable :: list(:)
+      real(wp) :: number
+      integer :: kind, whole
+      logical :: yes
+
+      name = trim(property%name)
+      kind = property%kind
+      if (kind == is_number_or_name) kind = merge(is_text, is_integer, group%has_text(name))
+      select case (kind)
+      case (is_text)
+         call group%get_text(name, text, error)
+         if (.not. allocated(error)) call settings%set(name, text)
+      case (is_integer)
+         whole = 0
+         call group%get_integer(name, whole, error)
+         if (.not. allocated(error)) call settings%set(name, whole)
+      case (is_logical)
+         yes = .false.
+         call group%get_logical(name, yes, error)
+         if (.not. allocated(error)) call settings%set(name, yes)
+      case (is_list)
+         call group%get_reals(name, list, error)
+         if (.not. allocated(error)) call settings%set(name, list)
+      case default
+         number = 0.0_wp
+         call group%get_real(name, number, error)
+         if (.not. allocated(error)) call settings%set(name, number)
+      end select
+   end subroutine read_value
+
+   !> Read a group: defaults filled in, ranges checked
+   subroutine read_settings(group, settings, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> Settings, without a value
+      class(settings_type), intent(inout) :: settings
+      !> What is wrong with them, each with its place
+      type(error_type), allocatable, intent(out) :: error
+
+      type(problems_type) :: problems
+
+      call read_values(group, settings, error)
+      if (allocated(error)) return
+      call settings%fill()
+      call settings%check(problems)
+      call problems%raise(error)
+      call group%locate(error)
+   end subroutine read_settings
+
+   !> Add settings to the echo of a case as a group, with every value in force
+   subroutine echo_settings(name, settings, echo, owner, beside, last)
+      !> Name of the group
+      character(len=*), intent(in) :: name
+      !> Settings
+      class(settings_type), intent(in) :: settings
+      !> Echo to add to
+      type(echo_type), intent(inout) :: echo
+      !> Task: only properties that it has; all if absent
+      character(len=*), intent(in), optional :: owner
+      !> A property, a number, that stands in the line of the one before
+      character(len=*), intent(in), optional :: beside
+      !> A property that stands after all others
+      character(len=*), intent(in), optional :: last
+
+      type(property_type), pointer :: table(:)
+      integer :: i
+
+      call settings%get_table(table)
+      do i = 1, size(table)
+         if (present(last)) then
+            if (table(i)%name == last) cycle
+         end if
+         call add(table(i))
+      end do
+      if (present(last)) call add(table(settings%find(last)))
+
+   contains
+
+      !> Add a property that has a value
+      subroutine add(property)
+         !> The property
+         type(property_type), intent(in) :: property
+
+         logical :: joins
+         integer :: kind
+
+         if (.not. settings%has(property%name)) return
+         if (present(owner)) then
+            if (.not. has_owner(property, owner)) return
+         end if
+         joins = .false.
+         if (present(beside)) joins = property%name == beside
+         kind = property%kind
+         if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(property%name))
+         associate (variable => trim(property%name))
+            select case (kind)
+            case (is_text)
+               call echo%add(name, variable, settings%word(variable))
+            case (is_integer)
+               call echo%add(name, variable, nint(settings%number(variable)))
+            case (is_logical)
+               call echo%add(name, variable, settings%holds(variable))
+            case (is_list)
+               call echo%add(name, variable, settings%list(variable))
+            case default
+               call echo%add(name, variable, settings%number(variable), joins)
+            end select
+         end associate
+      end subroutine add
+
+   end subroutine echo_settings
+
+end module dondolo_settings_group

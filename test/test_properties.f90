@@ -1,0 +1,348 @@
+!> Every row of every table of properties: has all that a reader of messages and templates needs, keeps its value from a
+!> namelist to what is computed and back, and is refused in one line where it is out of range.
+program test_properties
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_error, only : error_type
+   use dondolo_history_group, only : history_input_type, read_history_group
+   use dondolo_job_group, only : job_type, read_job, task_names
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_namelist, only : namelist_type, read_namelist
+   use dondolo_namelist_group, only : group_type
+   use dondolo_population_group, only : put_population, read_population_group
+   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, &
+      & is_logical, is_number_or_name, is_text, no_limit, number_of_choices, property_type
+   use dondolo_property_tables, only : property_table, table_names
+   use dondolo_records_group, only : read_records_group, records_input_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : echo_settings, read_settings, read_values
+   use dondolo_solver_group, only : read_solver_group, solver_input_type
+   use dondolo_stripes_group, only : check_states, read_stripes_group, stripes_input_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : mechanism_names, new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type
+   implicit none
+
+   character(len=*), parameter :: path = 'test_properties.nml'
+   integer :: k
+
+   do k = 1, size(table_names)
+      call test_rows(trim(table_names(k)))
+      call test_reading(trim(table_names(k)))
+      call test_way(trim(table_names(k)))
+   end do
+   call test_walls()
+   call test_unknown()
+   call remove(path)
+   call finish()
+
+contains
+
+   !> What a row says is whole and does not contradict itself
+   subroutine test_rows(name)
+      character(len=*), intent(in) :: name
+
+      type(property_type), allocatable :: table(:)
+      character(len=:), allocatable :: allowed, what
+      integer :: i, m
+
+      call suite('rows of '//name)
+      table = property_table(name)
+      call check(size(table) > 0, 'there are rows')
+      do i = 1, size(table)
+         what = trim(table(i)%name)
+         associate (property => table(i))
+            call check(find_property(table, what) == i, what//': once')
+            call check(len_trim(property%meaning) > 5, what//': has a meaning')
+            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'm/s2']), what//': its unit')
+            call check(.not. (property%required .and. property%optional), what//': required or optional')
+            if (property%required .or. property%optional) &
+               & call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
+            call check(property%smallest <= property%largest, what//': a range')
+            if (number_of_choices(property%choices) > 0) call check(property%kind == is_text, what//': choices of a text')
+            do m = 1, number_of_choices(property%owners)
+               call check(any(property%owners(m) == mechanism_names) .or. any(property%owners(m) == task_names), &
+                  & what//': its owner '//trim(property%owners(m)))
+            end do
+            if (property%required .or. property%optional) cycle
+            if (property%kind == is_text) then
+               call check_word(property, trim(property%word), allowed)
+            else
+               call check_number(property, property%default, allowed)
+            end if
+            call check(.not. allocated(allowed), what//': its default lies in its range')
+         end associate
+      end do
+   end subroutine test_rows
+
+   !> A reader takes a value of each property, and refuses what it cannot be in one line with its place
+   subroutine test_reading(name)
+      character(len=*), intent(in) :: name
+
+      type(property_type), allocatable :: table(:)
+      type(group_settings_type) :: settings
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: what, text
+      integer :: i
+
+      call suite('reading of '//name)
+      table = property_table(name)
+      do i = 1, size(table)
+         what = trim(table(i)%name)
+         associate (property => table(i))
+            call make_value(property, text)
+            call read_alone(name, property, text, settings, error)
+            call check_ok(error, what//' = '//text)
+            if (allocated(error)) cycle
+            call check(settings%has(what), what//': has a value')
+            if (property%kind == is_text .and. number_of_choices(property%choices) > 0 &
+               & .and. .not. property%checked_by_owner) call refuse(name, property, '''nonsense''', 'must be one of ')
+            if (property%kind == is_text) cycle
+            if (property%kind == is_list) cycle
+            call refuse(name, property, '''nonsense'', 1', 'must be')
+            if (property%kind == is_logical) cycle
+            if (property%positive) call refuse(name, property, '0', 'must be positive')
+            if (property%smallest > -no_limit .and. .not. property%positive) &
+               & call refuse(name, property, to_text(nint(property%smallest) - 1), 'must ')
+            if (property%largest < 1.0e9_wp) call refuse(name, property, to_text(nint(property%largest) + 1), 'must ')
+         end associate
+      end do
+   end subroutine test_reading
+
+   !> A value that must be refused
+   subroutine refuse(name, property, text, sentence)
+      character(len=*), intent(in) :: name, text, sentence
+      type(property_type), intent(in) :: property
+
+      type(group_settings_type) :: settings
+      type(error_type), allocatable :: error
+
+      call read_alone(name, property, text, settings, error)
+      call check_error(error, path//': &'//name//': '//trim(property%name)//' = ', trim(property%name)//' = '//text)
+      if (.not. allocated(error)) return
+      call check(index(error%message, sentence) > 0, trim(property%name)//' = '//text//': '//error%message)
+      call check(index(error%message, new_line('a')) == 0, trim(property%name)//' = '//text//': one line')
+      call check(index(error%message, '(line 2)') > 0, trim(property%name)//' = '//text//': the line')
+   end subroutine refuse
+
+   !> Read a group with one property in line 2, and what must be given besides it
+   subroutine read_alone(name, property, text, settings, error)
+      character(len=*), intent(in) :: name, text
+      type(property_type), intent(in) :: property
+      type(group_settings_type), intent(out) :: settings
+      type(error_type), allocatable, intent(out) :: error
+
+      type(property_type), allocatable, target, save :: table(:)
+      type(group_type) :: group
+
+      table = property_table(name)
+      call new_settings(settings, table)
+      call write_group(name, table, property, text)
+      call get_group(name, group, error)
+      if (.not. allocated(error)) call read_settings(group, settings, error)
+   end subroutine read_alone
+
+   !> Write a group with one property in line 2, and what must be given besides it
+   subroutine write_group(name, table, property, text)
+      character(len=*), intent(in) :: name, text
+      type(property_type), intent(in) :: table(:), property
+
+      character(len=:), allocatable :: other
+      integer :: i, unit
+
+      open (newunit=unit, file=path, action='write', status='replace')
+      write (unit, '(a)') '&'//name
+      write (unit, '(a)') trim(property%name)//' = '//text
+      do i = 1, size(table)
+         if (.not. table(i)%required .or. table(i)%name == property%name) cycle
+         call make_value(table(i), other)
+         write (unit, '(a)') trim(table(i)%name)//' = '//other
+      end do
+      if (any(property%name == [character(len=8) :: 'first', 'last', 'count'])) then
+         if (property%name /= 'first') write (unit, '(a)') 'first = 0.1'
+         if (property%name /= 'last') write (unit, '(a)') 'last = 4'
+         if (property%name /= 'count') write (unit, '(a)') 'count = 3'
+      else if (name == 'stripes' .and. property%name /= 'levels') then
+         write (unit, '(a)') 'levels = 0.1, 0.2'
+      end if
+      write (unit, '(a)') '/'
+      close (unit)
+   end subroutine write_group
+
+   !> The group of the file
+   subroutine get_group(name, group, error)
+      character(len=*), intent(in) :: name
+      type(group_type), intent(out) :: group
+      type(error_type), allocatable, intent(out) :: error
+
+      type(namelist_type) :: namelist
+
+      call read_namelist(path, namelist, error)
+      if (.not. allocated(error)) group = namelist%group(name)
+   end subroutine get_group
+
+   !> A value that a property can have and that is not its default, as it stands in a namelist
+   subroutine make_value(property, text)
+      type(property_type), intent(in) :: property
+      character(len=:), allocatable, intent(out) :: text
+
+      select case (property%kind)
+      case (is_text)
+         text = '''else'''
+         if (property%name == 'im') text = '''pgv'''
+         if (number_of_choices(property%choices) > 0) &
+            & text = ''''//trim(property%choices(number_of_choices(property%choices)))//''''
+      case (is_logical)
+         text = '.true.'
+      case (is_list)
+         text = '0.15, 0.25'
+      case (is_integer, is_number_or_name)
+         text = '3'
+      case default
+         text = to_text(0.9_wp*property%default + 0.1_wp*min(property%largest, 2.0_wp*property%default + 1.0_wp))
+         if (property%required .or. property%optional) text = '0.2'
+         ! A speed ratio must stay below 1
+         if (property%name == 'restitution_factor') text = '0.8'
+      end select
+   end subroutine make_value
+
+   !> The value of each property goes all the way: from a group to what is computed, and back to an echo and a key
+   subroutine test_way(name)
+      character(len=*), intent(in) :: name
+
+      type(property_type), allocatable :: table(:)
+      type(group_settings_type) :: settings
+      type(lines_type) :: lines
+      type(group_type) :: group
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: text, what, echo
+      integer :: i, j
+
+      if (name == 'wall' .or. name == 'member') return
+      call suite('way of '//name)
+      table = property_table(name)
+      do i = 1, size(table)
+         what = trim(table(i)%name)
+         ! They become levels
+         if (any(what == [character(len=8) :: 'first', 'last', 'count'])) cycle
+         call make_value(table(i), text)
+         call write_group(name, table, table(i), text)
+         call get_group(name, group, error)
+         if (.not. allocated(error)) call through(name, group, settings, error)
+         call check_ok(error, what//' = '//text)
+         if (allocated(error)) cycle
+         lines = lines_type()
+         call echo_settings(name, settings, lines)
+         echo = ''
+         do j = 1, lines%count
+            echo = echo//lines%line(j)%text//' '
+         end do
+         call check(index(echo, what//' = '//text) > 0, what//' = '//text//' in '//echo)
+      end do
+   end subroutine test_way
+
+   !> A group to what is computed and back
+   subroutine through(name, group, settings, error)
+      character(len=*), intent(in) :: name
+      type(group_type), intent(in) :: group
+      type(group_settings_type), intent(out) :: settings
+      type(error_type), allocatable, intent(out) :: error
+
+      type(job_type) :: job
+      type(records_input_type) :: records
+      type(stripes_input_type) :: stripes
+      type(solver_input_type) :: solver
+      type(history_input_type) :: history
+      character(len=:), allocatable :: file
+
+      select case (name)
+      case ('job')
+         call read_job(group, job, error)
+         if (.not. allocated(error)) call job%put(settings)
+      case ('population')
+         call read_population_group(group, file, error)
+         if (.not. allocated(error)) call put_population(file, settings)
+      case ('records')
+         call read_records_group(group, records, error)
+         if (.not. allocated(error)) call records%put(settings)
+      case ('stripes')
+         call read_stripes_group(group, stripes, error)
+         if (.not. allocated(error)) call check_states(stripes, 1.0_wp, error)
+         if (.not. allocated(error)) call stripes%put(settings)
+      case ('solver')
+         call read_solver_group(group, solver, error)
+         if (.not. allocated(error)) call solver%put(settings)
+      case ('history')
+         call read_history_group(group, history, error)
+         if (.not. allocated(error)) call history%put(settings)
+      end select
+   end subroutine through
+
+   !> A wall keeps what is said of it, and has only what its mechanism has
+   subroutine test_walls()
+      type(property_type), allocatable :: table(:)
+      type(wall_input_type) :: input
+      type(wall_type) :: wall
+      type(error_type), allocatable :: error
+      type(group_type) :: group
+      character(len=:), allocatable :: text, what
+      integer :: i, m
+
+      call suite('walls')
+      table = property_table('wall')
+      do m = 1, size(mechanism_names)
+         do i = 1, size(table)
+            what = trim(table(i)%name)
+            if (what == 'mechanism') cycle
+            call make_value(table(i), text)
+            if (what == 'restitution') text = '''default'''
+            call write_group('wall', table(:0), table(i), text)
+            call get_group('wall', group, error)
+            input = wall_input_type()
+            call read_values(group, input, error)
+            call check_ok(error, what)
+            call input%set('mechanism', trim(mechanism_names(m)))
+            if (what /= 'height') call input%set('height', 3.0_wp)
+            if (what /= 'thickness') call input%set('thickness', 0.5_wp)
+            if (what == 'restitution_value') call input%set('restitution', 'constant')
+            if (what == 'bearing') call input%set('bearing', 'centre')
+            if (what == 'bearing_distance') call input%set('bearing', 'inner')
+            call new_wall(wall, input, error)
+            if (has_owner(table(i), trim(mechanism_names(m)))) then
+               call check_ok(error, trim(mechanism_names(m))//' with '//what)
+               if (allocated(error)) cycle
+               call check(wall%input%has(what) .neqv. table(i)%replaced, what//': kept')
+               if (table(i)%kind == is_text .or. table(i)%replaced) cycle
+               call check_close(wall%input%number(what), input%number(what), 0.0_wp, what)
+            else
+               call check_error(error, what//' = ', trim(mechanism_names(m))//' with '//what)
+               if (allocated(error)) call check(index(error%message, 'only for mechanism = ') > 0, error%message)
+            end if
+         end do
+      end do
+   end subroutine test_walls
+
+   !> A name that there is not is told of
+   subroutine test_unknown()
+      type(wall_input_type) :: input
+      type(wall_type) :: wall
+      type(error_type), allocatable :: error
+
+      call suite('unknown names')
+      call input%set('mechanism', 'one_sided')
+      call input%set('heigth', 3.0_wp)
+      call new_wall(wall, input, error)
+      call check_error(error, 'heigth: no such variable; there are ''name'', ''mechanism'', ''height''', 'heigth')
+   end subroutine test_unknown
+
+   !> Remove a file
+   subroutine remove(file)
+      character(len=*), intent(in) :: file
+
+      integer :: unit, stat
+
+      open (newunit=unit, file=file, iostat=stat)
+      if (stat == 0) close (unit, status='delete')
+   end subroutine remove
+
+end program test_properties
