@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.curves.series import in_series
 from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
-from dondolo.curves.series import in_series
 from dondolo.walls.population import Population
 
 # Numbers that are held at a time: samples x walls, and samples x rows of a chunk x levels

@@ -11,8 +11,8 @@ from dondolo._base.arguments import FloatArray, as_text
 from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
-from dondolo.errors import Interrupted
 from dondolo.curves.series import in_series
+from dondolo.errors import Interrupted
 from dondolo.populations.curve import Group, IntArray
 from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population

@@ -128,6 +128,7 @@ contains
          !> The property
          type(property_type), intent(in) :: property
 
+         character(len=:), allocatable :: variable
          logical :: joins
          integer :: kind
 
@@ -139,20 +140,19 @@ contains
          if (present(beside)) joins = property%name == beside
          kind = property%kind
          if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(property%name))
-         associate (variable => trim(property%name))
-            select case (kind)
-            case (is_text)
-               call echo%add(name, variable, settings%word(variable))
-            case (is_integer)
-               call echo%add(name, variable, nint(settings%number(variable)))
-            case (is_logical)
-               call echo%add(name, variable, settings%holds(variable))
-            case (is_list)
-               call echo%add(name, variable, settings%list(variable))
-            case default
-               call echo%add(name, variable, settings%number(variable), joins)
-            end select
-         end associate
+         variable = trim(property%name)
+         select case (kind)
+         case (is_text)
+            call echo%add(name, variable, settings%word(variable))
+         case (is_integer)
+            call echo%add(name, variable, nint(settings%number(variable)))
+         case (is_logical)
+            call echo%add(name, variable, settings%holds(variable))
+         case (is_list)
+            call echo%add(name, variable, settings%list(variable))
+         case default
+            call echo%add(name, variable, settings%number(variable), joins)
+         end select
       end subroutine add
 
    end subroutine echo_settings
