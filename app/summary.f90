@@ -73,19 +73,21 @@ contains
       !> Number of threads
       integer, intent(in) :: threads
 
+      character(len=:), allocatable :: engines
       integer(int64) :: histories
 
+      call results%name_engines(engines)
       histories = results%work%histories
       if (case%solver%solver%estimate_error) histories = histories/2
       if (results%resumed > 0) then
          write (output_unit, '(a)') to_text(histories)//' histories, those of rows '//to_text(case%survey%first)//' to '// &
-            & to_text(results%resumed)//' by an earlier run, engine '//results%engine()
+            & to_text(results%resumed)//' by an earlier run, engine '//engines
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
             & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//counted(threads, 'thread')// &
-            & ', engine '//results%engine()
+            & ', engine '//engines
       else
-         write (output_unit, '(a)') to_text(histories)//' histories, engine '//results%engine()
+         write (output_unit, '(a)') to_text(histories)//' histories, engine '//engines
       end if
       associate (work => results%work)
          write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &

@@ -76,6 +76,15 @@ stage 'checks and traps, many lanes' 1 1 debug "$traps" test_lanes
 stage 'sanitizers' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_stress
 stage 'sanitizers, many lanes' 1 1 debug "$sanitizers" test_lanes
 stage 'threads and grouping' "$(at_least $((histories / 100)) 10)" 250 release '' test_grouping
+# Eight threads make a million texts, most of them messages of errors.
+began=$SECONDS
+if program=$(executable test_sentences release '') && DONDOLO_SENTENCES=1000000 "$program" >"$work/sentences" 2>&1; then
+   echo "texts of threads: passed, $((SECONDS - began)) s"
+else
+   echo 'texts of threads: FAILED'
+   tail -n 5 "$work/sentences"
+   status=1
+fi
 if command -v valgrind >/dev/null; then
    # The first part brings the kept histories, some of which are long.
    start=2

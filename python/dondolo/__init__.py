@@ -27,6 +27,7 @@ from dondolo.analysis.plots import (
 )
 from dondolo.analysis.plots_cloud import plot_cloud, plot_incremental
 from dondolo.analysis.response import Response, simulate
+from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.analysis.work import Work
 from dondolo.curves.bootstrap import Bootstrap
@@ -93,6 +94,7 @@ __all__ = [
     "Results",
     "Risk",
     "RotD",
+    "Solver",
     "Spectrum",
     "State",
     "StoredResults",

@@ -1,9 +1,10 @@
 ! The one boundary between Fortran and Python: all that f2py reads.
 !
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
-! A wall is its properties in the order of their table (dondolo_wall_properties): a line for each text, q numbers with a
-! mask of those given; and gravity;
-! records are one array of samples with their lengths, time steps and names (one a line). Status and message come last:
+! Records and walls are uploaded once and stay; every other procedure takes their handles (dondolo_handles). Records are
+! one array of samples with their lengths, time steps and names (one a line); a wall is its properties in the order of
+! their table (dondolo_wall_properties), a line for each text and q numbers with a mask of those given, and gravity.
+! Status and message come last:
 ! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that call
 ! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
 
@@ -122,6 +123,146 @@ subroutine take_parcel(handle, m, n, k, integers, reals, characters)
    call take(handle, integers, reals, characters)
 end subroutine take_parcel
 
+! Free what a handle stands for; nothing, if that was done before
+subroutine free(handle)
+   use, intrinsic :: iso_c_binding, only : c_int64_t
+   use dondolo_handles, only : release
+   implicit none
+   integer(c_int64_t), intent(in) :: handle
+
+   call release(handle)
+end subroutine free
+
+! Upload records that Python has checked: a suite
+subroutine new_suite(names, lengths, dt, r, acceleration, n, handle, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report, set_records
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : hold
+   use dondolo_record, only : record_type
+   use dondolo_suite, only : make_suite => new_suite, suite_type
+   implicit none
+   character(len=*), intent(in) :: names
+   integer(c_int), intent(in) :: r, n, lengths(r)
+   real(c_double), intent(in) :: dt(r), acceleration(n)
+   integer(c_int64_t), intent(out) :: handle
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(record_type), allocatable :: records(:)
+   type(suite_type), pointer :: suite
+   class(*), pointer :: content
+   type(error_type), allocatable :: error
+
+   handle = 0
+   call check_room(error, records=r, samples=n)
+   if (.not. allocated(error)) then
+      call set_records(records, names, lengths, dt, acceleration)
+      allocate (suite)
+      call make_suite(suite, records)
+      content => suite
+      call hold(content, handle)
+   end if
+   call report(error, stat, message)
+end subroutine new_suite
+
+! Upload walls that Python has had described
+subroutine new_walls(texts, numbers, given, q, gravity, w, handle, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report, set_walls
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : hold, walls_type
+   implicit none
+   character(len=*), intent(in) :: texts
+   integer(c_int), intent(in) :: q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(q, w), gravity(w)
+   integer(c_int64_t), intent(out) :: handle
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(walls_type), pointer :: walls
+   class(*), pointer :: content
+   type(error_type), allocatable :: error
+
+   handle = 0
+   call check_room(error, walls=w)
+   if (.not. allocated(error)) then
+      allocate (walls)
+      allocate (walls%wall(w))
+      call set_walls(walls%wall, texts, numbers, given, gravity, error)
+      content => walls
+      if (allocated(error)) deallocate (walls)
+   end if
+   if (.not. allocated(error)) call hold(content, handle)
+   call report(error, stat, message)
+end subroutine new_walls
+
+! Measure the records of a suite, which keeps the values for the studies to come
+subroutine measure_suite(suite, im, threads, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_suite
+   use dondolo_scaling, only : new_scaling, scaling_type
+   use dondolo_suite, only : suite_type
+   use dondolo_threads, only : check_threads
+   implicit none
+   !f2py threadsafe
+   integer(c_int64_t), intent(in) :: suite
+   character(len=*), intent(in) :: im
+   integer(c_int), intent(in) :: threads
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(suite_type), pointer :: records
+   type(scaling_type) :: scaling
+   type(error_type), allocatable :: error
+
+   call find_suite(suite, records, error)
+   if (.not. allocated(error)) call check_threads(threads, error)
+   if (.not. allocated(error)) call new_scaling(scaling, im, error)
+   if (.not. allocated(error)) call records%measure(scaling%measure, threads)
+   call report(error, stat, message)
+end subroutine measure_suite
+
+! A study: a suite and how walls are tried under it. Without a measure its levels are factors on the records
+subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, handle, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : as_solver, report
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_suite, held_study_type, hold
+   use dondolo_scaling, only : new_scaling, scaling_type, unscaled
+   use dondolo_study, only : make_study => new_study
+   use dondolo_suite, only : suite_type
+   use dondolo_threads, only : check_threads
+   implicit none
+   integer(c_int64_t), intent(in) :: suite
+   character(len=*), intent(in) :: im, polarity, engine
+   integer(c_int), intent(in) :: m, threads
+   real(c_double), intent(in) :: levels(m), settings(5)
+   integer(c_int64_t), intent(out) :: handle
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(suite_type), pointer :: records
+   type(scaling_type) :: scaling
+   type(held_study_type), pointer :: held
+   class(*), pointer :: content
+   type(error_type), allocatable :: error
+
+   handle = 0
+   call find_suite(suite, records, error)
+   if (.not. allocated(error)) call check_threads(threads, error)
+   if (.not. allocated(error)) then
+      scaling = unscaled()
+      if (len(im) > 0) call new_scaling(scaling, im, error)
+   end if
+   if (.not. allocated(error)) then
+      allocate (held)
+      held%suite = suite
+      call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, settings), threads)
+      content => held
+      call hold(content, handle)
+   end if
+   call report(error, stat, message)
+end subroutine new_study
+
 ! Walls with their defaults filled in and their static quantities, as pack_walls has them
 subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -154,28 +295,29 @@ subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, s
 end subroutine describe_walls
 
 ! Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
-subroutine wall_terms(texts, numbers, given, q, gravity, rotation, n, terms, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_rotations, report, set_walls
+subroutine wall_terms(walls, rotation, n, terms, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_rotations, report
    use dondolo_error, only : error_type
+   use dondolo_handles, only : find_walls
    use dondolo_wall, only : wall_type
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: q, n, given(q)
-   real(c_double), intent(in) :: numbers(q), gravity, rotation(n)
+   integer(c_int64_t), intent(in) :: walls
+   integer(c_int), intent(in) :: n
+   real(c_double), intent(in) :: rotation(n)
    real(c_double), intent(out) :: terms(n, 6)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
+   type(wall_type), pointer :: people(:)
    type(error_type), allocatable :: error
    integer :: i
 
    terms = 0
-   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
-   if (.not. allocated(error)) call check_rotations(walls(1)%mechanism, rotation, error)
+   call find_walls(walls, people, error)
+   if (.not. allocated(error)) call check_rotations(people(1)%mechanism, rotation, error)
    if (.not. allocated(error)) then
-      associate (mechanism => walls(1)%mechanism)
+      associate (mechanism => people(1)%mechanism)
          do i = 1, n
             call mechanism%terms(rotation(i), terms(i, 1), terms(i, 2), terms(i, 3), terms(i, 4), terms(i, 5))
             terms(i, 6) = mechanism%potential(rotation(i))
@@ -255,152 +397,118 @@ subroutine describe_measure(im, of_record, handle, sizes, stat, message)
    call report(error, stat, message)
 end subroutine describe_measure
 
-! Intensities of records, in the unit of the levels
-subroutine intensities(im, names, lengths, dt, r, acceleration, n, gravity, threads, values, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_room, report, set_records
+! Intensities of the records of a suite, in the unit of the levels
+subroutine intensities(suite, im, r, gravity, threads, values, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : report
    use dondolo_error, only : error_type
+   use dondolo_handles, only : find_suite
    use dondolo_intensity, only : measure_type, new_measure
-   use dondolo_record, only : record_type
-   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_suite, only : suite_type
    use dondolo_threads, only : check_threads
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: im, names
-   integer(c_int), intent(in) :: r, n, threads, lengths(r)
-   real(c_double), intent(in) :: dt(r), acceleration(n), gravity
+   integer(c_int64_t), intent(in) :: suite
+   character(len=*), intent(in) :: im
+   integer(c_int), intent(in) :: r, threads
+   real(c_double), intent(in) :: gravity
    real(c_double), intent(out) :: values(r)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
    type(measure_type) :: measure
-   type(suite_type) :: suite
-   type(record_type), allocatable :: records(:)
+   type(suite_type), pointer :: records
    type(error_type), allocatable :: error
 
    values = 0
-   call check_room(error, records=r, samples=n)
+   call find_suite(suite, records, error)
    if (.not. allocated(error)) call check_threads(threads, error)
    if (.not. allocated(error)) call new_measure(measure, im, error)
    if (.not. allocated(error)) then
-      call set_records(records, names, lengths, dt, acceleration)
-      call new_suite(suite, records)
-      values = suite%values(measure, threads)/measure%level_size(gravity)
+      call records%measure(measure, threads)
+      values = records%values(measure, threads)/measure%level_size(gravity)
    end if
    call report(error, stat, message)
 end subroutine intensities
 
-! Values that plan and run_block scale records by
-subroutine scaling_values(im, names, lengths, dt, r, acceleration, n, threads, values, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_room, report, set_records
-   use dondolo_error, only : error_type
-   use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_suite, only : new_suite, suite_type
-   use dondolo_threads, only : check_threads
-   implicit none
-   !f2py threadsafe
-   character(len=*), intent(in) :: im, names
-   integer(c_int), intent(in) :: r, n, threads, lengths(r)
-   real(c_double), intent(in) :: dt(r), acceleration(n)
-   real(c_double), intent(out) :: values(r)
-   integer(c_int), intent(out) :: stat
-   character(len=2048), intent(out) :: message
-   type(scaling_type) :: scaling
-   type(suite_type) :: suite
-   type(record_type), allocatable :: records(:)
-   type(error_type), allocatable :: error
-
-   values = 0
-   call check_room(error, records=r, samples=n)
-   if (.not. allocated(error)) call check_threads(threads, error)
-   if (.not. allocated(error)) call new_scaling(scaling, im, error)
-   if (.not. allocated(error)) then
-      call set_records(records, names, lengths, dt, acceleration)
-      call new_suite(suite, records)
-      values = suite%values(scaling%measure, threads)
-   end if
-   call report(error, stat, message)
-end subroutine scaling_values
-
 ! Spectral displacements of a record
-subroutine spectrum(acceleration, n, dt, periods, m, damping, displacement, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+subroutine spectrum(suite, number, periods, m, damping, displacement, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, check_spectrum, report
    use dondolo_error, only : error_type
-   use dondolo_record, only : record_type
+   use dondolo_handles, only : find_suite
    use dondolo_response_spectrum, only : spectral_displacement
+   use dondolo_suite, only : suite_type
    implicit none
    !f2py threadsafe
-   integer(c_int), intent(in) :: n, m
-   real(c_double), intent(in) :: acceleration(n), dt, periods(m), damping
+   integer(c_int64_t), intent(in) :: suite
+   integer(c_int), intent(in) :: number, m
+   real(c_double), intent(in) :: periods(m), damping
    real(c_double), intent(out) :: displacement(m)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
-   type(record_type) :: record
+   type(suite_type), pointer :: records
    type(error_type), allocatable :: error
 
    displacement = 0
-   call check_room(error, samples=n, reals=10.0_c_double*m)
+   call check_room(error, reals=10.0_c_double*m)
+   if (.not. allocated(error)) call find_suite(suite, records, error)
    if (.not. allocated(error)) call check_spectrum(periods, damping, error)
    if (.not. allocated(error)) then
-      record%dt = dt
-      record%acceleration = acceleration
-      displacement = spectral_displacement(record, periods, damping)
+      displacement = spectral_displacement(records%records(number), periods, damping)
    end if
    call report(error, stat, message)
 end subroutine spectrum
 
 ! Velocity of the ground at the samples of a record
-subroutine ground_velocity(acceleration, n, dt, velocity, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+subroutine ground_velocity(suite, number, n, velocity, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report
    use dondolo_error, only : error_type
    use dondolo_ground_motion, only : velocity_of => ground_velocity
-   use dondolo_record, only : record_type
+   use dondolo_handles, only : find_suite
+   use dondolo_suite, only : suite_type
    implicit none
    !f2py threadsafe
-   integer(c_int), intent(in) :: n
-   real(c_double), intent(in) :: acceleration(n), dt
+   integer(c_int64_t), intent(in) :: suite
+   integer(c_int), intent(in) :: number, n
    real(c_double), intent(out) :: velocity(n)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
-   type(record_type) :: record
+   type(suite_type), pointer :: records
    type(error_type), allocatable :: error
 
    velocity = 0
-   call check_room(error, samples=n)
+   call check_room(error, reals=3.0_c_double*n)
+   if (.not. allocated(error)) call find_suite(suite, records, error)
    if (.not. allocated(error)) then
-      record%dt = dt
-      record%acceleration = acceleration
-      velocity = velocity_of(record)
+      velocity = velocity_of(records%records(number))
    end if
    call report(error, stat, message)
 end subroutine ground_velocity
 
 ! Times at which the integral of the squared acceleration reaches two shares of its end value
-subroutine significant_times(acceleration, n, dt, low, high, times, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : check_room, report
+subroutine significant_times(suite, number, low, high, times, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : report
    use dondolo_energy_measures, only : times_of => significant_times
    use dondolo_error, only : error_type
-   use dondolo_record, only : record_type
+   use dondolo_handles, only : find_suite
+   use dondolo_suite, only : suite_type
    implicit none
    !f2py threadsafe
-   integer(c_int), intent(in) :: n
-   real(c_double), intent(in) :: acceleration(n), dt, low, high
+   integer(c_int64_t), intent(in) :: suite
+   integer(c_int), intent(in) :: number
+   real(c_double), intent(in) :: low, high
    real(c_double), intent(out) :: times(2)
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
-   type(record_type) :: record
+   type(suite_type), pointer :: records
    type(error_type), allocatable :: error
 
    times = 0
-   call check_room(error, samples=n)
+   call find_suite(suite, records, error)
    if (.not. allocated(error)) then
-      record%dt = dt
-      record%acceleration = acceleration
-      times = times_of(record, low, high)
+      times = times_of(records%records(number), low, high)
    end if
    call report(error, stat, message)
 end subroutine significant_times
@@ -554,23 +662,24 @@ subroutine read_walls(path, gravity, handle, sizes, stat, message)
 end subroutine read_walls
 
 ! What the executable would warn of, of a wall and a record, before it runs one motion
-subroutine warn_of_motion(texts, numbers, given, q, gravity, record, pga, handle, sizes, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
+subroutine warn_of_motion(walls, record, pga, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
+   use dondolo_handles, only : find_walls
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_records
    implicit none
-   character(len=*), intent(in) :: texts, record
-   integer(c_int), intent(in) :: q, given(q)
-   real(c_double), intent(in) :: numbers(q), gravity, pga
+   integer(c_int64_t), intent(in) :: walls
+   character(len=*), intent(in) :: record
+   real(c_double), intent(in) :: pga
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
+   type(wall_type), pointer :: people(:)
    type(record_type) :: records(1)
    type(wall_warning_type) :: oddities
    type(warnings_type) :: warnings
@@ -579,14 +688,14 @@ subroutine warn_of_motion(texts, numbers, given, q, gravity, record, pga, handle
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
+   call find_walls(walls, people, error)
    if (.not. allocated(error)) then
-      call oddities%look(walls(1))
+      call oddities%look(people(1))
       call oddities%warn(warnings)
       ! Of the samples the sentences need the largest only
       records(1)%name = record
       records(1)%acceleration = [pga]
-      call warn_of_records(records, gravity, warnings)
+      call warn_of_records(records, people(1)%gravity, warnings)
       if (warnings%count > 0) then
          call pack_warnings(warnings, parcel)
          call send(parcel, handle, sizes)
@@ -597,30 +706,33 @@ end subroutine warn_of_motion
 
 ! One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
 ! side and whether it is just after an impact
-subroutine simulate(texts, numbers, given, q, gravity, acceleration, n, dt, name, scale, engine, settings, history, &
+subroutine simulate(walls, suite, number, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_trace, pack_response, parcel_type, report, &
-      & send, set_records, set_walls
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : as_solver, check_interrupt, check_trace, pack_response, parcel_type, report, &
+      & send
    use dondolo_error, only : error_type, raise_input
-   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_handles, only : find_suite, find_walls
+   use dondolo_record, only : largest_acceleration
    use dondolo_response, only : response_type, trace_type
    use dondolo_simulate, only : check_history, simulate_wall => simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: texts, name, engine
-   integer(c_int), intent(in) :: q, n, given(q), history
-   real(c_double), intent(in) :: numbers(q), gravity, acceleration(n), dt, scale, settings(5)
+   integer(c_int64_t), intent(in) :: walls, suite
+   character(len=*), intent(in) :: engine
+   integer(c_int), intent(in) :: number, history
+   real(c_double), intent(in) :: scale, settings(5)
    real(c_double), intent(out) :: edp, time_of_peak, edp_error
    integer(c_int), intent(out) :: collapsed, impacts
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
-   type(record_type), allocatable :: records(:)
+   type(wall_type), pointer :: people(:)
+   type(suite_type), pointer :: records
    type(solver_type) :: solver
    type(response_type) :: response
    type(trace_type) :: trace
@@ -629,24 +741,24 @@ subroutine simulate(texts, numbers, given, q, gravity, acceleration, n, dt, name
 
    handle = 0
    sizes = 0
-   call check_room(error, samples=n)
-   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
+   call find_walls(walls, people, error)
+   if (.not. allocated(error)) call find_suite(suite, records, error)
    solver = as_solver(engine, settings)
    if (.not. allocated(error)) call check_solver(solver, error)
-   if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
-   if (.not. allocated(error)) call check_history(solver, walls(1)%mechanism, history == 1, error)
+   if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
+   if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error)
    if (.not. allocated(error)) then
-      call set_records(records, name, [n], [dt], acceleration)
-      if (.not. abs(scale)*records(1)%pga() <= largest_acceleration) call raise_input(error, 'scale = '// &
-         & to_text(scale)//': makes record '''//name//''' exceed '//to_text(largest_acceleration)//' m/s2')
+      if (.not. abs(scale)*records%peaks(number) <= largest_acceleration) call raise_input(error, 'scale = '// &
+         & to_text(scale)//': makes record '''//records%records(number)%name//''' exceed '// &
+         & to_text(largest_acceleration)//' m/s2')
    end if
    if (.not. allocated(error)) then
       if (history == 1) then
-         call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response, trace)
+         call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response, trace)
          call check_interrupt(error)
          if (.not. allocated(error)) call check_trace(trace, error)
       else
-         call simulate_wall(walls(1)%mechanism, records(1), scale, solver, response)
+         call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response)
          call check_interrupt(error)
       end if
    end if
@@ -659,175 +771,173 @@ subroutine simulate(texts, numbers, given, q, gravity, acceleration, n, dt, name
    call report(error, stat, message)
 end subroutine simulate
 
-! Check what stripes of some walls would be, without running them. Integers: histories of a stripe of each wall, then
-! record and polarity of each history of the last wall; reals: its scales (histories, levels); text: warnings
-subroutine plan(texts, numbers, given, q, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
-      & polarity, engine, settings, threads, handle, sizes, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_room, pack_warnings, parcel_type, report, send, set_records, &
-      & set_walls
+! Check what stripes of walls would be, without running them: histories of a stripe of each, and the parcel of the warnings
+subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : add_place, error_type
+   use dondolo_handles, only : find_study, find_walls
    use dondolo_plausibility, only : wall_warning_type
-   use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
-   use dondolo_study, only : new_study, study_type
-   use dondolo_suite, only : new_suite, suite_type
-   use dondolo_threads, only : check_threads
+   use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
-   character(len=*), intent(in) :: texts, names, im, polarity, engine
-   integer(c_int), intent(in) :: q, w, r, n, m, threads, given(q, w), lengths(r)
-   real(c_double), intent(in) :: numbers(q, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
+   integer(c_int64_t), intent(in) :: study, walls
+   integer(c_int), intent(in) :: w
+   integer(c_int), intent(out) :: histories(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type), allocatable :: walls(:)
-   type(record_type), allocatable :: records(:)
-   type(suite_type), target :: suite
-   type(study_type) :: study
-   type(scaling_type) :: scaling
+   type(study_type), pointer :: chosen
+   type(wall_type), pointer :: people(:)
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
    type(wall_warning_type) :: oddities
    type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   integer, allocatable :: histories(:)
    integer :: i
    logical :: fresh
 
    handle = 0
    sizes = 0
-   call check_room(error, w, r, n)
-   if (.not. allocated(error)) call check_threads(threads, error)
-   if (.not. allocated(error)) then
-      allocate (walls(w), histories(w))
-      call set_walls(walls, texts, numbers, given, gravity, error)
-   end if
-   if (.not. allocated(error)) call new_scaling(scaling, im, error)
-   if (.not. allocated(error)) then
-      call set_records(records, names, lengths, dt, acceleration)
-      call new_suite(suite, records)
-      call new_study(study, suite, scaling, levels, polarity, as_solver(engine, settings), threads)
-      study%values = values
-      do i = 1, w
-         ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
-         fresh = i == 1 .or. scaling%needs_wall()
-         if (.not. fresh) fresh = gravity(i) < gravity(i - 1) .or. gravity(i) > gravity(i - 1) &
-            & .or. (walls(i)%mechanism%two_sided .neqv. walls(i - 1)%mechanism%two_sided)
-         if (fresh) then
-            call plan_stripes(stripes, walls(i), study, error)
-         else
-            call check_limit(study%solver, walls(i)%mechanism, error)
-         end if
-         if (allocated(error)) then
-            if (w > 1) call add_place(error, 'wall '''//walls(i)%name()//'''')
-            exit
-         end if
-         histories(i) = size(stripes%record)
-         call scales%look(stripes, suite%records)
-         call oddities%look(walls(i))
-      end do
-   end if
+   histories = 0
+   call find_study(study, chosen, error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
+   do i = 1, w
+      if (allocated(error)) exit
+      ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
+      fresh = i == 1 .or. chosen%scaling%needs_wall()
+      if (.not. fresh) fresh = people(i)%gravity < people(i - 1)%gravity .or. people(i)%gravity > people(i - 1)%gravity &
+         & .or. (people(i)%mechanism%two_sided .neqv. people(i - 1)%mechanism%two_sided)
+      if (fresh) then
+         call plan_stripes(stripes, people(i), chosen, error)
+      else
+         call check_limit(chosen%solver, people(i)%mechanism, error)
+      end if
+      if (allocated(error)) then
+         if (w > 1) call add_place(error, 'wall '''//people(i)%name()//'''')
+         exit
+      end if
+      histories(i) = size(stripes%record)
+      call scales%look(stripes, chosen%suite%records)
+      call oddities%look(people(i))
+   end do
    if (.not. allocated(error)) then
       call oddities%warn(warnings)
-      call warn_of_records(suite%records, gravity(1), warnings)
+      call warn_of_records(chosen%suite%records, people(1)%gravity, warnings)
       call scales%warn(warnings)
-      parcel%integers = [histories, stripes%record, stripes%polarity]
-      parcel%reals = reshape(stripes%scale, [size(stripes%scale)])
-      call pack_warnings(warnings, parcel)
-      call send(parcel, handle, sizes)
+      if (warnings%count > 0) then
+         call pack_warnings(warnings, parcel)
+         call send(parcel, handle, sizes)
+      end if
    end if
    call report(error, stat, message)
 end subroutine plan
 
-! Run `count` histories of a plan from number `first` on; they are numbered wall by wall and stripe by stripe. Counts of
-! what was computed come in the order of work_names
-subroutine run_block(texts, numbers, given, q, gravity, w, names, lengths, dt, r, acceleration, n, values, levels, m, im, &
-      & polarity, engine, settings, threads, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
-      & stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, set_walls
+! Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels
+subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : report
    use dondolo_error, only : error_type
-   use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
-   use dondolo_study, only : new_study, study_type
-   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_handles, only : find_study, find_walls
+   use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_study, only : study_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   integer(c_int64_t), intent(in) :: study, walls
+   integer(c_int), intent(in) :: number, k, m
+   integer(c_int), intent(out) :: record(k), polarity(k), stat
+   real(c_double), intent(out) :: scale(k, m)
+   character(len=2048), intent(out) :: message
+   type(study_type), pointer :: chosen
+   type(wall_type), pointer :: people(:)
+   type(stripes_type) :: stripes
+   type(error_type), allocatable :: error
+
+   record = 0
+   polarity = 0
+   scale = 0
+   call find_study(study, chosen, error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
+   if (.not. allocated(error)) call plan_stripes(stripes, people(number), chosen, error)
+   if (.not. allocated(error)) then
+      record = stripes%record
+      polarity = stripes%polarity
+      scale = stripes%scale
+   end if
+   call report(error, stat, message)
+end subroutine scales
+
+! Run `count` histories of walls `one` to `last`, which plan has checked, from number `first` of wall `one` on; they are
+! numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names
+subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
+      & stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_interrupt, check_room, report
+   use dondolo_ensemble, only : ensemble_type
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_study, find_walls
+   use dondolo_stripes, only : histories_of, run_part
+   use dondolo_study, only : study_type
    use dondolo_threads, only : team_of
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: texts, names, im, polarity, engine
-   integer(c_int), intent(in) :: q, w, r, n, m, threads, first, count, given(q, w), lengths(r)
-   real(c_double), intent(in) :: numbers(q, w), gravity(w), dt(r), acceleration(n), values(r), levels(m), settings(5)
-   real(c_double), intent(out) :: edp(count), time_of_peak(count), edp_error(count), work(7)
-   integer(c_int), intent(out) :: collapsed(count), impacts(count), stat
+   integer(c_int64_t), intent(in) :: study, walls
+   integer(c_int), intent(in) :: one, last, first, count
+   real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
+   integer(c_int), intent(inout) :: collapsed(count), impacts(count)
+   real(c_double), intent(out) :: work(7)
+   integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
-   type(wall_type), allocatable :: walls(:)
-   type(record_type), allocatable :: records(:)
-   type(suite_type), target :: suite
-   type(study_type) :: study
-   type(scaling_type) :: scaling
-   type(stripes_type), allocatable :: stripes(:)
+   type(study_type), pointer :: chosen
+   type(wall_type), pointer :: people(:)
+   type(ensemble_type), allocatable :: part(:)
    type(work_type) :: total
    type(error_type), allocatable :: error
-   integer, allocatable :: before(:)
-   integer :: i, k, done, crew, shared_out
+   integer, allocatable :: range(:, :)
+   integer :: i, k, left, crew, shared_out
 
-   edp = 0
-   collapsed = 0
-   impacts = 0
-   time_of_peak = 0
-   edp_error = 0
-   call check_room(error, w, r, n, 2.0_c_double*w*r*m)
+   call check_room(error, walls=last - one + 1, histories=real(count, c_double))
+   if (.not. allocated(error)) call find_study(study, chosen, error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
    if (.not. allocated(error)) then
-      allocate (walls(w), stripes(w), before(w + 1))
-      call set_walls(walls, texts, numbers, given, gravity, error)
-   end if
-   if (.not. allocated(error)) call new_scaling(scaling, im, error)
-   if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration)
-   if (.not. allocated(error)) then
-      call new_suite(suite, records)
-      call new_study(study, suite, scaling, levels, polarity, as_solver(engine, settings), threads)
-      study%values = values
-      before(1) = 0
-   end if
-   do i = 1, w
-      if (allocated(error)) exit
-      call plan_stripes(stripes(i), walls(i), study, error)
-      if (.not. allocated(error)) before(i + 1) = before(i) + size(stripes(i)%response)
-   end do
-   if (.not. allocated(error)) then
-      ! As in run_case: as many walls as go round evenly are shared out, all threads work on each of the others.
-      crew = team_of(threads, huge(1))
-      shared_out = w - modulo(w, crew)
-      !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out > 0) default(none) &
-      !$omp & shared(shared_out, stripes, walls, study, first, count, before)
-      do i = 1, shared_out
-         call run_histories(stripes(i), walls(i), study, 1, max(first - before(i), 1), &
-            & min(first + count - 1 - before(i), size(stripes(i)%response)))
+      allocate (part(one:last), range(2, one:last))
+      left = count
+      range(1, :) = 1
+      range(1, one) = first
+      do i = one, last
+         range(2, i) = min(histories_of(chosen, people(i))*size(chosen%levels), range(1, i) + left - 1)
+         left = left - (range(2, i) - range(1, i) + 1)
+      end do
+      ! As in run_rows: as many walls as go round evenly are shared out, all threads work on each of the others.
+      crew = team_of(chosen%threads, huge(1))
+      shared_out = last - modulo(last - one + 1, crew)
+      !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
+      !$omp & shared(one, shared_out, chosen, people, range, part)
+      do i = one, shared_out
+         call run_part(part(i), people(i), chosen, 1, range(:, i))
       end do
       !$omp end parallel do
-      do i = shared_out + 1, w
-         call run_histories(stripes(i), walls(i), study, threads, max(first - before(i), 1), &
-            & min(first + count - 1 - before(i), size(stripes(i)%response)))
+      do i = shared_out + 1, last
+         call run_part(part(i), people(i), chosen, chosen%threads, range(:, i))
       end do
-      done = 0
-      do i = 1, w
-         call total%add(stripes(i)%work)
-         associate (response => stripes(i)%response, n => size(stripes(i)%record))
-            do k = max(first - before(i), 1), min(first + count - 1 - before(i), size(response))
-               done = done + 1
-               call pack_response(response(modulo(k - 1, n) + 1, (k - 1)/n + 1), edp(done), collapsed(done), &
-                  & impacts(done), time_of_peak(done), edp_error(done))
-            end do
+      k = 0
+      do i = one, last
+         call total%add(part(i)%work)
+         associate (response => part(i)%response, to => k + size(part(i)%response))
+            edp(k + 1:to) = response%edp
+            collapsed(k + 1:to) = merge(1, 0, response%collapsed)
+            impacts(k + 1:to) = response%impacts
+            time_of_peak(k + 1:to) = response%time_of_peak
+            edp_error(k + 1:to) = response%edp_error
          end associate
+         k = k + size(part(i)%response)
       end do
       call check_interrupt(error)
    end if
@@ -836,34 +946,33 @@ subroutine run_block(texts, numbers, given, q, gravity, w, names, lengths, dt, r
 end subroutine run_block
 
 ! Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
-subroutine run_scaled(texts, numbers, given, q, gravity, names, lengths, dt, r, acceleration, n, record, scale, k, &
-      & engine, settings, threads, edp, collapsed, impacts, time_of_peak, stat, message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, pack_response, report, set_records, &
-      & set_walls
+subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, edp, collapsed, impacts, time_of_peak, &
+      & stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, report
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
-   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_handles, only : find_suite, find_walls
+   use dondolo_record, only : largest_acceleration
    use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
    use dondolo_threads, only : check_threads
    use dondolo_wall, only : wall_type
    implicit none
    !f2py threadsafe
-   character(len=*), intent(in) :: texts, names, engine
-   integer(c_int), intent(in) :: q, given(q), r, n, k, threads, lengths(r), record(k)
-   real(c_double), intent(in) :: numbers(q), gravity, dt(r), acceleration(n), scale(k), settings(5)
+   integer(c_int64_t), intent(in) :: walls, suite
+   character(len=*), intent(in) :: engine
+   integer(c_int), intent(in) :: k, threads, record(k)
+   real(c_double), intent(in) :: scale(k), settings(5)
    real(c_double), intent(out) :: edp(k), time_of_peak(k)
    integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
-   type(record_type), allocatable :: records(:)
+   type(wall_type), pointer :: people(:)
+   type(suite_type), pointer :: records
    type(solver_type) :: solver
    type(ensemble_type) :: ensemble
-   type(suite_type) :: suite
    type(error_type), allocatable :: error
-   real(c_double), allocatable :: edp_error(:)
    integer :: i
 
    edp = 0
@@ -871,29 +980,27 @@ subroutine run_scaled(texts, numbers, given, q, gravity, names, lengths, dt, r, 
    impacts = 0
    time_of_peak = 0
    solver = as_solver(engine, settings)
-   call check_room(error, 1, r, n, real(k, c_double))
+   call check_room(error, histories=real(k, c_double))
    if (.not. allocated(error)) call check_threads(threads, error)
-   if (.not. allocated(error)) call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), &
-      & [gravity], error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
+   if (.not. allocated(error)) call find_suite(suite, records, error)
    if (.not. allocated(error)) call check_solver(solver, error)
-   if (.not. allocated(error)) call check_limit(solver, walls(1)%mechanism, error)
-   if (.not. allocated(error)) call check_engine(solver, walls(1)%mechanism, error)
-   if (.not. allocated(error)) then
-      call set_records(records, names, lengths, dt, acceleration)
-      do i = 1, k
-         if (abs(scale(i))*records(record(i))%pga() <= largest_acceleration) cycle
-         call raise_input(error, 'scale = '//to_text(scale(i))//': makes record '''//records(record(i))%name// &
-            & ''' exceed '//to_text(largest_acceleration)//' m/s2')
-         exit
-      end do
-   end if
+   if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
+   if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error)
+   do i = 1, k
+      if (allocated(error)) exit
+      if (.not. abs(scale(i))*records%peaks(record(i)) <= largest_acceleration) call raise_input(error, 'scale = '// &
+         & to_text(scale(i))//': makes record '''//records%records(record(i))%name//''' exceed '// &
+         & to_text(largest_acceleration)//' m/s2')
+   end do
    if (.not. allocated(error)) then
       ensemble%record = record
       ensemble%scale = scale
-      call new_suite(suite, records)
-      call run_ensemble(ensemble, walls(1)%mechanism, suite, solver, threads)
-      allocate (edp_error(k))
-      call pack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
+      call run_ensemble(ensemble, people(1)%mechanism, records, solver, threads)
+      edp = ensemble%response%edp
+      collapsed = merge(1, 0, ensemble%response%collapsed)
+      impacts = ensemble%response%impacts
+      time_of_peak = ensemble%response%time_of_peak
       call check_interrupt(error)
    end if
    call report(error, stat, message)
@@ -1055,24 +1162,25 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
 end subroutine fit_walls
 
 ! What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
-subroutine warn_of_curve(texts, numbers, given, q, gravity, levels, m, largest_edp, curve, status, handle, sizes, stat, &
+subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, handle, sizes, stat, &
       & message)
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : pack_warnings, parcel_type, report, send, set_walls
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
+   use dondolo_handles, only : find_walls
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_fit
    implicit none
-   character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: q, m, given(q), status
-   real(c_double), intent(in) :: numbers(q), gravity, levels(m), largest_edp, curve(8)
+   integer(c_int64_t), intent(in) :: walls
+   integer(c_int), intent(in) :: m, status
+   real(c_double), intent(in) :: levels(m), largest_edp, curve(8)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_type) :: walls(1)
+   type(wall_type), pointer :: people(:)
    type(stripes_type) :: stripes
    type(fragility_type) :: fragility
    type(warnings_type) :: warnings
@@ -1081,7 +1189,7 @@ subroutine warn_of_curve(texts, numbers, given, q, gravity, levels, m, largest_e
 
    handle = 0
    sizes = 0
-   call set_walls(walls, texts, reshape(numbers, [q, 1]), reshape(given, [q, 1]), [gravity], error)
+   call find_walls(walls, people, error)
    if (.not. allocated(error)) then
       fragility%status = status_names(status)
       fragility%theta = curve(1)
@@ -1090,7 +1198,7 @@ subroutine warn_of_curve(texts, numbers, given, q, gravity, levels, m, largest_e
       ! Of the responses the sentences need the largest only
       allocate (stripes%response(1, 1))
       stripes%response%edp = largest_edp
-      call warn_of_fit(walls(1), stripes, fragility, warnings)
+      call warn_of_fit(people(1), stripes, fragility, warnings)
       call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if

@@ -137,10 +137,10 @@ CHANGES = {
     "other levels": {"levels": [0.2, 0.4]},
     "im pga there, pgv here": {"im": "pgv"},
     "polarity both there, reversed here": {"polarity": "reversed"},
-    "engine auto there, rk45 here": {"engine": "rk45"},
-    "rtol 1e-08 there, 1e-06 here": {"rtol": 1e-6},
-    "atol 1e-10 there, 1e-09 here": {"atol": 1e-9},
-    "edp_limit 1.0 there, 0.9 here": {"edp_limit": 0.9},
+    "engine auto there, rk45 here": {"solver": dd.Solver(engine="rk45")},
+    "rtol 1e-08 there, 1e-06 here": {"solver": dd.Solver(rtol=1e-6)},
+    "atol 1e-10 there, 1e-09 here": {"solver": dd.Solver(atol=1e-9)},
+    "edp_limit 1.0 there, 0.9 here": {"solver": dd.Solver(edp_limit=0.9)},
     "edp_thresholds 0.1, 0.4 there, none here": {"edp_thresholds": None},
 }
 

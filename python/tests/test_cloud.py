@@ -44,7 +44,7 @@ def test_every_point_is_the_motion_it_stands_for(cloud, wall, records):
     assert len(cloud.edp) == 2 * len(records)
     for k in range(0, len(cloud.edp), 5):
         record = records[cloud.record_index[k]]
-        motion = dd.simulate(wall, record, FACTOR * cloud.polarity[k], engine="lanes", history=False)
+        motion = dd.simulate(wall, record, FACTOR * cloud.polarity[k], solver=dd.Solver(engine="lanes"), history=False)
         assert motion.edp == cloud.edp[k]
         assert motion.collapsed == cloud.collapsed[k]
         assert cloud.intensity[k] == pytest.approx(FACTOR * record.pga / 9.81, rel=1e-14)
@@ -241,7 +241,7 @@ def test_errors(wall, records):
     with pytest.raises(dd.InputError, match="wall: str is no wall"):
         dd.cloud("wall", records)
     with pytest.raises(dd.InputError, match="im = 'pgx'"):
-        dd.cloud(wall, records, "pgx")
+        dd.cloud(wall, records, im="pgx")
     with pytest.raises(dd.InputError, match="polarity = 'x'"):
         dd.cloud(wall, records, polarity="x")
 

@@ -233,9 +233,9 @@ def cluster():
 def test_dask(whole, tmp_path, crews, cluster):
     executor = cluster.get_executor()
     # Blocks that take longer than a message
-    dd.typology(**study.arguments(executor=executor, block=1, engine="rk45"))
+    dd.typology(**study.arguments(executor=executor, block=1, solver=dd.Solver(engine="rk45")))
     assert 1 <= crews[0].sends <= 4
-    dd.typology(**study.arguments(executor=executor, block=2, engine="rk45"))
+    dd.typology(**study.arguments(executor=executor, block=2, solver=dd.Solver(engine="rk45")))
     assert crews[1].sends <= 1
     assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "one") == whole
     assert of(dd.typology(**study.arguments(executor=executor)), tmp_path / "own") == whole

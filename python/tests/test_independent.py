@@ -172,7 +172,7 @@ HISTORIES = {
 @pytest.mark.parametrize("name", HISTORIES)
 def test_history(name):
     wall, bodies, (impact, factor, sides), scale = HISTORIES[name]
-    response = dd.simulate(wall, dd.Record(SHAPE, DT), scale, rtol=1e-12, atol=1e-14)
+    response = dd.simulate(wall, dd.Record(SHAPE, DT), scale, solver=dd.Solver(rtol=1e-12, atol=1e-14))
     expected = independent.history(bodies, scale * SHAPE, DT, impact, factor, sides)
 
     assert not response.collapsed

@@ -138,7 +138,7 @@ def test_wrong_measures(record, wall):
     with pytest.raises(dd.InputError, match="gravity = 0: must be positive"):
         record.intensity("pga", gravity=0.0)
     with pytest.raises(dd.InputError, match="im = 'd5-95': a duration stays as it is"):
-        dd.multiple_stripe(wall, record, [1.0], "d5-95")
+        dd.multiple_stripe(wall, record, [1.0], im="d5-95")
 
 
 def test_table(few):
@@ -156,7 +156,7 @@ def test_table(few):
 @pytest.mark.parametrize("im", ["pgv", "pgd", "arias", "cav", "hi", "sa(0.5)", "saavg(0.2:2)"])
 def test_stripes_reach_their_levels(few, im):
     wall = dd.OneSidedWall(height=1.5, thickness=0.25)
-    stripes = dd.multiple_stripe(wall, few, [0.05, 0.1], im, progress=False)
+    stripes = dd.multiple_stripe(wall, few, [0.05, 0.1], im=im, progress=False)
     assert stripes.im == im
     for level, scales in zip(stripes.levels, stripes.scale, strict=True):
         for record, scale in zip(few, scales, strict=True):
@@ -168,11 +168,11 @@ def test_stripes_reach_their_levels(few, im):
 def test_measures_of_a_wall(few):
     walls = [dd.OneSidedWall(height=h, thickness=0.25) for h in (1.0, 2.0, 3.0)]
     for wall in walls:
-        stripes = dd.multiple_stripe(wall, few, [1.5], "p*pgv/a0", progress=False)
+        stripes = dd.multiple_stripe(wall, few, [1.5], im="p*pgv/a0", progress=False)
         want = 1.5 * wall.trigger_acceleration / wall.frequency_parameter
         assert stripes.scale[0] == pytest.approx([want / record.intensity("pgv") for record in few], rel=1e-12)
     # In a population every wall has scales of its own
-    people = dd.typology(walls, few, [1.5, 3.0, 6.0], "pga/a0", progress=False)
+    people = dd.typology(walls, few, [1.5, 3.0, 6.0], im="pga/a0", progress=False)
     for i, wall in enumerate(walls):
         levels = np.array([1.5, 3.0, 6.0]) * wall.trigger_acceleration / GRAVITY
         alone = dd.multiple_stripe(wall, few, levels, progress=False)
@@ -181,7 +181,7 @@ def test_measures_of_a_wall(few):
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_units_everywhere(records, wall, tmp_path):
-    stripes = dd.multiple_stripe(wall, records[::2], [0.4, 0.5, 0.6, 0.7], "pgv", progress=False)
+    stripes = dd.multiple_stripe(wall, records[::2], [0.4, 0.5, 0.6, 0.7], im="pgv", progress=False)
     curve = stripes.fit()
     assert "0.4 to 0.7 m/s" in repr(stripes)
     assert " m/s (standard error" in repr(curve)
@@ -193,7 +193,7 @@ def test_units_everywhere(records, wall, tmp_path):
     assert "# unit of im_level: m/s\n" in (tmp_path / "stripes.csv").read_text()
     curve.to_csv(tmp_path / "curve.csv")
     assert "# unit of theta: m/s\n" in (tmp_path / "curve.csv").read_text()
-    assert dd.plot_stripes(dd.multiple_stripe(wall, records[0], [2.0], "pga/a0")).get_xlabel().endswith("[-]")
+    assert dd.plot_stripes(dd.multiple_stripe(wall, records[0], [2.0], im="pga/a0")).get_xlabel().endswith("[-]")
 
 
 def test_files_of_the_executable(run, root, tmp_path):

@@ -23,11 +23,12 @@ for i in range(1, 4):
     ground[i::500] = -wall.trigger_acceleration * (1.0 + 1e-6)
 record = dd.Record(ground, 0.01)
 threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+solver = dd.Solver(engine=sys.argv[2])
 try:
     if sys.argv[1] == "simulate":
-        dd.simulate(wall, record, engine=sys.argv[2], history=False)
+        dd.simulate(wall, record, solver=solver, history=False)
     else:
-        dd.multiple_stripe(wall, [record], [record.pga / wall.gravity], engine=sys.argv[2], progress=False)
+        dd.multiple_stripe(wall, [record], [record.pga / wall.gravity], solver=solver, progress=False)
     print("done")
 except KeyboardInterrupt:
     print("interrupted")

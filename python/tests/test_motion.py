@@ -68,7 +68,7 @@ def test_without_history(wall, sine):
 
 
 def test_collapse(wall, sine):
-    response = dd.simulate(wall, sine, scale=9.0, edp_limit=0.8)
+    response = dd.simulate(wall, sine, scale=9.0, solver=dd.Solver(edp_limit=0.8))
     assert response.collapsed
     assert response.edp == 0.8
     assert response.time_of_peak == response.time[-1]
@@ -89,9 +89,9 @@ def test_pickle(wall, sine):
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"engine": "euler"}, "engine = 'euler': must be one of 'auto', 'rk45', 'lanes'"),
-        ({"rtol": 0.0}, "rtol = 0: must lie between"),
-        ({"edp_limit": -1.0}, "edp_limit = -1: must be positive"),
+        ({"solver": dd.Solver(engine="euler")}, "engine = 'euler': must be one of 'auto', 'rk45', 'lanes'"),
+        ({"solver": dd.Solver(rtol=0.0)}, "rtol = 0: must lie between"),
+        ({"solver": dd.Solver(edp_limit=-1.0)}, "edp_limit = -1: must be positive"),
         ({"scale": float("nan")}, "scale = NaN: makes record 'sine' exceed"),
         ({"scale": 1e6}, "scale = 1000000: makes record 'sine' exceed 10000 m/s2"),
         ({"record": 3}, "record: int is no record"),
@@ -136,9 +136,9 @@ def test_estimated_error(wall, sine, step):
     """The estimate is close to how far the EDP really is off, whether samples or tolerances limit the steps."""
     sine = dd.Record(sine.acceleration[::step], step * sine.dt)
     assert dd.simulate(wall, sine, 2.0).edp_error is None
-    exact = dd.simulate(wall, sine, 2.0, rtol=1e-13, atol=1e-15, history=False).edp
+    exact = dd.simulate(wall, sine, 2.0, solver=dd.Solver(rtol=1e-13, atol=1e-15), history=False).edp
     for rtol in (1e-3, 1e-4, 1e-5, 1e-6):
-        rough = dd.simulate(wall, sine, 2.0, rtol=rtol, atol=0.01 * rtol, estimate_error=True)
+        rough = dd.simulate(wall, sine, 2.0, solver=dd.Solver(rtol=rtol, atol=0.01 * rtol), estimate_error=True)
         assert rough.edp != exact
         assert rough.edp_error == pytest.approx(abs(rough.edp - exact), rel=0.2)
         assert "estimated error" in repr(rough)
@@ -147,7 +147,7 @@ def test_estimated_error(wall, sine, step):
 
 def test_tightest_tolerances_are_doubted_too(wall, sine):
     """Where rounding rules, the second run still takes other steps."""
-    tightest = dd.simulate(wall, sine, 2.0, rtol=2.3e-15, atol=1e-17, estimate_error=True)
+    tightest = dd.simulate(wall, sine, 2.0, solver=dd.Solver(rtol=2.3e-15, atol=1e-17), estimate_error=True)
     assert 0.0 < tightest.edp_error < 1e-9
 
 

@@ -272,7 +272,7 @@ def test_plots_of_names_that_look_like_formulas(records, tmp_path):
 
 
 def test_the_collapse_limit_is_where_it_was_set(wall, records):
-    stripes = dd.multiple_stripe(wall, records[:3], [0.1], edp_limit=0.3, progress=False)
+    stripes = dd.multiple_stripe(wall, records[:3], [0.1], solver=dd.Solver(edp_limit=0.3), progress=False)
     assert line(dd.plot_stripes(stripes), "collapse limit").get_ydata()[0] == 0.3
 
 

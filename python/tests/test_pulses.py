@@ -176,7 +176,9 @@ def test_every_point_is_the_motion_it_stands_for(spectrum):
     late = 0
     for i, frequency in enumerate(spectrum.frequencies):
         for j, amplitude in enumerate(spectrum.amplitudes):
-            motion = dd.simulate(spectrum.wall, dd.one_sine(amplitude * 9.81, frequency), edp_limit=5.0)
+            motion = dd.simulate(
+                spectrum.wall, dd.one_sine(amplitude * 9.81, frequency), solver=dd.Solver(edp_limit=5.0)
+            )
             assert motion.edp == pytest.approx(spectrum.edp[j, i], rel=1e-9)
             pulse = motion.time <= 1.0 / frequency
             crossed = (motion.side[1:] != motion.side[:-1]) & (motion.rotation[1:] == 0.0)
@@ -234,7 +236,9 @@ def test_polarity_of_a_one_sided_wall(wall):
     assert not np.array_equal(towards.edp, away.edp)
     for sign, result in ((1.0, towards), (-1.0, away)):
         for amplitude, edp in zip(result.amplitudes, result.edp[:, 0], strict=True):
-            motion = dd.simulate(wall, dd.one_sine(9.81 * amplitude, 0.8), sign, edp_limit=5.0, history=False)
+            motion = dd.simulate(
+                wall, dd.one_sine(9.81 * amplitude, 0.8), sign, solver=dd.Solver(edp_limit=5.0), history=False
+            )
             assert motion.edp == pytest.approx(edp, rel=1e-9)
 
 
@@ -252,7 +256,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
     run_scaled = _core.run_scaled
 
     def stop(*arguments):
-        done.append(len(arguments[8]))
+        done.append(len(arguments[3]))
         if sum(done) > 200:
             os.kill(os.getpid(), signal.SIGINT)
         return run_scaled(*arguments)
@@ -275,10 +279,10 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
         ({"amplitudes": [0.0, 0.5]}, "amplitudes: must be positive"),
         ({"amplitudes": [1.0, 2.0e3]}, "exceed 10000 m/s2"),
         ({"polarity": "both"}, "polarity = 'both': must be one of"),
-        ({"edp_limit": 50.0}, "edp_limit = 50"),
+        ({"solver": dd.Solver(edp_limit=50.0)}, "edp_limit = 50"),
         ({"tolerance": 0.0}, "tolerance = 0: must lie between"),
         ({"threads": 1.5}, "threads = 1.5: must be a whole number, between 0 and 4096"),
-        ({"engine": "magic"}, "engine = 'magic'"),
+        ({"solver": dd.Solver(engine="magic")}, "engine = 'magic'"),
         ({"pulse": lambda amplitude, frequency: 3.0}, "pulse: must return a Record, not float"),
         ({"pulse": lambda amplitude, frequency: dd.Record([0.0, 0.0], 1.0)}, "pulse: is zero at 0.5 Hz"),
         ({"wall": 3.0}, "wall: float is no wall"),

@@ -445,4 +445,4 @@ def test_the_historic_centre_is_sensible(root, few):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         both = dd.typology(people, few, [0.3, 0.6, 0.9, 1.2, 1.6, 2.0], progress=False)
-    assert both.fit("one_sided").theta < 0.6 * both.fit("two_block").theta
+    assert both["one_sided"].fit.theta < 0.6 * both["two_block"].fit.theta

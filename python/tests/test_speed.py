@@ -9,8 +9,6 @@ import time
 import numpy as np
 import pytest
 from costs import growth
-from dondolo._fortran import _core
-from dondolo.analysis import request
 
 import dondolo as dd
 
@@ -22,7 +20,7 @@ LEVELS = np.linspace(0.1, 1.2, 12)
 def timed(wall, records, engine):
     """CPU time of the stripes of a wall on one thread [s]."""
     start = time.process_time()
-    dd.multiple_stripe(wall, records, LEVELS, engine=engine, threads=1, progress=False)
+    dd.multiple_stripe(wall, records, LEVELS, solver=dd.Solver(engine=engine), threads=1, progress=False)
     return time.process_time() - start
 
 
@@ -97,19 +95,3 @@ def test_large_catalogues_cost_what_they_are_long(tmp_path):
         rows = "".join(f"r.txt,0.01,m/s2,a record with a long name {i}\n" for i in range(n))
         (tmp_path / f"{n}.csv").write_text("file,dt_s,units,name\n" + rows)
     assert growth(lambda n: dd.read_catalogue(tmp_path / f"{n}.csv"), *sizes) < 24.0
-
-
-def test_blocks_plan_the_levels_that_they_run(wall, sine, monkeypatch):
-    """Of one wall no level is planned again and again."""
-    planned, run_block = [], _core.run_block
-
-    def count(*arguments):
-        planned.append(len(arguments[9]))
-        return run_block(*arguments)
-
-    monkeypatch.setattr(_core, "run_block", count)
-    monkeypatch.setattr(request, "_SECONDS", 1e-9)
-    stripes = dd.multiple_stripe(wall, [sine, sine], np.linspace(0.01, 1.0, 500), progress=False)
-    assert len(planned) > 100
-    assert sum(planned) <= 500 + len(planned)
-    assert stripes.edp.shape[-2:] in ((500, 2), (2, 500))

@@ -43,7 +43,7 @@ def test_every_history_is_the_motion_it_stands_for(analysis, wall, few):
         for i, record in enumerate(records):
             assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.pga, rel=1e-15)
             scale = analysis.polarity[i] * analysis.scale[j, i]
-            motion = dd.simulate(wall, record, scale, engine="lanes", history=False)
+            motion = dd.simulate(wall, record, scale, solver=dd.Solver(engine="lanes"), history=False)
             assert motion.edp == analysis.edp[j, i]
             assert motion.impacts == analysis.impacts[j, i]
             assert motion.time_of_peak == analysis.time_of_peak[j, i]
@@ -145,10 +145,11 @@ def test_pickle(analysis):
         ({"levels": [1e6]}, "levels = 1000000: scales record"),
         ({"im": "pgx"}, "im = 'pgx': must be one of 'pga'"),
         ({"polarity": "up"}, "polarity = 'up': must be one of 'as_recorded', 'reversed', 'both'"),
-        ({"engine": "euler"}, "engine = 'euler': must be one of"),
+        ({"solver": dd.Solver(engine="euler")}, "engine = 'euler': must be one of"),
         ({"threads": -1}, "threads = -1: must be a whole number, between 0 and 4096"),
         ({"threads": 1.5}, "threads = 1.5: must be a whole number, between 0 and 4096"),
-        ({"atol": "small"}, "atol = 'small': must be a number"),
+        ({"solver": dd.Solver(atol="small")}, "atol = 'small': must be a number"),
+        ({"solver": "rk45"}, "solver: str is no Solver"),
         ({"records": []}, "records: must be given"),
         ({"records": [1.0]}, "records: float is no record"),
         ({"wall": None}, "wall: NoneType is no wall"),
@@ -246,11 +247,13 @@ def test_tables(analysis, tmp_path):
 
 def test_estimated_errors(wall, records):
     """They come with the stripes, leave all else as it is, and tell the histories that are off; a warning says so."""
-    plain = dd.multiple_stripe(wall, records, [0.8], engine="rk45", progress=False)
+    plain = dd.multiple_stripe(wall, records, [0.8], solver=dd.Solver(engine="rk45"), progress=False)
     assert plain.edp_error is None
     assert "edp_error" not in plain.to_frame()
     with pytest.warns(dd.DondoloWarning) as caught:
-        told = dd.multiple_stripe(wall, records, [0.8], engine="rk45", estimate_error=True, progress=False)
+        told = dd.multiple_stripe(
+            wall, records, [0.8], solver=dd.Solver(engine="rk45"), estimate_error=True, progress=False
+        )
     sentence = str(caught[-1].message)
     worst = told.record_names[int(told.edp_error.argmax())]
     assert sentence.startswith(
@@ -258,7 +261,9 @@ def test_estimated_errors(wall, records):
     )
     assert sentence.endswith(f"(record '{worst}' at level 0.8)")
     assert np.array_equal(told.edp, plain.edp)
-    exact = dd.multiple_stripe(wall, records, [0.8], engine="rk45", rtol=1e-13, atol=1e-15, progress=False)
+    exact = dd.multiple_stripe(
+        wall, records, [0.8], solver=dd.Solver(engine="rk45", rtol=1e-13, atol=1e-15), progress=False
+    )
     off = abs(told.edp - exact.edp)
     assert np.array_equal(off > 1e-6, told.edp_error > 1e-6)
     assert told.edp_error.max() == pytest.approx(off.max(), rel=0.1)

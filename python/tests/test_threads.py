@@ -34,8 +34,8 @@ def failures(wall, record, k):
         lambda: dd.Record([0.0, 1.0], -small),
         lambda: dd.Record([0.0, 1e5 * large], 0.01),
         lambda: wall.terms(1000.0 + small),
-        lambda: dd.simulate(wall, record, rtol=large),
-        lambda: dd.simulate(wall, record, engine="x" * k),
+        lambda: dd.simulate(wall, record, solver=dd.Solver(rtol=large)),
+        lambda: dd.simulate(wall, record, solver=dd.Solver(engine="x" * k)),
         lambda: dd.multiple_stripe(wall, [record], [large], im="pgd" + k * "x"),
         lambda: dd.fit_fragility([1.0, 2.0], [large, 1], [2, 2]),
     ]

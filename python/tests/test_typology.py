@@ -141,7 +141,7 @@ def test_errors(population, few):
         dd.typology(["wall"], few, LEVELS)
     flat = dd.TwoBlockWall(3.0, 0.25, hinge=0.9, name="flat")
     with pytest.raises(dd.InputError, match="wall 'flat': edp_limit = 3: must be less than"):
-        dd.typology([*population.walls, flat], few, LEVELS, edp_limit=3.0)
+        dd.typology([*population.walls, flat], few, LEVELS, solver=dd.Solver(edp_limit=3.0))
 
 
 def test_interruption_keeps_complete_walls(population, few, monkeypatch):

@@ -41,7 +41,9 @@ def by_variant(case):
 
 def run(case, threads):
     wall = case.population[0]
-    return dd.multiple_stripe(wall, case.records, case.levels, engine="lanes", threads=threads, progress=False)
+    return dd.multiple_stripe(
+        wall, case.records, case.levels, solver=dd.Solver(engine="lanes"), threads=threads, progress=False
+    )
 
 
 def test_the_best_is_taken(monkeypatch):
@@ -142,7 +144,8 @@ def test_a_wall_on_the_edge_of_its_trigger_ends(name, root):
         " records = dd.read_catalogue(sys.argv[1]);"
         "walls = [dd.OneSidedWall(0.5, 0.5), dd.OneSidedWall(1.0, 0.8), dd.FreeStandingWall(0.5, 0.5)];"
         "levels = [1.0 - 2.0**-53, 1.0, 1.0 + 2.0**-52];"
-        "print(sum(dd.multiple_stripe(w, records, levels, im='pga/a0', polarity='both', engine='lanes', threads=1,"
+        "print(sum(dd.multiple_stripe(w, records, levels, im='pga/a0', polarity='both', threads=1,"
+        " solver=dd.Solver(engine='lanes'),"
         " progress=False).edp.max() for w in walls))"
     )
     run = subprocess.run(

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, as_path, as_text
 from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
@@ -193,8 +194,19 @@ def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
     rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
     return tuple(
-        Property(*row[:4], float(row[4]), float(row[5]), tuple(row[6].split()), tuple(row[7].split()), *row[8:])
-        for row in rows
+        Property(
+            name,
+            kind,
+            unit,
+            default,
+            float(smallest),
+            float(largest),
+            tuple(choices.split()),
+            tuple(owners.split()),
+            column,
+            meaning,
+        )
+        for name, kind, unit, default, smallest, largest, choices, owners, column, meaning in rows
     )
 
 
@@ -335,13 +347,13 @@ def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) ->
     return unpack_walls(receive(*_core.describe_walls(texts, numbers.T, given.T, gravity)), count)
 
 
-def wall_terms(wall: FlatWall, rotation: ArrayLike) -> FloatArray:
+def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     """J, C, G, L, Q and V of a wall, one row each, in the shape of the rotations."""
     try:
         values, shape = np.ravel(rotation), np.shape(rotation)
     except ValueError:
         raise InputError("rotation: must be numbers") from None
-    terms, stat, message = _core.wall_terms(*wall, as_array("rotation", values))
+    terms, stat, message = _core.wall_terms(wall.number, as_array("rotation", values))
     check(stat, message)
     found: FloatArray = terms.T.reshape(6, *shape)
     return found
@@ -473,22 +485,6 @@ def unit_of(im: str) -> str:
         return ""
 
 
-def intensities(im: str, records: FlatRecords, gravity: float, threads: int = 0) -> FloatArray:
-    """Intensities of records, in the unit of the levels."""
-    values: FloatArray
-    values, stat, message = _core.intensities(as_text("im", im), *records, gravity, threads)
-    check(stat, message)
-    return values
-
-
-def scaling_values(im: str, records: FlatRecords, threads: int) -> FloatArray:
-    """The values that records are scaled by."""
-    values: FloatArray
-    values, stat, message = _core.scaling_values(as_text("im", im), *records, threads)
-    check(stat, message)
-    return values
-
-
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
@@ -545,15 +541,16 @@ def fit_walls(
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 
 
-def warnings_of_curve(wall: FlatWall, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
+def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
-    return unpack_warnings(receive(*_core.warn_of_curve(*wall, levels, largest_edp, curve.numbers, code)).lines)
+    parcel = receive(*_core.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
+    return unpack_warnings(parcel.lines)
 
 
-def warnings_of_motion(wall: FlatWall, record: str, pga: float) -> list[DondoloWarning]:
+def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[DondoloWarning]:
     """What the executable would warn of, of a wall and a record, before it runs one motion."""
-    handle, *rest = _core.warn_of_motion(*wall, record.encode(), pga)
+    handle, *rest = _core.warn_of_motion(wall.number, record.encode(), pga)
     return unpack_warnings(receive(handle, *rest).lines) if handle else []
 
 

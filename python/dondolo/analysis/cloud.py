@@ -58,10 +58,11 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo.analysis.request import Request, check_threads, new_request
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.records.record import Record, as_records, flatten
+from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
@@ -292,13 +293,11 @@ class Cloud(Shown):
 def cloud(
     wall: Wall,
     records: Record | Iterable[Record],
+    *,
     im: str = "pga",
     scale: float = 1.0,
     polarity: str = "as_recorded",
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float | None = None,
+    solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
 ) -> Cloud:
@@ -316,7 +315,7 @@ def cloud(
         One factor for all records.
     polarity : {'as_recorded', 'reversed', 'both'}
         As for `multiple_stripe`.
-    engine, rtol, atol, edp_limit, threads, progress
+    solver, threads, progress
         As for `multiple_stripe`.
 
     Returns
@@ -341,16 +340,16 @@ def cloud(
     if not 0.0 < factor < np.inf:
         raise InputError(f"scale = {factor:g}: must be positive")
     intensity, name = _intensities(wall, several, im, factor, threads)
-    # One stripe of a measure in SI units whose value is 1 for every record: its level is the factor.
-    settings = _binding.settings(rtol, atol, edp_limit)
+    # Without a measure, one stripe whose level is the factor.
+    how = as_solver(solver)
+    settings = how._settings()
     request = Request(
         (wall,),
-        flatten(several),
-        np.ones(len(several)),
+        several,
         np.array([factor]),
-        "pgv",
+        "",
         polarity,
-        engine,
+        how.engine,
         settings,
         check_threads(threads),
     )
@@ -386,7 +385,7 @@ def _intensities(
     Measures that the wall makes dimensionless come with the others: the plan of a stripe says by what each record is
     scaled to its level, and measures grow with a power of the scale.
     """
-    request = new_request((wall,), records, [_SMALL_LEVEL], im, "as_recorded", "auto", None, None, None, threads)
+    request = new_request((wall,), records, [_SMALL_LEVEL], im, "as_recorded", None, threads)
     scale = request.plan().scale[0]
     if not scale.all():
         raise InputError(f"records: '{records[int(np.argmin(scale))].name}' is without motion")

@@ -111,6 +111,7 @@ def compare_intensities(
     wall: Wall,
     records: Record | Iterable[Record],
     ims: str | Iterable[str],
+    *,
     levels: int = 15,
     polarity: str = "as_recorded",
     samples: int = 1000,
@@ -163,7 +164,9 @@ def compare_intensities(
     analyses, curves = [], []
     for im in names:
         grid = _levels(wall, several, im, count, polarity, threads)
-        analyses.append(multiple_stripe(wall, several, grid, im, polarity, threads=threads, progress=progress))
+        analyses.append(
+            multiple_stripe(wall, several, grid, im=im, polarity=polarity, threads=threads, progress=progress)
+        )
         curves.append(analyses[-1].fit())
         if not curves[-1].has_fit:
             raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
@@ -183,7 +186,7 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
     pga = np.array([record.pga for record in records])
 
     def plan_at(levels: Sequence[float]) -> Any:
-        request = new_request((wall,), records, levels, im, polarity, "auto", None, None, None, threads)
+        request = new_request((wall,), records, levels, im, polarity, None, threads)
         return request, request.plan()
 
     def collapses_at(level: float) -> tuple[int, int]:

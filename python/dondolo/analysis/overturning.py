@@ -16,10 +16,14 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import InputError, Interrupted
-from dondolo.records.record import Record, flatten
+from dondolo.records.record import Record, upload
 from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
+# Rotation / capacity from which a wall counts as overturned
+_EDP_LIMIT = 5.0
 # A wall that overturns after its impact has had energy for the way over the top before it, and more by 1/e^2: with
 # x = e/sqrt(1 - e^2) the fall of a slender block from 5 alpha takes at most (asinh(x) + asinh(4 x))/p: 9/p for 0.999.
 _LONGEST_FALL = 10.0
@@ -194,12 +198,10 @@ def overturning_spectrum(
     pulse: Callable[[float, float], Record],
     frequencies: ArrayLike,
     amplitudes: ArrayLike,
+    *,
     polarity: str = "as_recorded",
     tolerance: float = 1e-4,
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float = 5.0,
+    solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
 ) -> OverturningSpectrum:
@@ -221,12 +223,11 @@ def overturning_spectrum(
     tolerance : float
         Every change of state between two neighbouring amplitudes is bisected until its bracket is shorter than this
         part of the amplitude.
-    engine, rtol, atol
-        As for `simulate`.
-    edp_limit : float
-        Rotation / capacity that counts as overturned. A block passes its capacity and may come back while the pulse
-        lasts, so that 1, which is right for fragility, is too low for an overturning spectrum; docs/processing.md
-        shows how limits compare. Squat walls need less than 5, since the limit must lie within the geometry.
+    solver : Solver, optional
+        How the motions are integrated, with an edp_limit of 5 if it has none: a block passes its capacity and may come
+        back while the pulse lasts, so that 1, which is right for fragility, is too low for an overturning spectrum;
+        docs/processing.md shows how limits compare. Squat walls need less than 5, since the limit must lie within the
+        geometry.
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
@@ -260,12 +261,13 @@ def overturning_spectrum(
     width = as_number("tolerance", tolerance)
     if not 1e-12 <= width <= 1.0:
         raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")
-    settings = _binding.settings(rtol, atol, edp_limit)
+    how = as_solver(solver)
+    settings = how._settings(edp_limit=_EDP_LIMIT)
     runner = _Runner(
         wall,
         tuple(_pulse(pulse, value) for value in frequency),
         -1.0 if polarity == "reversed" else 1.0,
-        as_text("engine", engine),
+        as_text("engine", how.engine),
         settings,
         check_threads(threads),
         progress,
@@ -374,14 +376,12 @@ class _Runner(NamedTuple):
         return state, edp, impacts
 
     def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
-        used, record = np.unique(places, return_inverse=True)
-        pulses = tuple(self.pulses[i] for i in used)
-        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in pulses])[record]
+        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in self.pulses])[places]
         with _binding.stoppable():
             edp, collapsed, impacts, time, stat, message = _core.run_scaled(
-                *self.wall._flat,
-                *flatten(pulses),
-                (record + 1).astype(np.int32),
+                upload_walls((self.wall,)).number,
+                upload(self.pulses).number,
+                (np.asarray(places) + 1).astype(np.int32),
                 np.ascontiguousarray(scale),
                 self.engine,
                 self.settings,

@@ -18,16 +18,20 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_text
 from dondolo._fortran import _binding, _core
+from dondolo._fortran.handles import Handle
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import DondoloWarning
-from dondolo.records.record import Record, flatten
+from dondolo.records.record import Record
+from dondolo.records.record import upload as upload_records
 from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
-_FIRST_SAMPLES = 200_000
+_FIRST_SAMPLES = 2_000_000
 
 
 class Plan(NamedTuple):
@@ -66,11 +70,13 @@ class Outcome(NamedTuple):
 
 @dataclass(frozen=True)
 class Request:
-    """Stripes of some walls, as asked for; it can be sent to another process."""
+    """Stripes of some walls, as asked for; it can be sent to another process.
+
+    Without a measure (im = '') levels are factors on the records as they stand.
+    """
 
     walls: tuple[Wall, ...]
-    records: _binding.FlatRecords
-    values: FloatArray
+    records: tuple[Record, ...]
     levels: FloatArray
     im: str
     polarity: str
@@ -78,52 +84,71 @@ class Request:
     settings: FloatArray
     threads: int
 
-    def _arguments(self, levels: slice = slice(None)) -> tuple[Any, ...]:
-        words = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        return (*self.records, self.values, self.levels[levels], *words, self.settings, self.threads)
+    @functools.cached_property
+    def _study(self) -> Handle:
+        """Records, levels and settings in Fortran."""
+        suite = upload_records(self.records)
+        words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
+        if self.im:
+            _binding.check(*_core.measure_suite(suite.number, words[0], self.threads))
+        number, stat, message = _core.new_study(
+            suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
+        )
+        _binding.check(stat, message)
+        return Handle(number, suite)
+
+    @functools.cached_property
+    def _people(self) -> Handle:
+        """The walls in Fortran."""
+        return upload_walls(self.walls)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What was uploaded stays in its process.
+        return {what: value for what, value in self.__dict__.items() if what not in ("_study", "_people")}
+
+    @property
+    def samples(self) -> float:
+        """Samples of a record, on average."""
+        return sum(map(len, self.records)) / len(self.records)
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
-        flat = _binding.join_walls([wall._flat for wall in self.walls])
-        parcel = _binding.receive(*_core.plan(*flat, *self._arguments()))
-        walls, count = len(self.walls), int(parcel.integers[len(self.walls) - 1])
-        record, polarity = parcel.integers[walls:].reshape(2, count)
-        scale = parcel.reals.reshape(len(self.levels), count)
-        return Plan(parcel.integers[:walls], record - 1, polarity, scale, _binding.unpack_warnings(parcel.lines))
+        study, people, walls = self._study.number, self._people.number, len(self.walls)
+        histories, *sent, stat, message = _core.plan(study, people, walls)
+        _binding.check(stat, message)
+        found = _binding.unpack_warnings(_binding.receive(*sent, stat, message).lines) if sent[0] else []
+        record, polarity, scale, stat, message = _core.scales(study, people, walls, histories[-1], len(self.levels))
+        _binding.check(stat, message)
+        return Plan(histories, record - 1, polarity, scale.T, found)
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
         with progress_bar(total, progress, label, "history") as bar:
-            return self.advance(histories, Pace(float(self.records.lengths.mean())), bar.update)
+            return self.advance(histories, Pace(self.samples), bar.update)
 
     def advance(self, histories: IntArray, pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, and with a report of how many histories were done in each call."""
         ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
         total = int(ends[-1])
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
-        collapsed, impacts = np.empty(total, dtype=bool), np.empty(total, dtype=np.int32)
-        flats = [wall._flat for wall in self.walls]
+        collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
+        study, people = self._study.number, self._people.number
         works: list[Work] = []
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
             one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
             first = done - (int(ends[one - 1]) if one else 0)
-            # Of one wall only the levels that it touches: each block plans all that it is given.
-            low = first // int(histories[one]) if one == last else 0
-            high = (first + count - 1) // int(histories[one]) + 1 if one == last else None
-            first -= low * int(histories[one])
-            arguments = (*_binding.join_walls(flats[one : last + 1]), *self._arguments(slice(low, high)))
-            with _binding.stoppable():
-                *rows, counts, stat, message = _core.run_block(*arguments, first + 1, count)
-            _binding.check(stat, message)
             here = slice(done, done + count)
-            edp[here], collapsed[here], impacts[here], peak[here], error[here] = rows
+            rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
+            with _binding.stoppable():
+                counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
+            _binding.check(stat, message)
             works.append(Work(*map(int, counts)))
 
         done, interrupted = in_blocks(total, pace, block, report)
-        return Outcome(edp, collapsed, impacts, peak, error, Work.total(works), done), interrupted
+        return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted
 
 
 class Pace:
@@ -174,10 +199,7 @@ def new_request(
     levels: ArrayLike,
     im: str,
     polarity: str,
-    engine: str,
-    rtol: float | None,
-    atol: float | None,
-    edp_limit: float | None,
+    solver: Solver | None,
     threads: int,
     estimate_error: bool = False,
     collapses_only: bool = False,
@@ -186,12 +208,10 @@ def new_request(
     team = check_threads(threads)
     levels = as_array("levels", levels).copy()
     levels.flags.writeable = False
-    settings = _binding.settings(rtol, atol, edp_limit, estimate_error, collapses_only)
-    flat = flatten(tuple(records))
-    # What the records are scaled by does not depend on walls or levels: it is computed once.
-    values = _binding.scaling_values(im, flat, team)
+    how = as_solver(solver)
+    settings = how._settings(estimate_error, collapses_only)
     name = _binding.describe_measure(im).name
-    return Request(tuple(walls), flat, values, levels, name, polarity, engine, settings, team)
+    return Request(tuple(walls), tuple(records), levels, name, polarity, how.engine, settings, team)
 
 
 def check_threads(threads: int) -> int:

@@ -13,9 +13,10 @@ from dondolo._base.arguments import FloatArray, as_number, as_text
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.records.record import Record
-from dondolo.walls.wall import Wall
+from dondolo.records.record import Record, place_of
+from dondolo.walls.wall import Wall, upload
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,10 +114,8 @@ def simulate(
     wall: Wall,
     record: Record,
     scale: float = 1.0,
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float | None = None,
+    *,
+    solver: Solver | None = None,
     history: bool = True,
     estimate_error: bool = False,
 ) -> Response:
@@ -130,12 +129,8 @@ def simulate(
         The accelerogram.
     scale : float
         Factor on it; negative reverses its polarity.
-    engine : str
-        'auto' or the name of an engine.
-    rtol, atol : float, optional
-        Tolerances of a step, in units of q_c and p q_c; the library's own if left out.
-    edp_limit : float, optional
-        Rotation / capacity that counts as collapse, 1 if left out.
+    solver : Solver, optional
+        How the motion is integrated.
     history : bool
         Keep the time history?
     estimate_error : bool
@@ -165,15 +160,14 @@ def simulate(
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__} is no record")
     factor = as_number("scale", scale)
-    settings = _binding.settings(rtol, atol, edp_limit, estimate_error)
+    how = as_solver(solver)
+    settings = how._settings(estimate_error)
     with _binding.stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
-            *wall._flat,
-            record.acceleration,
-            record.dt,
-            record.name.encode(),
+            upload((wall,)).number,
+            *place_of(record),
             factor,
-            as_text("engine", engine),
+            as_text("engine", how.engine),
             settings,
             int(history),
         )
@@ -198,7 +192,7 @@ def simulate(
 @functools.lru_cache
 def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return _binding.warnings_of_motion(wall._flat, record, pga)
+    return _binding.warnings_of_motion(upload((wall,)), record, pga)
 
 
 def history_table(response: Response) -> tables.Table:

@@ -16,12 +16,13 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo.analysis.request import Outcome, Plan, Request, new_request
+from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record, as_records
-from dondolo.walls.wall import Wall, walls_table
+from dondolo.walls.wall import Wall, upload, walls_table
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -155,7 +156,7 @@ class Stripes(Shown):
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = _binding.CurveData(curve.status, numbers)
-        sentences = _binding.warnings_of_curve(self.wall._flat, self.levels, float(self.edp.max()), data)
+        sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
         where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
         _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
@@ -211,12 +212,10 @@ def multiple_stripe(
     wall: Wall,
     records: Record | Iterable[Record],
     levels: ArrayLike,
+    *,
     im: str = "pga",
     polarity: str = "as_recorded",
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float | None = None,
+    solver: Solver | None = None,
     estimate_error: bool = False,
     threads: int = 0,
     progress: bool = True,
@@ -237,8 +236,8 @@ def multiple_stripe(
         trigger acceleration and p its frequency parameter.
     polarity : {'as_recorded', 'reversed', 'both'}
         'both' doubles the histories, except for two-sided walls, which are symmetric.
-    engine, rtol, atol, edp_limit
-        As for `simulate`.
+    solver : Solver, optional
+        How the motions are integrated.
     estimate_error : bool
         Run every history a second time with halved steps, to estimate the error of its EDP?
     threads : int
@@ -270,10 +269,11 @@ def multiple_stripe(
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
     several = as_records(records)
-    request = new_request(
-        (wall,), several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, estimate_error
-    )
-    plan = request.plan()
+    request = new_request((wall,), several, levels, im, polarity, solver, threads, estimate_error)
+    try:
+        plan = request.plan()
+    except KeyboardInterrupt:
+        raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
     _binding.warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:

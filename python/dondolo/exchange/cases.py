@@ -9,6 +9,7 @@ from typing import Any
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._fortran import _binding, _core
 from dondolo.analysis.response import Response, simulate
+from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
@@ -74,22 +75,17 @@ class Case:
         -------
         Results
         """
-        solver: dict[str, Any] = {
-            "engine": self.engine,
-            "rtol": self.rtol,
-            "atol": self.atol,
-            "edp_limit": self.edp_limit,
-        }
+        how = Solver(self.rtol, self.atol, self.edp_limit, self.engine)  # type: ignore[arg-type]
         if self.task == "history":
             record = self.records[self.record]
-            response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, **solver)
+            response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, solver=how)
             return Results(self, response=response)
         ensemble: dict[str, Any] = {
             "im": self.im,
             "polarity": self.polarity,
             "threads": self.threads,
             "progress": progress,
-            **solver,
+            "solver": how,
         }
         if self.task == "stripes":
             ensemble["estimate_error"] = self.estimate_error

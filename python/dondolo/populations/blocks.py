@@ -21,6 +21,7 @@ from dondolo.analysis.work import Work
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.flags import Flags
 from dondolo.populations.parts import Blocks, Part, Shared
+from dondolo.records.record import flatten
 
 # Loaded where they are used: databases, sockets and futures would make every import of dondolo slower by 20 ms.
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def run_walls(
     _check(executor, block)
     levels, walls = len(request.levels), len(histories)
     run = Run(
-        Flags.empty(histories, levels, len(states), len(request.records.lengths)),
+        Flags.empty(histories, levels, len(states), len(request.records)),
         np.zeros((len(states), levels, walls), dtype=np.int32),
         np.zeros(walls, dtype=bool),
         [],
@@ -158,7 +159,7 @@ def _study(request: Request, states: FloatArray) -> dict[str, str]:
 
     rtol, atol, *_ = (repr(float(value)) for value in request.settings)
     flat = _binding.join_walls([wall._flat for wall in request.walls])
-    records = request.records
+    records = flatten(request.records)
     return {
         "dondolo": _binding.constants().version,
         "build variant": _binding.build_variant(),

@@ -65,7 +65,7 @@ class Shared:
     def __init__(self, request: Request, states: FloatArray) -> None:
         self.request = replace(request, walls=())
         self.states = states
-        self._pace = Pace(float(request.records.lengths.mean()))
+        self._pace = Pace(request.samples)
 
     def run(self, walls: tuple[Wall, ...], histories: IntArray, report: Callable[[int], object]) -> Part:
         """Run walls; after Ctrl-C some of them may not be complete."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._fortran import _binding
 from dondolo.analysis.request import new_request
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import Interrupted
 from dondolo.populations.blocks import run_walls
@@ -30,12 +31,10 @@ def typology(
     population: Population | Iterable[Wall],
     records: Record | Iterable[Record],
     levels: ArrayLike,
+    *,
     im: str = "pga",
     polarity: str = "as_recorded",
-    engine: str = "auto",
-    rtol: float | None = None,
-    atol: float | None = None,
-    edp_limit: float | None = None,
+    solver: Solver | None = None,
     edp_thresholds: ArrayLike | None = None,
     threads: int = 0,
     executor: Executor | None = None,
@@ -49,7 +48,7 @@ def typology(
     ----------
     population : Population or iterable of Wall
         The walls; without weights they count alike.
-    records, levels, im, polarity, engine, rtol, atol, edp_limit, threads, progress
+    records, levels, im, polarity, solver, threads, progress
         As for `multiple_stripe`.
     edp_thresholds : array_like, optional
         Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
@@ -89,12 +88,10 @@ def typology(
     if executor is not None and threads == 0:
         threads = 1
     several = as_records(records)
-    limit = float(_binding.settings(rtol, atol, edp_limit)[2])
+    limit = float(as_solver(solver)._settings()[2])
     states = states_of(edp_thresholds, limit)
     alone = len(states) == 1
-    request = new_request(
-        people.walls, several, levels, im, polarity, engine, rtol, atol, edp_limit, threads, collapses_only=alone
-    )
+    request = new_request(people.walls, several, levels, im, polarity, solver, threads, collapses_only=alone)
     plan = request.plan()
     run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
     # A wall is complete with all its mechanisms.

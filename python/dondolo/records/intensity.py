@@ -13,7 +13,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_measures, as_number
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.errors import InputError
-from dondolo.records.record import Record, as_records, intensities
+from dondolo.records.record import Record, as_records, intensities, place_of
 
 # What a table of records shows unless told otherwise
 _COLUMNS = ("pga", "pgv", "pgd", "arias", "cav", "d5-75", "d5-95", "hi", "sa(0.5)", "sa(1)", "saavg(0.2:2)")
@@ -86,7 +86,7 @@ def response_spectrum(record: Record, periods: ArrayLike, damping: float = 0.05)
     if not len(several):
         raise InputError("periods: must be given")
     ratio = as_number("damping", damping)
-    displacement, stat, message = _core.spectrum(record.acceleration, record.dt, several, ratio)
+    displacement, stat, message = _core.spectrum(*place_of(record), several, ratio)
     _binding.check(stat, message)
     for array in (several, displacement):
         array.flags.writeable = False

@@ -15,7 +15,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_count, as_number
 from dondolo._fortran import _binding, _core
 from dondolo.errors import InputError
-from dondolo.records.record import Record
+from dondolo.records.record import Record, place_of
 
 # Two time steps, or their ratio to a whole number, are the same within this: steps in files have few digits.
 _SAME = 1e-9
@@ -393,14 +393,14 @@ def rotd(
 
 def velocity(record: Record) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
-    values, stat, message = _core.ground_velocity(record.acceleration, record.dt)
+    values, stat, message = _core.ground_velocity(*place_of(record), len(record))
     _binding.check(stat, message)
     return np.asarray(values)
 
 
 def significant_times(record: Record, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
-    (first, last), stat, message = _core.significant_times(record.acceleration, record.dt, low, high)
+    (first, last), stat, message = _core.significant_times(*place_of(record), low, high)
     _binding.check(stat, message)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")

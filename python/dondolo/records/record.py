@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number, as_text
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
+from dondolo._fortran.handles import Handle
 from dondolo.errors import InputError
 
 
@@ -159,8 +160,10 @@ class Record:
         return html_of(f"Record '{self.name}'", self._facts())
 
     def __getstate__(self) -> dict[str, object]:
-        # A mapping proxy cannot be pickled
-        return {**self.__dict__, "metadata": dict(self.metadata)}
+        # A mapping proxy cannot be pickled, and what was uploaded stays in its process.
+        state = {**self.__dict__, "metadata": dict(self.metadata)}
+        state.pop("_home", None)
+        return state
 
     def __setstate__(self, state: dict[str, object]) -> None:
         self.__dict__.update(state)
@@ -271,14 +274,43 @@ def intensities(records: Iterable[Record], im: str, gravity: float | None = None
     pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
-    return _binding.intensities(im, flatten(as_records(records)), pull)
+    several = as_records(records)
+    values, stat, message = _core.intensities(upload(several).number, as_text("im", im), len(several), pull, 0)
+    _binding.check(stat, message)
+    return np.asarray(values)
 
 
 def flatten(records: tuple[Record, ...]) -> _binding.FlatRecords:
-    """All records as Fortran takes them; copied once for a whole analysis."""
+    """All records as Fortran takes them."""
     return _binding.FlatRecords(
         "\n".join(record.name for record in records).encode(),
         np.array([len(record) for record in records], dtype=np.int32),
         np.array([record.dt for record in records]),
         np.concatenate([record.acceleration for record in records]),
     )
+
+
+def upload(records: tuple[Record, ...]) -> Handle:
+    """The records as a suite in Fortran. The same records in the same order are uploaded once.
+
+    Each record keeps the suite that it was uploaded with last, and its place there: a suite lives as long as one of its
+    records does, and has not come into another.
+    """
+    homes = [record.__dict__.get("_home", (None, 0, 0)) for record in records]
+    suite = homes[0][0]
+    if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
+        return suite
+    handle, stat, message = _core.new_suite(*flatten(records))
+    _binding.check(stat, message)
+    suite = Handle(handle)
+    for i, record in enumerate(records):
+        object.__setattr__(record, "_home", (suite, i, len(records)))
+    return suite
+
+
+def place_of(record: Record) -> tuple[int, int]:
+    """Where Fortran has a record: the handle of a suite, and the number in it from 1."""
+    if "_home" not in record.__dict__:
+        upload((record,))
+    suite, place, _ = record.__dict__["_home"]
+    return suite.number, place + 1

@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import html_of
-from dondolo._fortran import _binding
+from dondolo._fortran import _binding, _core
+from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
 
 # What is left out gets its value from Fortran; from then on it is there.
@@ -90,6 +91,13 @@ class Wall:
         object.__setattr__(other, "name", name)
         return other
 
+    def __getstate__(self) -> dict[str, Any]:
+        # What was uploaded stays in its process, and a copy may get another name.
+        return {what: value for what, value in self.__dict__.items() if what != "_handle"}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
     @property
     def _flat(self) -> _binding.FlatWall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
@@ -165,7 +173,7 @@ class Wall:
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
         """
-        return Terms(*_binding.wall_terms(self._flat, rotation)[:5])
+        return Terms(*_binding.wall_terms(upload((self,)), rotation)[:5])
 
     def potential(self, rotation: ArrayLike) -> FloatArray:
         """Potential energy of gravity and of carried loads at given rotations.
@@ -189,7 +197,7 @@ class Wall:
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
         """
-        energy: FloatArray = _binding.wall_terms(self._flat, rotation)[5]
+        energy: FloatArray = _binding.wall_terms(upload((self,)), rotation)[5]
         return energy
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -324,6 +332,17 @@ def wall_from(data: _binding.WallData) -> Wall:
     wall = object.__new__(MECHANISMS[data.properties["mechanism"]])
     wall._fill(data)
     return wall
+
+
+def upload(walls: tuple[Wall, ...]) -> Handle:
+    """The walls in Fortran; one alone is uploaded once."""
+    alone = walls[0].__dict__ if len(walls) == 1 else {}
+    if "_handle" in alone:
+        return alone["_handle"]  # type: ignore[no-any-return]
+    number, stat, message = _core.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
+    _binding.check(stat, message)
+    alone["_handle"] = handle = Handle(number)
+    return handle
 
 
 def walls_table(

@@ -5,15 +5,15 @@ module dondolo_report_rows
    use dondolo_population, only : member_type
    use dondolo_property, only : column_name
    use dondolo_response, only : response_type
-   use dondolo_text, only : to_table, to_text
+   use dondolo_text, only : occurrences, to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    implicit none
    private
 
-   public :: make_wall_head, make_wall_row, stripes_head, stripes_row, fragility_head, fragility_row
-   public :: typology_head, typology_row, history_head, history_row, wall_cells
+   public :: make_wall_head, make_wall_row, stripes_head, make_stripes_row, fragility_head, make_fragility_row
+   public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
    character(len=*), parameter :: &
@@ -27,15 +27,55 @@ module dondolo_report_rows
 
 contains
 
+   !> Must a text stand in quotes, by RFC 4180, or since its # would begin a comment?
+   pure logical function needs_quotes(text)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      needs_quotes = scan(text, ',"#'//new_line('a')//achar(13)) > 0
+   end function needs_quotes
+
+   !> Length of a text as a cell
+   pure integer function cell_length(text)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      cell_length = len(text)
+      if (needs_quotes(text)) cell_length = cell_length + 2 + occurrences(text, '"')
+   end function cell_length
+
+   !> A text as a cell
+   pure function quoted(text) result(cell)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Cell
+      character(len=cell_length(text)) :: cell
+
+      integer :: i, at
+
+      cell = text
+      if (.not. needs_quotes(text)) return
+      cell = '"'
+      at = 1
+      do i = 1, len(text)
+         at = at + 1
+         cell(at:at) = text(i:i)
+         if (text(i:i) /= '"') cycle
+         at = at + 1
+         cell(at:at) = '"'
+      end do
+      cell(at + 1:) = '"'
+   end function quoted
+
    !> Name and mechanism of a wall
-   pure function wall_cells(wall) result(cells)
+   pure subroutine make_wall_cells(wall, cells)
       !> The wall
       type(wall_type), intent(in) :: wall
       !> Two cells
-      character(len=:), allocatable :: cells
+      character(len=:), allocatable, intent(out) :: cells
 
       cells = quoted(wall%name())//','//wall%mechanism_name()
-   end function wall_cells
+   end subroutine make_wall_cells
 
    !> Names of the columns of a wall: its properties, and what follows from them
    subroutine make_wall_head(head)
@@ -83,7 +123,7 @@ contains
    end subroutine make_wall_row
 
    !> Histories that reach an EDP threshold at a level
-   pure function stripes_row(cells, im, level, histories, reached, threshold) result(row)
+   pure subroutine make_stripes_row(cells, im, level, histories, reached, threshold, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
       !> Intensity measure
@@ -97,14 +137,14 @@ contains
       !> The threshold
       real(wp), intent(in) :: threshold
       !> Row
-      character(len=:), allocatable :: row
+      character(len=:), allocatable, intent(out) :: row
 
       row = cells//','//im//','//to_table(level)//','//to_text(histories)//','//to_text(reached)//','// &
          & to_table(real(reached, wp)/real(histories, wp))//','//to_table(threshold)
-   end function stripes_row
+   end subroutine make_stripes_row
 
    !> The curve of a wall; cells are empty where there is no fit or the bracket is open
-   pure function fragility_row(cells, im, curve, threshold) result(row)
+   pure subroutine make_fragility_row(cells, im, curve, threshold, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
       !> Intensity measure
@@ -114,19 +154,19 @@ contains
       !> Its EDP threshold
       real(wp), intent(in) :: threshold
       !> Row
-      character(len=:), allocatable :: row
+      character(len=:), allocatable, intent(out) :: row
 
       character(len=:), allocatable :: fit
 
       fit = ',,,,'
       if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
          & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','//to_table(curve%log_likelihood)
-      row = cells//','//im//','//fit//','//trim(curve%status)//','//bound(curve%bracket(1))//','// &
-         & bound(curve%bracket(2))//','//to_table(threshold)
-   end function fragility_row
+      row = cells//','//im//','//fit//','//trim(curve%status)//','//trim(bound(curve%bracket(1)))//','// &
+         & trim(bound(curve%bracket(2)))//','//to_table(threshold)
+   end subroutine make_fragility_row
 
    !> A curve of the population at a level
-   pure function typology_row(typology, im, level, threshold) result(row)
+   pure subroutine make_typology_row(typology, im, level, threshold, row)
       !> The curve
       type(typology_type), intent(in) :: typology
       !> Intensity measure
@@ -136,7 +176,7 @@ contains
       !> EDP threshold
       real(wp), intent(in) :: threshold
       !> Row
-      character(len=:), allocatable :: row
+      character(len=:), allocatable, intent(out) :: row
 
       character(len=:), allocatable :: fit, dispersion
 
@@ -149,10 +189,10 @@ contains
          & trim(typology%fit%status)//','//quoted(typology%group)//','//to_table(typology%fractile(1, level))//','// &
          & to_table(typology%fractile(2, level))//','//to_table(typology%fractile(3, level))//','//dispersion//','// &
          & to_table(typology%saturation)//','//to_table(threshold)
-   end function typology_row
+   end subroutine make_typology_row
 
    !> A history
-   pure function history_row(cells, record, polarity, im, level, scale, response) result(row)
+   pure subroutine make_history_row(cells, record, polarity, im, level, scale, response, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
       !> Name of the record
@@ -168,40 +208,20 @@ contains
       !> The response
       type(response_type), intent(in) :: response
       !> Row
-      character(len=:), allocatable :: row
+      character(len=:), allocatable, intent(out) :: row
 
       row = cells//','//quoted(record)//','//trim(merge('reversed   ', 'as_recorded', polarity < 0))//','//im//','// &
          & to_table(level)//','//to_table(scale)//','//to_table(response%edp)//','// &
          & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
          & to_table(response%time_of_peak)
-   end function history_row
+   end subroutine make_history_row
 
-   !> A text as a cell: in quotes where RFC 4180 asks for them
-   pure function quoted(text) result(cell)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Cell
-      character(len=:), allocatable :: cell
-
-      integer :: i
-
-      cell = text
-      ! A # would begin a comment; quotes keep it a cell
-      if (scan(text, ',"#'//new_line('a')//achar(13)) == 0) return
-      cell = '"'
-      do i = 1, len(text)
-         cell = cell//text(i:i)
-         if (text(i:i) == '"') cell = cell//'"'
-      end do
-      cell = cell//'"'
-   end function quoted
-
-   !> A bound of the median
+   !> A bound of the median, filled up with blanks
    pure function bound(value) result(cell)
       !> The bound, 0 or huge where the side is open
       real(wp), intent(in) :: value
       !> Cell, empty where the side is open
-      character(len=:), allocatable :: cell
+      character(len=48) :: cell
 
       cell = ''
       if (value > 0.0_wp .and. value < huge(value)) cell = to_table(value)

@@ -6,7 +6,7 @@ module dondolo_reports
    use dondolo_job_group, only : job_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_report_rows, only : typology_head, typology_row
+   use dondolo_report_rows, only : make_typology_row, typology_head
    use dondolo_result_files, only : check_output, result_files_type
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
@@ -143,19 +143,24 @@ contains
 
       type(echo_type) :: echo
       type(lines_type) :: lines, warnings
+      character(len=:), allocatable :: engines, unit, counts
       integer :: i
 
       call files%line(mark//dondolo_version_text)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
-      call files%line('# engine and build variant: '//results%engine())
+      call results%name_engines(engines)
+      call files%line('# engine and build variant: '//engines)
       call case%echo(echo)
       call echo%to_namelist(lines)
       do i = 1, lines%count
          call files%line('# '//lines%line(i)%text)
       end do
       if (case%job%task /= 'history') then
-         call files%line('# unit of im_level and theta: '//unit_of_levels(case))
-         call files%line('# work: '//counts_of(results%work))
+         unit = case%stripes%scaling%unit()
+         if (len(unit) == 0) unit = '1'
+         call files%line('# unit of im_level and theta: '//unit)
+         call list_counts(results%work, counts)
+         call files%line('# work: '//counts)
       end if
       do i = 1, case%notes%count
          call files%line('# note: '//case%notes%line(i)%text)
@@ -166,12 +171,12 @@ contains
       end do
    end subroutine write_head
 
-   !> Counts of what was computed, for the head of a file
-   pure function counts_of(work) result(text)
+   !> List the counts of what was computed, for the head of a file
+   pure subroutine list_counts(work, text)
       !> What was computed
       type(work_type), intent(in) :: work
       !> Names and counts
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       integer :: i
 
@@ -181,18 +186,7 @@ contains
             text = text//', '//trim(work_names(i))//' = '//to_text(counts(i))
          end do
       end associate
-   end function counts_of
-
-   !> Unit of the levels, for the head of a file
-   pure function unit_of_levels(case) result(unit)
-      !> The case
-      type(case_type), intent(in) :: case
-      !> Unit, 1 for a number
-      character(len=:), allocatable :: unit
-
-      unit = case%stripes%scaling%unit()
-      if (len(unit) == 0) unit = '1'
-   end function unit_of_levels
+   end subroutine list_counts
 
    !> Curves of the population
    subroutine write_typology(case, results, files)
@@ -203,14 +197,16 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: line
       integer :: i, j, k
 
       call files%line(typology_head)
       do k = 1, size(case%stripes%thresholds)
          do i = 1, size(results%typologies, 1)
             do j = 1, size(case%stripes%levels)
-               call files%line(typology_row(results%typologies(i, k), case%stripes%scaling%name, j, &
-                  & case%stripes%thresholds(k)))
+               call make_typology_row(results%typologies(i, k), case%stripes%scaling%name, j, &
+                  & case%stripes%thresholds(k), line)
+               call files%line(line)
             end do
          end do
       end do

@@ -50,23 +50,23 @@ module dondolo_results
       type(warnings_type) :: warnings
    contains
       !> The engines that have run, with the build variant
-      procedure :: engine
+      procedure :: name_engines => name_engines_that_ran
    end type results_type
 
 contains
 
    !> The engines that have run, with the build variant; counts that were merged may be of another than this one
-   function engine(self) result(text)
+   subroutine name_engines_that_ran(self, text)
       !> Results
       class(results_type), intent(in) :: self
       !> See name_engines
-      character(len=:), allocatable :: text
+      character(len=:), allocatable, intent(out) :: text
 
       if (allocated(self%counts%files)) then
          call name_engines(self%work, text, self%counts%files(1)%key%variant)
       else
          call name_engines(self%work, text)
       end if
-   end function engine
+   end subroutine name_engines_that_ran
 
 end module dondolo_results

@@ -6,8 +6,8 @@ module dondolo_row_reports
    use dondolo_counts_stream, only : counts_stream_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
-   use dondolo_report_rows, only : fragility_head, fragility_row, history_head, history_row, stripes_head, &
-      & stripes_row, wall_cells, make_wall_head, make_wall_row
+   use dondolo_report_rows, only : fragility_head, history_head, make_fragility_row, make_history_row, &
+      & make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
    use dondolo_result_files, only : result_files_type
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
@@ -146,19 +146,20 @@ contains
 
       type(study_type) :: study
       type(stripes_type) :: plan
-      character(len=:), allocatable :: cells, last
+      character(len=:), allocatable :: cells, line, last
       integer :: i, j
 
       call case%make_study(study)
       call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
-      cells = wall_cells(member%wall)
+      call make_wall_cells(member%wall, cells)
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
-            call files%line(history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
-               & plan%levels(j), plan%scale(i, j), row%response(i, j))//last)
+            call make_history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
+               & plan%levels(j), plan%scale(i, j), row%response(i, j), line)
+            call files%line(line//last)
          end do
       end do
    end subroutine write_histories
@@ -174,12 +175,15 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: cells, line
       integer :: j, k
 
+      call make_wall_cells(member%wall, cells)
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
-            call files%line(stripes_row(wall_cells(member%wall), case%stripes%scaling%name, case%stripes%levels(j), &
-               & row%histories, row%reached(j, k), case%stripes%thresholds(k)))
+            call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories, &
+               & row%reached(j, k), case%stripes%thresholds(k), line)
+            call files%line(line)
          end do
       end do
    end subroutine write_stripes
@@ -195,11 +199,13 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: cells, line
       integer :: k
 
+      call make_wall_cells(member%wall, cells)
       do k = 1, size(case%stripes%thresholds)
-         call files%line(fragility_row(wall_cells(member%wall), case%stripes%scaling%name, row%curve(k), &
-            & case%stripes%thresholds(k)))
+         call make_fragility_row(cells, case%stripes%scaling%name, row%curve(k), case%stripes%thresholds(k), line)
+         call files%line(line)
       end do
    end subroutine write_fragility
 

@@ -11,7 +11,7 @@ module dondolo_scaling
    implicit none
    private
 
-   public :: scaling_type, new_scaling
+   public :: scaling_type, new_scaling, unscaled
    public :: scaling_names
 
    !> Measures that need a wall: a0 is its trigger acceleration, p its frequency parameter
@@ -71,6 +71,17 @@ contains
       end if
    end subroutine new_scaling
 
+   !> Records as they stand, times factors: a level is the factor itself, in the place of a measure's name stands nothing
+   function unscaled() result(scaling)
+      !> The scaling
+      type(scaling_type) :: scaling
+
+      type(error_type), allocatable :: error
+
+      call new_measure(scaling%measure, 'pga', error)
+      scaling%name = ''
+   end function unscaled
+
    !> Factor that scales a record to a level
    pure function factor(self, level, value, wall) result(scale)
       !> The scaling
@@ -86,6 +97,10 @@ contains
 
       real(wp) :: level_size
 
+      if (len(self%name) == 0) then
+         scale = level
+         return
+      end if
       level_size = self%measure%level_size(wall%gravity)
       if (self%name == 'pga/a0') level_size = wall%mechanism%trigger_acceleration()
       if (self%name == 'p*pgv/a0') &

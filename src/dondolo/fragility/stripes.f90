@@ -15,7 +15,7 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories
+   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of
 
    !> Memory that a history of the plan takes while it is run, once or twice [bytes]
    real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
@@ -79,7 +79,7 @@ contains
       if (allocated(error)) return
       stripes%im = study%scaling%name
       stripes%levels = study%levels
-      call choose_polarities(stripes, size(study%suite%records), study%polarity, wall%mechanism%two_sided)
+      call choose_polarities(study, wall, stripes%record, stripes%polarity)
       associate (histories => size(stripes%record), levels => size(stripes%levels))
          call check_room(merge(bytes_of_two_runs, bytes_of_history, study%solver%estimate_error) &
             & *real(histories, wp)*real(levels, wp), error)
@@ -141,45 +141,88 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(ensemble_type) :: ensemble
-      integer :: i, j, k, from, to, histories
+      integer :: k, from, to, histories
 
       from = 1
       if (present(first)) from = first
       to = size(stripes%response)
       if (present(last)) to = last
+      call run_part(ensemble, wall, study, threads, [from, to], progress)
       histories = size(stripes%record)
-      allocate(ensemble%record(to - from + 1), ensemble%scale(to - from + 1))
-      do k = from, to
-         i = modulo(k - 1, histories) + 1
-         j = (k - 1)/histories + 1
-         ensemble%record(k - from + 1) = stripes%record(i)
-         ensemble%scale(k - from + 1) = real(stripes%polarity(i), wp)*stripes%scale(i, j)
-      end do
-      call run_ensemble(ensemble, wall%mechanism, study%suite, study%solver, threads, progress)
       do k = from, to
          stripes%response(modulo(k - 1, histories) + 1, (k - 1)/histories + 1) = ensemble%response(k - from + 1)
       end do
       call stripes%work%add(ensemble%work)
    end subroutine run_histories
 
+   !> Run some histories of a wall that a plan has checked, without the plan; they are numbered as in run_histories
+   subroutine run_part(ensemble, wall, study, threads, range, progress)
+      !> The histories and their responses
+      type(ensemble_type), intent(out) :: ensemble
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> What it is tried with
+      type(study_type), intent(in) :: study
+      !> Number of threads instead of the study's; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> The first history to run, from 1, and the last
+      integer, intent(in) :: range(2)
+      !> Hears how far the work is
+      procedure(progress_interface), optional :: progress
+
+      integer, allocatable :: record(:), polarity(:)
+      integer :: i, k
+
+      call choose_polarities(study, wall, record, polarity)
+      allocate (ensemble%record(range(2) - range(1) + 1), ensemble%scale(range(2) - range(1) + 1))
+      do k = 1, size(ensemble%record)
+         i = modulo(range(1) + k - 2, size(record)) + 1
+         ensemble%record(k) = record(i)
+         ensemble%scale(k) = real(polarity(i), wp) &
+            & *study%scale_to(wall, record(i), study%levels((range(1) + k - 2)/size(record) + 1))
+      end do
+      call run_ensemble(ensemble, wall%mechanism, study%suite, study%solver, threads, progress)
+   end subroutine run_part
+
+   !> Histories of a stripe of a wall
+   pure integer function histories_of(study, wall) result(histories)
+      !> What the wall is tried with
+      type(study_type), intent(in) :: study
+      !> The wall
+      type(wall_type), intent(in) :: wall
+
+      histories = size(study%suite%records)
+      if (runs_twice(study, wall)) histories = 2*histories
+   end function histories_of
+
+   !> Does each record run in both polarities? A two-sided wall is symmetric
+   pure logical function runs_twice(study, wall)
+      !> What the wall is tried with
+      type(study_type), intent(in) :: study
+      !> The wall
+      type(wall_type), intent(in) :: wall
+
+      runs_twice = study%polarity == 'both' .and. .not. wall%mechanism%two_sided
+   end function runs_twice
+
    !> Which records run with which polarity
-   subroutine choose_polarities(stripes, records, polarity, two_sided)
-      !> Result: record and polarity are set
-      type(stripes_type), intent(inout) :: stripes
-      !> Number of records
-      integer, intent(in) :: records
-      !> 'as_recorded', 'reversed' or 'both'
-      character(len=*), intent(in) :: polarity
-      !> Is the wall symmetric?
-      logical, intent(in) :: two_sided
+   pure subroutine choose_polarities(study, wall, record, polarity)
+      !> What the wall is tried with
+      type(study_type), intent(in) :: study
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> Record of each history of a stripe
+      integer, allocatable, intent(out) :: record(:)
+      !> Its polarity: +1 as recorded, -1 reversed
+      integer, allocatable, intent(out) :: polarity(:)
 
       integer :: i
 
-      stripes%record = [(i, i=1, records)]
-      stripes%polarity = spread(merge(-1, 1, polarity == 'reversed'), 1, records)
-      if (polarity == 'both' .and. .not. two_sided) then
-         stripes%record = [stripes%record, stripes%record]
-         stripes%polarity = [stripes%polarity, -stripes%polarity]
+      record = [(i, i=1, size(study%suite%records))]
+      polarity = spread(merge(-1, 1, study%polarity == 'reversed'), 1, size(record))
+      if (runs_twice(study, wall)) then
+         record = [record, record]
+         polarity = [polarity, -polarity]
       end if
    end subroutine choose_polarities
 

@@ -15,7 +15,7 @@ module dondolo_suite
    public :: suite_type, new_suite
 
    !> Measures whose values a suite keeps; those of others are computed whenever they are asked for
-   integer, parameter :: most_measures = 64
+   integer, parameter :: most_measures = 32
 
    !> Values of a measure
    type :: measured_type

@@ -1,0 +1,59 @@
+"""How motions are integrated: what all analyses take as their one argument `solver`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _binding
+from dondolo.errors import InputError
+
+
+@dataclass(frozen=True)
+class Solver:
+    """How motions are integrated.
+
+    Parameters
+    ----------
+    rtol, atol : float, optional
+        Tolerances of a step, in units of q_c and p q_c; 1e-8 and 1e-10 if left out.
+    edp_limit : float, optional
+        Rotation / capacity that counts as collapse; 1 if left out, and 5 for `overturning_spectrum`.
+    engine : {'auto', 'lanes', 'rk45'}
+        'lanes' integrates several histories at a time, 'rk45' one; 'auto' chooses.
+
+    Notes
+    -----
+    An analysis refuses values that make no sense, with the sentence of the executable.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.Solver(rtol=1e-10)
+    Solver(rtol=1e-10, atol=None, edp_limit=None, engine='auto')
+    """
+
+    rtol: float | None = None
+    atol: float | None = None
+    edp_limit: float | None = None
+    engine: Literal["auto", "lanes", "rk45"] = "auto"
+
+    def _settings(
+        self, estimate_error: bool = False, collapses_only: bool = False, edp_limit: float | None = None
+    ) -> FloatArray:
+        """Its numbers as Fortran takes them; edp_limit is the analysis's own, where none is given."""
+        limit = edp_limit if self.edp_limit is None else self.edp_limit
+        return _binding.settings(self.rtol, self.atol, limit, estimate_error, collapses_only)
+
+
+_DEFAULT = Solver()
+
+
+def as_solver(solver: Solver | None) -> Solver:
+    """The solver of an analysis; the default where none is given."""
+    if solver is None:
+        return _DEFAULT
+    if not isinstance(solver, Solver):
+        raise InputError(f"solver: {type(solver).__name__} is no Solver")
+    return solver

@@ -1,0 +1,247 @@
+!> What Python has uploaded: suites, walls and studies live here, and Python knows each by a number, its handle.
+!>
+!> A handle is the number of a slot and, above it, how often the slot was used: one that was freed is never valid again.
+!> Python's lock is held while a slot is filled or emptied, so that only one thread does, and no fork comes in between;
+!> procedures that look one up need no lock, since slots never move.
+module dondolo_handles
+   use, intrinsic :: iso_c_binding, only : c_int64_t
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_study, only : study_type
+   use dondolo_suite, only : suite_type
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: walls_type, held_study_type
+   public :: hold, release, find_suite, find_walls, find_study
+
+   !> Walls, one or many
+   type :: walls_type
+      !> The walls
+      type(wall_type), allocatable :: wall(:)
+   end type walls_type
+
+   !> A study and the handle of its suite, which must not be freed before it
+   type :: held_study_type
+      !> The study
+      type(study_type) :: study
+      !> Handle of its suite
+      integer(c_int64_t) :: suite = 0
+   end type held_study_type
+
+   !> Where something is kept
+   type :: slot_type
+      !> Handle of what it holds; 0: nothing
+      integer(c_int64_t) :: handle = 0
+      !> How often it was used
+      integer(c_int64_t) :: uses = 0
+      !> What it holds
+      class(*), pointer :: content => null()
+   end type slot_type
+
+   !> Slots that were allocated together
+   type :: chunk_type
+      !> Twice as many as in the chunk before
+      type(slot_type), pointer :: slot(:) => null()
+   end type chunk_type
+
+   !> Slots of the first chunk, and chunks: room for 2^30 handles
+   integer, parameter :: first_slots = 64, chunks = 24
+
+   !> Bits of a handle that number its slot
+   integer, parameter :: slot_bits = 32
+
+   type(chunk_type), save, target :: chunk(chunks)
+
+   !> Slots that are free, those used last at the end, and how many there are
+   integer, allocatable, save :: free_slots(:)
+   integer, save :: free_count = 0, slot_count = 0
+
+contains
+
+   !> Keep something
+   subroutine hold(content, handle)
+      !> It belongs to its slot from now on
+      class(*), pointer, intent(in) :: content
+      !> Its handle
+      integer(c_int64_t), intent(out) :: handle
+
+      type(slot_type), pointer :: slot
+      integer :: number
+
+      if (free_count == 0) call add_chunk()
+      number = free_slots(free_count)
+      free_count = free_count - 1
+      slot => slot_of(number)
+      slot%uses = slot%uses + 1
+      slot%content => content
+      handle = ior(shiftl(slot%uses, slot_bits), int(number, c_int64_t))
+      !$omp atomic write seq_cst
+      slot%handle = handle
+      !$omp end atomic
+   end subroutine hold
+
+   !> Free what a handle stands for; nothing, if it is not valid
+   subroutine release(handle)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+
+      type(slot_type), pointer :: slot
+
+      slot => slot_with(handle)
+      if (.not. associated(slot)) return
+      !$omp atomic write seq_cst
+      slot%handle = 0
+      !$omp end atomic
+      deallocate (slot%content)
+      nullify (slot%content)
+      free_count = free_count + 1
+      free_slots(free_count) = number_of(handle)
+   end subroutine release
+
+   !> Make as many slots as there are, and have them all free
+   subroutine add_chunk()
+
+      integer :: k, i, more
+
+      k = 1
+      do while (associated(chunk(k)%slot))
+         k = k + 1
+      end do
+      more = first_slots*2**(k - 1)
+      allocate (chunk(k)%slot(more))
+      slot_count = slot_count + more
+      if (allocated(free_slots)) deallocate (free_slots)
+      allocate (free_slots(slot_count))
+      free_count = more
+      free_slots(:more) = [(slot_count - i, i=0, more - 1)]
+   end subroutine add_chunk
+
+   !> Number of the slot of a handle
+   pure integer function number_of(handle)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+
+      number_of = int(ibits(handle, 0, slot_bits - 1))
+   end function number_of
+
+   !> The slot of a number
+   function slot_of(number) result(slot)
+      !> Number, from 1
+      integer, intent(in) :: number
+      !> Slot; null: there is none
+      type(slot_type), pointer :: slot
+
+      integer :: k, left
+
+      slot => null()
+      left = number
+      if (left < 1) return
+      do k = 1, chunks
+         if (.not. associated(chunk(k)%slot)) return
+         if (left <= size(chunk(k)%slot)) exit
+         left = left - size(chunk(k)%slot)
+      end do
+      if (k <= chunks) slot => chunk(k)%slot(left)
+   end function slot_of
+
+   !> The slot that holds a handle
+   function slot_with(handle) result(slot)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> Slot; null: the handle is not valid
+      type(slot_type), pointer :: slot
+
+      integer(c_int64_t) :: held
+
+      slot => slot_of(number_of(handle))
+      if (.not. associated(slot)) return
+      !$omp atomic read seq_cst
+      held = slot%handle
+      !$omp end atomic
+      if (held /= handle .or. handle == 0) slot => null()
+   end function slot_with
+
+   !> The suite of a handle
+   subroutine find_suite(handle, suite, error)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> The suite
+      type(suite_type), pointer, intent(out) :: suite
+      !> The handle is that of no suite, or was freed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(slot_type), pointer :: slot
+
+      suite => null()
+      slot => slot_with(handle)
+      if (associated(slot)) then
+         select type (content => slot%content)
+         type is (suite_type)
+            suite => content
+         end select
+      end if
+      if (.not. associated(suite)) call refuse('records', handle, error)
+   end subroutine find_suite
+
+   !> The walls of a handle
+   subroutine find_walls(handle, walls, error)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> The walls
+      type(wall_type), pointer, intent(out) :: walls(:)
+      !> The handle is that of no walls, or was freed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(slot_type), pointer :: slot
+
+      walls => null()
+      slot => slot_with(handle)
+      if (associated(slot)) then
+         select type (content => slot%content)
+         type is (walls_type)
+            walls => content%wall
+         end select
+      end if
+      if (.not. associated(walls)) call refuse('walls', handle, error)
+   end subroutine find_walls
+
+   !> The study of a handle
+   subroutine find_study(handle, study, error)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> The study
+      type(study_type), pointer, intent(out) :: study
+      !> The handle is that of no study; it or its suite was freed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(slot_type), pointer :: slot
+      type(suite_type), pointer :: suite
+
+      study => null()
+      slot => slot_with(handle)
+      if (associated(slot)) then
+         select type (content => slot%content)
+         type is (held_study_type)
+            call find_suite(content%suite, suite, error)
+            if (allocated(error)) return
+            study => content%study
+         end select
+      end if
+      if (.not. associated(study)) call refuse('study', handle, error)
+   end subroutine find_study
+
+   !> Refuse a handle
+   subroutine refuse(name, handle, error)
+      !> What it should be a handle of
+      character(len=*), intent(in) :: name
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> It is not
+      type(error_type), allocatable, intent(out) :: error
+
+      call raise_input(error, name//': handle '//to_text(handle)//' is not valid; what it stood for was freed')
+   end subroutine refuse
+
+end module dondolo_handles

@@ -1,0 +1,156 @@
+"""What is uploaded to Fortran: it lives as long as it is needed, no longer, and only in its process."""
+
+import gc
+import os
+import pickle
+import threading
+
+import numpy as np
+import pytest
+from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
+from dondolo.records.record import place_of, upload
+from dondolo.walls.wall import upload as upload_walls
+
+import dondolo as dd
+
+LEVELS = [0.2, 0.6]
+
+
+def resident():
+    """Resident memory of this process [bytes]."""
+    gc.collect()
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_the_same_records_are_uploaded_once(few, monkeypatch):
+    several = tuple(few)
+    suite = upload(several)
+    assert upload(several) is suite
+    assert place_of(several[1]) == (suite.number, 2)
+    assert upload(several[::-1]) is not suite
+    assert upload(several) is not suite
+    twice = (several[0], several[0])
+    assert upload(twice) is not upload(twice)
+
+
+def test_no_record_crosses_twice(few, monkeypatch):
+    calls = []
+    new_suite = _core.new_suite
+    monkeypatch.setattr(_core, "new_suite", lambda *given: calls.append(1) or new_suite(*given))
+    records = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
+    for wall in (dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)):
+        dd.multiple_stripe(wall, records, LEVELS, im="sa(0.5)", progress=False)
+        dd.multiple_stripe(wall, records, LEVELS, polarity="both", progress=False)
+        dd.simulate(wall, records[1])
+        dd.response_spectrum(records[0], [0.5])
+    assert len(calls) == 1
+
+
+def test_use_after_free(few):
+    suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
+    handle, *_ = _core.new_suite(b"a", [2], [0.1], [1.0, 2.0])
+    study, stat, _ = _core.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
+    assert stat == 0
+    _core.free(handle)
+    _core.free(handle)
+    other, *_ = _core.new_suite(b"a", [2], [0.1], [1.0, 2.0])
+    for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
+        *_, stat, message = _core.measure_suite(number, b"pga", 1)
+        assert stat == 2
+        assert b"is not valid" in message
+    # A study does not outlive its suite, even where another suite has taken its slot.
+    *_, stat, message = _core.plan(study, walls.number, 1)
+    assert stat == 2
+    assert b"records: handle" in message
+    for given in ((suite, walls.number), (study, study)):
+        *_, stat, message = _core.plan(*given, 1)
+        assert stat == 2
+    _core.free(study)
+    _core.free(other)
+
+
+def test_a_handle_is_freed_with_its_object():
+    record = dd.Record([0.1, 0.2], 0.1)
+    number = place_of(record)[0]
+    del record
+    gc.collect()
+    assert _core.measure_suite(number, b"pga", 1)[0] == 2
+
+
+def test_a_study_keeps_its_suite():
+    record = dd.Record(np.sin(np.arange(300.0)), 0.01)
+    wall = dd.OneSidedWall(3.0, 0.25)
+    suite = upload((record,))
+    study = Handle(
+        _core.new_study(suite.number, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)[0], suite
+    )
+    del suite, record
+    gc.collect()
+    assert _core.plan(study.number, upload_walls((wall,)).number, 1)[-2] == 0
+
+
+def test_what_was_uploaded_is_not_pickled(few):
+    wall = dd.OneSidedWall(3.0, 0.25)
+    before = dd.multiple_stripe(wall, few, LEVELS, progress=False)
+    people, records = pickle.loads(pickle.dumps((wall, few)))
+    assert "_home" not in records[0].__dict__
+    assert "_handle" not in people.__dict__
+    assert np.array_equal(dd.multiple_stripe(people, records, LEVELS, progress=False).edp, before.edp)
+    with pytest.raises(TypeError, match="own process"):
+        pickle.dumps(upload(tuple(few)))
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_handles_after_a_fork(few):
+    wall = dd.OneSidedWall(3.0, 0.25)
+    before = dd.multiple_stripe(wall, few, LEVELS, threads=1, progress=False).edp
+    child = os.fork()
+    if child == 0:
+        same = np.array_equal(dd.multiple_stripe(wall, few, LEVELS, threads=1, progress=False).edp, before)
+        os._exit(0 if same else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    assert np.array_equal(dd.multiple_stripe(wall, few, LEVELS, threads=1, progress=False).edp, before)
+
+
+def test_threads_upload_and_free(few):
+    wall = dd.OneSidedWall(3.0, 0.25)
+    edp = dd.multiple_stripe(wall, few, LEVELS, threads=1, progress=False).edp
+    wrong = []
+
+    def work(shift):
+        for i in range(40):
+            some = few[(i + shift) % len(few) :] + few[: (i + shift) % len(few)]
+            found = dd.multiple_stripe(wall, some, LEVELS, threads=1, progress=False)
+            order = [record.name for record in few]
+            if not np.array_equal(found.edp[:, [found.record_names.index(name) for name in order]], edp):
+                wrong.append(shift)
+
+    team = [threading.Thread(target=work, args=(shift,)) for shift in range(4)]
+    for member in team:
+        member.start()
+    for member in team:
+        member.join()
+    assert wrong == []
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="reads how much memory a process has in /proc")
+def test_thousands_of_handles_leave_nothing():
+    samples = np.sin(0.1 * np.arange(2000))
+
+    def work(count):
+        for _ in range(count):
+            record = dd.Record(samples, 0.01)
+            dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), record, [0.01], progress=False)
+
+    work(300)
+    before = resident()
+    work(3000)
+    # A suite takes some 50 kB: 3000 of them would be 150 MB.
+    assert resident() - before < 10_000_000
+    kept = [dd.Record(samples[:50], 0.01) for _ in range(3000)]
+    for record in kept:
+        place_of(record)
+    assert len({place_of(record) for record in kept}) == 3000
