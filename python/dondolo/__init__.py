@@ -49,7 +49,7 @@ from dondolo.records.processing import RotD, band_pass, correct_baseline, resamp
 from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records.record import Record, read_catalogue, read_record, read_records
 from dondolo.records.synthetic import synthetic_records
-from dondolo.report import report
+from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.plots import plot_risk
@@ -57,7 +57,8 @@ from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, U
 from dondolo.walls.plots import plot_population
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
-from dondolo.walls.wall import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
+from dondolo.walls.wall import *  # noqa: F403
+from dondolo.walls.wall import __all__ as _walls
 
 __version__ = _constants().version
 
@@ -73,7 +74,6 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
-    "FreeStandingWall",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -84,7 +84,6 @@ __all__ = [
     "Lognormal",
     "MissingFileError",
     "Normal",
-    "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "PopulationCurve",
@@ -99,13 +98,10 @@ __all__ = [
     "State",
     "StoredResults",
     "Stripes",
-    "Terms",
     "Triangular",
-    "TwoBlockWall",
     "Typology",
     "TypologyBootstrap",
     "Uniform",
-    "Wall",
     "Window",
     "Work",
     "__version__",
@@ -161,3 +157,5 @@ __all__ = [
     "typology",
     "write_nrml",
 ]
+# Names of walls stand where the walls do
+__all__ += _walls
