@@ -110,7 +110,7 @@ contains
       case (9)
          call new_record(record, [0.0_wp, 100.0_wp*real(n, wp)], 0.01_wp, repeat('r', n), error)
          call new_scaling(scaling, 'saavg(0.1:'//to_text(real(n, wp))//')', error)
-         text = pga_problem(record, 9.81_wp)//scaling%title()//scaling%unit_after_blank()
+         text = pga_problem(record%pga(), 9.81_wp)//scaling%title()//scaling%unit_after_blank()
       end select
       if (allocated(error)) text = error%message
    end subroutine make

@@ -96,9 +96,11 @@ contains
    end subroutine warn
 
    !> Warn of records without motion, and of those whose PGA no accelerograph has measured
-   subroutine warn_of_records(records, gravity, warnings)
+   subroutine warn_of_records(records, peaks, gravity, warnings)
       !> Records
       type(record_type), intent(in) :: records(:)
+      !> Their PGA [m/s2]
+      real(wp), intent(in) :: peaks(:)
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> Warnings to add to
@@ -109,11 +111,11 @@ contains
 
       number = 0
       do i = 1, size(records)
-         if (.not. records(i)%pga() > 0.0_wp) then
+         if (.not. peaks(i) > 0.0_wp) then
             call warnings%add('record '''//records(i)%name//''' has a PGA of 0: it cannot be scaled and moves no wall')
             cycle
          end if
-         problem = pga_problem(records(i), gravity)
+         problem = pga_problem(peaks(i), gravity)
          if (len(problem) == 0) cycle
          number = number + 1
          if (number == 1) first = 'record '''//records(i)%name//''': '//problem

@@ -82,17 +82,19 @@ contains
       character(len=:), allocatable, intent(out) :: problems
 
       real(wp) :: velocity(size(record%acceleration)), peak
+      real(wp) :: pga
       integer :: n, run, longest, i
 
       problems = ''
       n = size(record%acceleration)
-      if (.not. record%pga() > 0.0_wp) then
+      pga = record%pga()
+      if (.not. pga > 0.0_wp) then
          problems = 'no motion'
          return
       end if
-      problems = pga_problem(record, gravity)
-      if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
-         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/record%pga())))//' % of its PGA')
+      problems = pga_problem(pga, gravity)
+      if (abs(record%acceleration(1)) > abrupt*pga) call append('begins at '// &
+         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/pga)))//' % of its PGA')
       velocity = ground_velocity(record)
       peak = peak_velocity(record)
       if (abs(velocity(n)) > drifted*peak) call append('ends at '// &
@@ -101,7 +103,7 @@ contains
       longest = 0
       do i = 1, n
          run = run + 1
-         if (abs(record%acceleration(i)) < record%pga()) run = 0
+         if (abs(record%acceleration(i)) < pga) run = 0
          longest = max(longest, run)
       end do
       if (longest >= clipped) call append(to_text(longest)//' samples in a row at its PGA')
@@ -120,33 +122,30 @@ contains
    end subroutine find_problems
 
    !> The sentence of pga_problem, filled up with blanks
-   pure function worded_pga_problem(record, gravity) result(problem)
-      !> The record
-      type(record_type), intent(in) :: record
+   pure function worded_pga_problem(pga, gravity) result(problem)
+      !> PGA of the record [m/s2]
+      real(wp), intent(in) :: pga
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> The sentence
       character(len=100) :: problem
 
-      real(wp) :: pga
-
       problem = ''
-      pga = record%pga()/gravity
-      if (pga > strongest) problem = 'more than '//to_text(strongest)
-      if (pga < weakest) problem = 'less than '//to_text(weakest)
-      if (problem /= '') problem = 'a PGA of '//rounded(pga)//' g, '//trim(problem)//' g: wrong units?'
+      if (pga/gravity > strongest) problem = 'more than '//to_text(strongest)
+      if (pga/gravity < weakest) problem = 'less than '//to_text(weakest)
+      if (problem /= '') problem = 'a PGA of '//rounded(pga/gravity)//' g, '//trim(problem)//' g: wrong units?'
    end function worded_pga_problem
 
    !> What looks odd about the PGA of a record that moves
-   pure function pga_problem(record, gravity) result(problem)
-      !> The record
-      type(record_type), intent(in) :: record
+   pure function pga_problem(pga, gravity) result(problem)
+      !> Its PGA [m/s2]
+      real(wp), intent(in) :: pga
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> A sentence, empty if nothing does
-      character(len=len_trim(worded_pga_problem(record, gravity))) :: problem
+      character(len=len_trim(worded_pga_problem(pga, gravity))) :: problem
 
-      problem = worded_pga_problem(record, gravity)
+      problem = worded_pga_problem(pga, gravity)
    end function pga_problem
 
    !> Event and station of a record, as far as its file names them and they fit
