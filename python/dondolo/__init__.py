@@ -49,7 +49,7 @@ from dondolo.records.processing import RotD, band_pass, correct_baseline, resamp
 from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records.record import Record, read_catalogue, read_record, read_records
 from dondolo.records.synthetic import synthetic_records
-from dondolo.report import report
+from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.plots import plot_risk

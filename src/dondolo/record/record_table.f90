@@ -8,7 +8,7 @@ module dondolo_record_table
    implicit none
    private
 
-   public :: record_table, find_problems, pga_problem
+   public :: record_table, find_problems, pga_limit, describe_pga
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -92,7 +92,7 @@ contains
          problems = 'no motion'
          return
       end if
-      problems = pga_problem(pga, gravity)
+      if (pga_limit(pga/gravity) > 0.0_wp) call describe_pga(pga/gravity, pga_limit(pga/gravity), problems)
       if (abs(record%acceleration(1)) > abrupt*pga) call append('begins at '// &
          & to_text(nint(100.0_wp*(abs(record%acceleration(1))/pga)))//' % of its PGA')
       velocity = ground_velocity(record)
@@ -121,32 +121,29 @@ contains
 
    end subroutine find_problems
 
-   !> The sentence of pga_problem, filled up with blanks
-   pure function worded_pga_problem(pga, gravity) result(problem)
-      !> PGA of the record [m/s2]
+   !> The limit that the PGA of a record that moves is beyond; 0 if it is beyond none
+   pure real(wp) function pga_limit(pga)
+      !> PGA [g]
       real(wp), intent(in) :: pga
-      !> What g is [m/s2]
-      real(wp), intent(in) :: gravity
-      !> The sentence
-      character(len=100) :: problem
 
-      problem = ''
-      if (pga/gravity > strongest) problem = 'more than '//to_text(strongest)
-      if (pga/gravity < weakest) problem = 'less than '//to_text(weakest)
-      if (problem /= '') problem = 'a PGA of '//rounded(pga/gravity)//' g, '//trim(problem)//' g: wrong units?'
-   end function worded_pga_problem
+      pga_limit = 0.0_wp
+      if (pga > strongest) pga_limit = strongest
+      if (pga < weakest) pga_limit = weakest
+   end function pga_limit
 
-   !> What looks odd about the PGA of a record that moves
-   pure function pga_problem(pga, gravity) result(problem)
-      !> Its PGA [m/s2]
+   !> What looks odd about a PGA
+   pure subroutine describe_pga(pga, limit, text)
+      !> PGA [g]
       real(wp), intent(in) :: pga
-      !> What g is [m/s2]
-      real(wp), intent(in) :: gravity
-      !> A sentence, empty if nothing does
-      character(len=len_trim(worded_pga_problem(pga, gravity))) :: problem
+      !> The limit that it is beyond [g]
+      real(wp), intent(in) :: limit
+      !> A sentence
+      character(len=:), allocatable, intent(out) :: text
 
-      problem = worded_pga_problem(pga, gravity)
-   end function pga_problem
+      text = ' g, more than '
+      if (pga < limit) text = ' g, less than '
+      text = 'a PGA of '//rounded(pga)//text//to_text(limit)//' g: wrong units?'
+   end subroutine describe_pga
 
    !> Event and station of a record, as far as its file names them and they fit
    pure function origin(record)
