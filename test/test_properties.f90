@@ -2,6 +2,7 @@
 !> namelist to what is computed and back, and is refused in one line where it is out of range.
 program test_properties
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type
    use dondolo_history_group, only : history_input_type, read_history_group
    use dondolo_job_group, only : job_type, read_job, task_names
@@ -54,7 +55,7 @@ contains
          associate (property => table(i))
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
-            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'm/s2']), what//': its unit')
+            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'N/m2', 'm/s2']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) &
                & call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
@@ -212,6 +213,7 @@ contains
 
       type(property_type), allocatable :: table(:)
       type(group_settings_type) :: settings
+      type(echo_type) :: said
       type(lines_type) :: lines
       type(group_type) :: group
       type(error_type), allocatable :: error
@@ -231,8 +233,10 @@ contains
          if (.not. allocated(error)) call through(name, group, settings, error)
          call check_ok(error, what//' = '//text)
          if (allocated(error)) cycle
+         said = echo_type()
+         call echo_settings(name, settings, said)
          lines = lines_type()
-         call echo_settings(name, settings, lines)
+         call said%to_namelist(lines)
          echo = ''
          do j = 1, lines%count
             echo = echo//lines%line(j)%text//' '
@@ -286,7 +290,7 @@ contains
       type(error_type), allocatable :: error
       type(group_type) :: group
       character(len=:), allocatable :: text, what
-      integer :: i, m
+      integer :: i, j, m
 
       call suite('walls')
       table = property_table('wall')
@@ -302,8 +306,10 @@ contains
             call read_values(group, input, error)
             call check_ok(error, what)
             call input%set('mechanism', trim(mechanism_names(m)))
-            if (what /= 'height') call input%set('height', 3.0_wp)
-            if (what /= 'thickness') call input%set('thickness', 0.5_wp)
+            do j = 1, size(table)
+               if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
+                  & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
+            end do
             if (what == 'restitution_value') call input%set('restitution', 'constant')
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')

@@ -57,7 +57,8 @@ from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, U
 from dondolo.walls.plots import plot_population
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
-from dondolo.walls.wall import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
+from dondolo.walls.wall import *  # noqa: F403
+from dondolo.walls.wall import __all__ as _walls
 
 __version__ = _constants().version
 
@@ -73,7 +74,6 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
-    "FreeStandingWall",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -84,7 +84,6 @@ __all__ = [
     "Lognormal",
     "MissingFileError",
     "Normal",
-    "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "PopulationCurve",
@@ -99,13 +98,10 @@ __all__ = [
     "State",
     "StoredResults",
     "Stripes",
-    "Terms",
     "Triangular",
-    "TwoBlockWall",
     "Typology",
     "TypologyBootstrap",
     "Uniform",
-    "Wall",
     "Window",
     "Work",
     "__version__",
@@ -161,3 +157,5 @@ __all__ = [
     "typology",
     "write_nrml",
 ]
+# Names of walls stand where the walls do
+__all__ += _walls

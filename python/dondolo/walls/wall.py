@@ -16,6 +16,9 @@ from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
 
+# What the package exports of the walls: a new mechanism is added here alone
+__all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
+
 # What is left out gets its value from Fortran; from then on it is there.
 _DEFAULT: Any = None
 
