@@ -163,13 +163,6 @@ def test_no_single_precision_at_the_boundary():
         assert not re.search(r": .*\bfloat32\b", text), name
 
 
-#: Functions of `case` that are still to be rewritten; the list only becomes shorter.
-NOT_YET = {
-    "counts_path",
-    "pack_counts",
-}
-
-
 def deferred_results(text):
     """Names of the functions of a Fortran source whose results are characters of deferred length."""
     text = re.sub(r"&\s*\n\s*&?", "", re.sub(r"(?m)^\s*!.*\n", "", text))
@@ -193,7 +186,7 @@ def test_results_of_functions_have_specified_lengths(root):
     files = [file for folder in ("src", "app", "python/dondolo") for file in root.glob(f"{folder}/**/*.[fF]90")]
     assert len(files) > 100
     found = {name for file in files for name in deferred_results(file.read_text())}
-    assert found - NOT_YET == set()
+    assert found == set()
 
 
 def test_procedures_that_compute_release_the_lock(root):
