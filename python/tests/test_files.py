@@ -227,7 +227,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
     if character != "\0":
         path = tmp_path / f"{name}.txt"
         path.write_text("0\n1\n0\n")
-        assert dd.read_record(path, 0.01, "g").name == f"a{' ' * len(character.encode())}b"
+        assert dd.read_record(path, dt=0.01, units="g").name == f"a{' ' * len(character.encode())}b"
 
 
 def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path):

@@ -110,7 +110,7 @@ def test_errors(arguments, words):
 
 
 def test_deviations_raise_the_energy():
-    median, above = (dd.synthetic_records(6.0, 10.0, "rock", 100, deviations=k) for k in (0.0, 1.0))
+    median, above = (dd.synthetic_records(6.0, 10.0, "rock", count=100, deviations=k) for k in (0.0, 1.0))
     energy, more = (np.mean([record.acceleration @ record.acceleration for record in some]) for some in (median, above))
     # 0.397 is the standard deviation of the model's decimal logarithm; each mean is known to about 1 %.
     assert more / energy == pytest.approx(10.0**0.397, rel=0.06)

@@ -22,7 +22,7 @@ from dondolo._fortran.handles import Handle
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.records.record import Record
-from dondolo.records.record import upload as upload_records
+from dondolo.records.suite import upload as upload_records
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
 

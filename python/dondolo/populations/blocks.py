@@ -21,7 +21,7 @@ from dondolo.analysis.work import Work
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.flags import Flags
 from dondolo.populations.parts import Blocks, Part, Shared
-from dondolo.records.record import flatten
+from dondolo.records.suite import flatten
 
 # Loaded where they are used: databases, sockets and futures would make every import of dondolo slower by 20 ms.
 if TYPE_CHECKING:
