@@ -113,9 +113,9 @@ class Request:
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
-        histories, *sent, stat, message = _core.plan(study, people, walls)
+        histories, parcel, sizes, stat, message = _core.plan(study, people, walls)
         _binding.check(stat, message)
-        sentences = _binding.receive(*sent, stat, message).lines if sent[0] else []
+        sentences = _binding.receive(parcel, sizes, stat, message).lines if parcel else []
         record, polarity, scale, stat, message = _core.scales(study, people, walls, histories[-1], len(self.levels))
         _binding.check(stat, message)
         return Plan(histories, record - 1, polarity, scale.T, sentences)

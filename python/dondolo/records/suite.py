@@ -34,16 +34,6 @@ class Motion(Protocol):
     def __len__(self) -> int: ...
 
 
-def flatten(records: tuple[Motion, ...]) -> _binding.FlatRecords:
-    """All records as Fortran takes them."""
-    return _binding.FlatRecords(
-        "\n".join(record.name for record in records).encode(),
-        np.array([len(record) for record in records], dtype=np.int32),
-        np.array([record.dt for record in records]),
-        np.concatenate([record.acceleration for record in records]),
-    )
-
-
 def upload(records: tuple[Motion, ...]) -> Handle:
     """The records as a suite in Fortran. The same records in the same order are uploaded once.
 
@@ -54,7 +44,12 @@ def upload(records: tuple[Motion, ...]) -> Handle:
     suite: Handle | None = homes[0][0]
     if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
         return suite
-    handle, stat, message = _core.new_suite(*flatten(records))
+    handle, stat, message = _core.new_suite(
+        "\n".join(record.name for record in records).encode(),
+        np.array([len(record) for record in records], dtype=np.int32),
+        np.array([record.dt for record in records]),
+        np.concatenate([record.acceleration for record in records]),
+    )
     _binding.check(stat, message)
     suite = Handle(handle)
     for i, record in enumerate(records):
