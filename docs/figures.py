@@ -166,7 +166,9 @@ def overturning():
     figure, axes = new_axes(1, 2, (10.4, 4.8), sharey=True)
     for ax, pulse in zip(axes, (dd.pulses.one_sine, dd.pulses.ricker), strict=True):
         ratio, height = np.linspace(0.1, 8.0, 159), np.linspace(0.1, 12.0, 120)
-        spectrum = dd.overturning_spectrum(wall, pulse, ratio * p / (2.0 * np.pi), height * np.tan(alpha))
+        spectrum = dd.overturning_spectrum(
+            wall, pulse, frequencies=ratio * p / (2.0 * np.pi), amplitudes=height * np.tan(alpha)
+        )
         dd.plot_overturning_spectrum(spectrum, ax)
         ax.set_title(pulse.__name__, loc="left", family="monospace")
     axes[1].set_ylabel("")

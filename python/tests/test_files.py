@@ -50,7 +50,7 @@ def people(few):
         dd.TwoBlockWall(3.0, 0.25, name="a", gravity=9.7),
         dd.OneSidedWall(2.0, 0.30, name="b, with a comma", gravity=9.7),
     ]
-    population = dd.Population(walls, [2.0, 2.0, 1.0], ["low", "low", "high"], [0.6, 0.5, 1.0])
+    population = dd.Population(walls, [2.0, 2.0, 1.0], groups=["low", "low", "high"], p_occ=[0.6, 0.5, 1.0])
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
     return dd.typology(population, few, levels, polarity="both", edp_thresholds=[0.3], progress=False)
 

@@ -97,8 +97,8 @@ def test_safe_window_above_the_first_overturning():
     spectrum = dd.overturning_spectrum(
         block(np.radians(15.0), 2.0),
         lambda amplitude, frequency: dd.pulses.one_cosine(amplitude, frequency, error=1e-8),
-        [0.5],
-        np.arange(0.31, 0.35, 0.002),
+        frequencies=[0.5],
+        amplitudes=np.arange(0.31, 0.35, 0.002),
         tolerance=1e-8,
         progress=False,
     )
@@ -127,8 +127,8 @@ def test_zhang_and_makris(alpha, expected, tolerance):
     spectrum = dd.overturning_spectrum(
         block(alpha, 2.14, restitution="constant", restitution_value=0.9),
         dd.pulses.one_sine,
-        [5.0 * 2.14 / (2.0 * np.pi)],
-        np.arange(1.0, 8.0, 0.2) * alpha,
+        frequencies=[5.0 * 2.14 / (2.0 * np.pi)],
+        amplitudes=np.arange(1.0, 8.0, 0.2) * alpha,
         tolerance=1e-6,
         progress=False,
     )
@@ -151,8 +151,8 @@ def test_makris_and_roussos():
     spectrum = dd.overturning_spectrum(
         dd.FreeStandingWall(3.0, 1.0, restitution="constant", restitution_value=0.85),
         lambda amplitude, frequency: dd.pulses.one_cosine(amplitude, frequency, error=1e-7),
-        [1.0],
-        [0.5, 0.6, 0.65],
+        frequencies=[1.0],
+        amplitudes=[0.5, 0.6, 0.65],
         tolerance=1e-7,
         progress=False,
     )
@@ -166,7 +166,11 @@ def spectrum():
     wall = block(0.25, 2.14, restitution="constant", restitution_value=0.9)
     ratio, height = np.linspace(0.6, 6.0, 10), np.linspace(0.25, 7.5, 30)
     return dd.overturning_spectrum(
-        wall, dd.pulses.one_sine, ratio * 2.14 / (2.0 * np.pi), height * np.tan(0.25), progress=False
+        wall,
+        dd.pulses.one_sine,
+        frequencies=ratio * 2.14 / (2.0 * np.pi),
+        amplitudes=height * np.tan(0.25),
+        progress=False,
     )
 
 
@@ -219,7 +223,12 @@ def test_shapes_and_tables(spectrum, tmp_path):
 @pytest.mark.parametrize("threads", [1, 3])
 def test_threads_change_nothing(spectrum, threads):
     again = dd.overturning_spectrum(
-        spectrum.wall, dd.pulses.one_sine, spectrum.frequencies, spectrum.amplitudes, threads=threads, progress=False
+        spectrum.wall,
+        dd.pulses.one_sine,
+        frequencies=spectrum.frequencies,
+        amplitudes=spectrum.amplitudes,
+        threads=threads,
+        progress=False,
     )
     assert np.array_equal(again.edp, spectrum.edp)
     assert np.array_equal(again.state, spectrum.state)
@@ -243,7 +252,9 @@ def test_polarity_of_a_one_sided_wall(wall):
 
 def test_two_blocks():
     wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
-    result = dd.overturning_spectrum(wall, dd.pulses.ricker, [0.5, 1.0], np.linspace(0.1, 4.0, 15), progress=False)
+    result = dd.overturning_spectrum(
+        wall, dd.pulses.ricker, frequencies=[0.5, 1.0], amplitudes=np.linspace(0.1, 4.0, 15), progress=False
+    )
     assert result.overturned.any()
     assert result.amplitude_ratio[0] == pytest.approx(0.1 * 9.81 / wall.trigger_acceleration)
     assert "trigger" in dd.plot_overturning_spectrum(result).get_ylabel()
@@ -264,7 +275,11 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
     with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
         dd.overturning_spectrum(
-            spectrum.wall, dd.pulses.one_sine, spectrum.frequencies, spectrum.amplitudes, progress=False
+            spectrum.wall,
+            dd.pulses.one_sine,
+            frequencies=spectrum.frequencies,
+            amplitudes=spectrum.amplitudes,
+            progress=False,
         )
     partial = caught.value.partial
     assert 1 <= len(partial.frequencies) < 10

@@ -6,12 +6,12 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
@@ -197,10 +197,10 @@ class OverturningSpectrum(Shown):
 def overturning_spectrum(
     wall: Wall,
     pulse: Callable[[float, float], Record],
+    *,
     frequencies: ArrayLike,
     amplitudes: ArrayLike,
-    *,
-    polarity: str = "as_recorded",
+    polarity: Literal["as_recorded", "reversed"] = "as_recorded",
     tolerance: float = 1e-4,
     solver: Solver | None = None,
     threads: int = 0,
@@ -254,8 +254,7 @@ def overturning_spectrum(
     """
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
-    if polarity not in ("as_recorded", "reversed"):
-        raise InputError(f"polarity = {polarity!r}: must be one of 'as_recorded', 'reversed'")
+    one_of("polarity", polarity, ("as_recorded", "reversed"))
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):
         raise InputError(

@@ -11,7 +11,7 @@ import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +31,9 @@ IntArray = np.ndarray[Any, np.dtype[np.int32]]
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
 _FIRST_SAMPLES = 2_000_000
+
+#: Polarities of the records in an analysis
+Polarity = Literal["as_recorded", "reversed", "both"]
 
 
 class Plan(NamedTuple):

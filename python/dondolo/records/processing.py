@@ -5,11 +5,16 @@ The methods of `Record` that call them say what their arguments mean.
 
 from __future__ import annotations
 
+from typing import Literal, get_args
+
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number
+from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
 from dondolo.errors import InputError
 from dondolo.records.suite import Motion, significant_times, velocity
+
+#: Kinds of baselines
+Baseline = Literal["constant", "linear", "velocity"]
 
 # Two time steps, or their ratio to a whole number, are the same within this: steps in files have few digits.
 SAME_STEP = 1e-9
@@ -20,9 +25,10 @@ _LARGEST_FACTOR = 1000
 _MOST_SAMPLES = 100_000_000
 
 
-def correct_baseline(record: Motion, kind: str, order: int | None) -> tuple[FloatArray, str]:
+def correct_baseline(record: Motion, kind: Baseline, order: int | None) -> tuple[FloatArray, str]:
     """Take off a baseline."""
     values, count = record.acceleration, len(record)
+    one_of("kind", kind, get_args(Baseline))
     if kind != "velocity" and order is not None:
         raise InputError(f"order = {order!r}: only with kind 'velocity'")
     if kind == "constant":
@@ -32,8 +38,6 @@ def correct_baseline(record: Motion, kind: str, order: int | None) -> tuple[Floa
         slope = (x @ values) / (x @ x)
         line = "baseline: straight line of least squares taken off"
         return values - values.mean() - slope * x, line
-    if kind != "velocity":
-        raise InputError(f"kind = {kind!r}: must be one of 'constant', 'linear', 'velocity'")
     degree = as_count("order", 2 if order is None else order, 1, 8)
     if count <= degree:
         raise InputError(f"order = {degree}: must be less than the number of samples, {count}")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,9 @@ from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, a
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
 from dondolo.errors import InputError
-from dondolo.records import processing, suite
+from dondolo.records import processing as process
+from dondolo.records import suite
+from dondolo.records.processing import Baseline
 from dondolo.records.rotation import RotD, check_components, component
 from dondolo.records.spectrum import Spectrum
 
@@ -192,9 +194,7 @@ class Record:
         """
         return suite.significant_times(self, low, high)
 
-    def correct_baseline(
-        self, kind: Literal["constant", "linear", "velocity"] = "constant", *, order: int | None = None
-    ) -> Record:
+    def correct_baseline(self, kind: Baseline = "constant", *, order: int | None = None) -> Record:
         """Take off a baseline.
 
         Parameters
@@ -218,7 +218,7 @@ class Record:
         zero has shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits
         a straight line).
         """
-        return self.processed(*processing.correct_baseline(self, kind, order))
+        return self.processed(*process.correct_baseline(self, kind, order))
 
     def band_pass(
         self,
@@ -260,7 +260,7 @@ class Record:
         filtered motion and may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with
         order 2 (Paolucci et al. 2011).
         """
-        return self.processed(*processing.band_pass(self, low, high, order, taper, keep_padding))
+        return self.processed(*process.band_pass(self, low, high, order, taper, keep_padding))
 
     def resample(self, dt: float) -> Record:
         """The record with another time step.
@@ -287,7 +287,7 @@ class Record:
         taken out, which keeps them from coming back as lower ones, and the straight lines between samples are others
         than before.
         """
-        return self.processed(*processing.resample(self, dt))
+        return self.processed(*process.resample(self, dt))
 
     def trim(self, low: float = 0.05, high: float = 0.95, *, before: float = 1.0, after: float = 1.0) -> Record:
         """Cut to the significant duration.
@@ -314,7 +314,7 @@ class Record:
         Significant duration: Trifunac and Brady (1975). Ground acceleration is zero before a record begins and after it
         ends, so that a cut is a jump to zero: look at the margins.
         """
-        return self.processed(*processing.trim(self, low, high, before, after))
+        return self.processed(*process.trim(self, low, high, before, after))
 
     def reverse(self) -> Record:
         """The record of the other polarity.

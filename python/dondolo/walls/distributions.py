@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
 import numpy as np
@@ -113,6 +113,7 @@ class Normal(Distribution):
 
     mean: float
     sd: float
+    _: KW_ONLY
     low: float | None = None
     high: float | None = None
 
@@ -149,6 +150,7 @@ class Lognormal(Distribution):
 
     median: float
     beta: float
+    _: KW_ONLY
     low: float | None = None
     high: float | None = None
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import copy
 import dataclasses
 from collections.abc import Iterable, Sequence
-from dataclasses import InitVar, dataclass
-from typing import Any, ClassVar, NamedTuple
+from dataclasses import KW_ONLY, InitVar, dataclass
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
@@ -57,8 +57,9 @@ class Wall:
 
     height: float
     thickness: float
+    _: KW_ONLY
     density: float = _DEFAULT
-    restitution: str = _DEFAULT
+    restitution: Literal["default", "sorrentino", "impulse", "constant"] = _DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
     gravity: float = _DEFAULT
@@ -279,7 +280,7 @@ class FreeStandingWall(Wall):
     mechanism: ClassVar[str] = "free_standing"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class TwoBlockWall(Wall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
 
@@ -320,7 +321,7 @@ class TwoBlockWall(Wall):
     hinge: float = _DEFAULT
     overburden: float = _DEFAULT
     eccentricity: float = _DEFAULT
-    bearing: InitVar[str | None] = None
+    bearing: InitVar[Literal["inner", "outer", "centre"] | None] = None
     bearing_distance: InitVar[float | None] = None
 
     def __post_init__(self, bearing: str | None, bearing_distance: float | None) -> None:
