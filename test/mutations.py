@@ -91,7 +91,7 @@ EDITS = [
     ),
     Edit(
         "the bootstrap ignores probabilities of occurrence in the saturation",
-        "occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))",
+        "occurring += own @ in_series(rows.share[part], starts)",
         "occurring += own.sum(axis=1)",
         "test_typology_bootstrap.py::test_brute_force",
     ),
@@ -225,8 +225,8 @@ EDITS = [
     ),
     Edit(
         "rotation turns in the wrong sense",
-        " = cosine * first + sine * second",
-        " = cosine * first - sine * second",
+        " = cosine * first.acceleration + sine * second.acceleration",
+        " = cosine * first.acceleration - sine * second.acceleration",
         "test_processing.py::test_directions_of_a_line_and_a_circle",
     ),
     Edit(

@@ -51,7 +51,7 @@ from dondolo.records.record import Record
 from dondolo.records.rotation import RotD
 from dondolo.records.spectrum import Spectrum
 from dondolo.records.synthetic import synthetic_records
-from dondolo.report import report
+from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.plots import plot_risk
@@ -59,7 +59,8 @@ from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, U
 from dondolo.walls.plots import plot_population
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
-from dondolo.walls.wall import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
+from dondolo.walls.wall import *  # noqa: F403
+from dondolo.walls.wall import __all__ as _walls
 
 __version__ = _constants().version
 
@@ -75,7 +76,6 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
-    "FreeStandingWall",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -86,7 +86,6 @@ __all__ = [
     "Lognormal",
     "MissingFileError",
     "Normal",
-    "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "PopulationCurve",
@@ -101,13 +100,10 @@ __all__ = [
     "State",
     "StoredResults",
     "Stripes",
-    "Terms",
     "Triangular",
-    "TwoBlockWall",
     "Typology",
     "TypologyBootstrap",
     "Uniform",
-    "Wall",
     "Window",
     "Work",
     "__version__",
@@ -152,3 +148,5 @@ __all__ = [
     "typology",
     "write_nrml",
 ]
+# Names of walls stand where the walls do
+__all__ += _walls

@@ -10,11 +10,14 @@ from typing import Any, ClassVar, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
+
+# What the package exports of the walls: a new mechanism is added here alone
+__all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
 
 # What is left out gets its value from Fortran; from then on it is there.
 _DEFAULT: Any = None
@@ -72,7 +75,13 @@ class Wall:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
-        self._fill(_binding.describe_wall(self._properties() | more, self.gravity))
+        properties = self._properties() | more
+        for row in _binding.WALL_PROPERTIES:
+            word = properties[row.name]
+            # The library reads words in any case, as its files may have them; those of a program are exact.
+            if row.choices and isinstance(word, str) and word != word.lower():
+                one_of(row.name, word, row.choices)
+        self._fill(_binding.describe_wall(properties, self.gravity))
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
