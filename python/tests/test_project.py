@@ -264,6 +264,8 @@ def public_callables():
             if callable(thing):
                 yield name, thing
             continue
+        if issubclass(thing, Exception):
+            continue
         if re.search(r"Parameters\n +---|Parameters are those", thing.__doc__):
             yield name, thing
         for what, method in vars(thing).items():
