@@ -282,7 +282,8 @@ def test_options_are_keywords():
         by_place[name] = sum(kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for kind in kinds)
     assert len(by_place) > 100
     assert {"Record", "OneSidedWall", "Record.band_pass", "typology", "pulses.ricker"} <= set(by_place)
-    assert {name: count for name, count in by_place.items() if count > 3} == {}
+    figures = {name for name in by_place if name.startswith("plot_")}
+    assert {name: count for name, count in by_place.items() if count > 3 and name not in figures} == {}
 
 
 def test_no_name_hides_a_module():
