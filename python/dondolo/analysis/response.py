@@ -15,7 +15,8 @@ from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.records.record import Record, place_of
+from dondolo.records.record import Record
+from dondolo.records.suite import place_of
 from dondolo.walls.wall import Wall, upload
 
 
