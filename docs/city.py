@@ -418,13 +418,13 @@ def draw(studies):
     with plt.rc_context(style.RC):
         figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9), layout="constrained")
     for ax, mechanism in zip(axes, MECHANISMS, strict=True):
-        dd.plot_typology(typology, ax, mechanism)
+        typology[mechanism].plot(ax)
     figure.savefig(figures / "city_mechanisms.png", dpi=100)
 
     with plt.rc_context(style.RC):
         figure, axes = plt.subplots(1, 2, figsize=(10.4, 5.0), layout="constrained")
-    dd.plot_combination(typology, axes[0])
-    dd.plot_damage_states(typology, axes[1])
+    typology.plot_combination(axes[0])
+    typology.plot_damage_states(axes[1])
     figure.savefig(figures / "city_combined.png", dpi=100)
 
     with plt.rc_context(style.RC):

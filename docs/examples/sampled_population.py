@@ -52,7 +52,7 @@ town.to_csv(out / "town.csv")
 assert dd.read_population(out / "town.csv").walls == town.walls
 
 # %%
-dd.plot_population(town)[0].figure.savefig(out / "sampled_population.png")
+town.plot()[0].figure.savefig(out / "sampled_population.png")
 
 # %% Their fragility
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")

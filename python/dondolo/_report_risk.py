@@ -20,7 +20,6 @@ _YEARS = 50.0
 def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter, list[str]]:
     """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
     from dondolo.risk.frequency import mean_annual_frequency
-    from dondolo.risk.plots import plot_risk
 
     population = isinstance(results, Typology)
     if population:
@@ -85,7 +84,7 @@ def risk_chapter(results: Any, curve: Any, hazard: HazardCurve) -> tuple[Chapter
             " Events are taken for a Poisson process.",
         ),
         figure(
-            lambda: plot_risk(risk),
+            risk.plot,
             f"Hazard, fragility and the intensities that the risk comes from: {between(low, high, 'a year', 3)}.",
             "Above, the hazard of the site; in the middle, the fragility; below, which intensities the frequency of"
             " collapse comes from.",

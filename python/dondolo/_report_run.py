@@ -106,7 +106,7 @@ def run_of(results: Any) -> Run:
         run.title = quoted("title", results.comments) or run.title
         run.population = results.population
         run.warnings = _merged(heads("warning:", results.comments), run.warnings)
-        run.thresholds = _thresholds(results) or run.thresholds
+        run.thresholds = results.edp_thresholds or run.thresholds
         return run
     if isinstance(results, Results):
         case = results.case
@@ -161,13 +161,6 @@ def quoted(name: str, comments: Sequence[str]) -> str:
         if found:
             return found.group(1).replace("''", "'")
     return ""
-
-
-def _thresholds(stored: StoredResults) -> list[float]:
-    """Damage states that the case of a wall names, if there are several."""
-    line = next((line for line in stored.comments if line.startswith("edp_thresholds = ")), "")
-    values = [float(value) for value in re.findall(r"[0-9][-+0-9.eE]*", line)]
-    return values if len(values) > 1 else []
 
 
 def _merged(first: Sequence[str], second: Sequence[str]) -> list[str]:

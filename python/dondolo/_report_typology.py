@@ -84,8 +84,6 @@ def typology_chapters(people: Typology) -> list[Chapter]:
 
 
 def _typology_figures(people: Typology) -> Markup:
-    from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
-
     of_all = [curve for curve in people.groups if not curve.group]
     pieces = [
         paragraph(
@@ -97,7 +95,7 @@ def _typology_figures(people: Typology) -> Markup:
     if len(of_all) > 1:
         pieces.append(
             figure(
-                lambda: plot_combination(people),
+                people.plot_combination,
                 "Mean fragility curve of each mechanism and of all together. " + _in_words(of_all),
                 "Mechanisms and their combination. A wall collapses by whichever of its mechanisms comes first, each"
                 " with the probability that it can occur; the band holds 68 % of the weight.",
@@ -107,7 +105,7 @@ def _typology_figures(people: Typology) -> Markup:
         what = mechanism_name(curve.mechanism)
         pieces.append(
             figure(
-                lambda curve=curve: plot_typology(people, mechanism=curve.mechanism),
+                people[curve.mechanism].plot,
                 f"Fragility curves of {counted(curve.walls, 'wall')}, {what}, their mean and fractiles. "
                 + _in_words([curve]),
                 f"{what[0].upper()}{what[1:]}: curves of single walls, at most 300 of them drawn, weighted mean,"
@@ -118,7 +116,7 @@ def _typology_figures(people: Typology) -> Markup:
     if grouped:
         pieces.append(
             figure(
-                lambda: plot_groups(people),
+                people.plot_groups,
                 "Mean fragility curve of each group beside that of the population. " + _in_words(grouped),
                 "Groups beside the whole population, all mechanisms of each wall together.",
             )
@@ -127,7 +125,7 @@ def _typology_figures(people: Typology) -> Markup:
         states = [people.at(edp)["all"] for edp in people.edp_thresholds]
         pieces.append(
             figure(
-                lambda: plot_damage_states(people),
+                people.plot_damage_states,
                 "Probability to reach each damage state. " + _in_words(states),
                 "Damage states of the whole population. EDP is the largest rotation over the capacity, the rotation at"
                 " which the wall overturns; a history reaches a state if its EDP comes to the threshold.",

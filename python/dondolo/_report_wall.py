@@ -72,9 +72,6 @@ def stripes_chapters(stripes: Stripes, curve: Fragility, thresholds: Sequence[fl
 
 
 def _stripes_figures(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> Markup:
-    from dondolo.analysis.plots import plot_fragility, plot_stripes
-    from dondolo.populations.plots import plot_damage_states
-
     unit = f" {_binding.unit_of(stripes.im)}".rstrip()
     levels = ", ".join(
         f"{z} of {n} at {x:g}{unit}"
@@ -86,13 +83,13 @@ def _stripes_figures(stripes: Stripes, curve: Fragility, thresholds: Sequence[fl
     pieces = [
         paragraph(LOGNORMAL),
         figure(
-            lambda: plot_stripes(stripes),
+            stripes.plot,
             f"Largest rotation over capacity of every history at every level. Collapses: {levels}.",
             "Every history of the analysis. EDP is the largest rotation over the capacity, the rotation at which the"
             " wall overturns; triangles stand for collapses, with their number.",
         ),
         figure(
-            lambda: plot_fragility(curve, stripes),
+            curve.plot,
             f"Fractions of collapse and fitted fragility curve: {fitted}.",
             "The curve fitted by maximum likelihood, with its 95 % band, and the fractions of collapse with exact"
             " binomial intervals.",
@@ -101,7 +98,7 @@ def _stripes_figures(stripes: Stripes, curve: Fragility, thresholds: Sequence[fl
     if len(thresholds) > 1:
         pieces.append(
             figure(
-                lambda: plot_damage_states(stripes, edp=thresholds),
+                lambda: stripes.plot_damage_states(edp=thresholds),
                 f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
                 "Damage states: a history reaches a state if its EDP comes to the threshold.",
             )
@@ -189,9 +186,6 @@ def response_cards(motion: Response) -> Markup:
 
 def response_chapters(motion: Response) -> list[Chapter]:
     """Figures of a motion."""
-    from dondolo.analysis.drawing import plot_wall
-    from dondolo.analysis.plots import plot_history
-
     outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
     pieces = [
         paragraph(
@@ -200,7 +194,7 @@ def response_chapters(motion: Response) -> list[Chapter]:
         *(
             [
                 figure(
-                    lambda: plot_history(motion),
+                    motion.plot,
                     f"Ground acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s.",
                     f"Ground acceleration of {motion.record.name}, times {motion.scale:.4g}, and rotation of the wall.",
                 )
@@ -209,7 +203,7 @@ def response_chapters(motion: Response) -> list[Chapter]:
             else []
         ),
         figure(
-            lambda: plot_wall(motion),
+            motion.plot_peak,
             f"The wall at its largest rotation: {outcome}.",
             "The wall at its largest rotation, drawn to scale.",
         ),

@@ -34,7 +34,7 @@ def value(outputs):
 
 
 def test_every_cell_has_its_own_picture():
-    drawn = ("axes = dd.plot_history(motion)", "axes = dd.plot_wall(motion)", "film = dd.animate_history(motion)")
+    drawn = ("axes = motion.plot()", "axes = motion.plot_peak()", "film = motion.animate()")
     _, *outputs, own = run(SETUP, *drawn, OWN)
     assert [pictures(cell) for cell in outputs] == [1, 1, 1]
     # The user's own line is alone in a figure of its own.

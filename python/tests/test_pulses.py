@@ -247,7 +247,7 @@ def test_two_blocks():
     result = dd.overturning_spectrum(wall, dd.ricker, [0.5, 1.0], np.linspace(0.1, 4.0, 15), progress=False)
     assert result.overturned.any()
     assert result.amplitude_ratio[0] == pytest.approx(0.1 * 9.81 / wall.trigger_acceleration)
-    assert "trigger" in dd.plot_overturning_spectrum(result).get_ylabel()
+    assert "trigger" in result.plot().get_ylabel()
     plt.close("all")
 
 
@@ -302,7 +302,7 @@ def test_errors_of_spectra(spectrum, changes, words):
 
 
 def test_plot(spectrum):
-    ax = dd.plot_overturning_spectrum(spectrum)
+    ax = spectrum.plot()
     assert r"\omega_p / p" in ax.get_xlabel()
     assert r"\tan\alpha" in ax.get_ylabel()
     assert ax.get_ylim()[1] == spectrum.amplitude_ratio[-1]
@@ -317,5 +317,5 @@ def test_plot(spectrum):
     assert "overturns after impacts" in labels
     plt.close("all")
     _, mine = plt.subplots()
-    assert dd.plot_overturning_spectrum(spectrum, mine) is mine
+    assert spectrum.plot(mine) is mine
     plt.close("all")

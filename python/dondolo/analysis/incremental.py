@@ -38,7 +38,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -49,6 +49,9 @@ from dondolo._storage import tables
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Shares of the histories that fractiles are given for
 SHARES = (0.16, 0.50, 0.84)
@@ -173,6 +176,26 @@ class Incremental(Shown):
             im=self.stripes.im,
             wall=self.stripes.wall,
         )
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw a line for each history, and their fractiles, bold.
+
+        As Vamvatsikos and Cornell (2002) draw them: a flat line is a collapse. A history that survives a level above
+        its first collapse has a circle there.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Level of intensity against EDP.
+        """
+        from dondolo.analysis.plots_stripes import draw_incremental
+
+        return draw_incremental(self, ax)
 
     def _tables(self) -> dict[str, Any]:
         stripes = self.stripes

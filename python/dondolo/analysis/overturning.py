@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +21,9 @@ from dondolo.errors import InputError, Interrupted
 from dondolo.records.record import Record, upload
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Rotation / capacity from which a wall counts as overturned
 _EDP_LIMIT = 5.0
@@ -153,6 +156,26 @@ class OverturningSpectrum(Shown):
                 ends.append(0.5 * (boundary.lower + boundary.upper))
         ends.append(float(self.amplitudes[-1]))
         return [Window(*window) for window in zip(ends, ends[1:], states, strict=False)]
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw which amplitudes overturn, without and with impacts before, against the frequency of the pulse.
+
+        As Zhang and Makris (2001) draw it. Every frequency of the scan is a column, cut at the amplitudes where the
+        state changes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            a_p/(g tan alpha), the amplitude as a part of the trigger acceleration, against omega_p/p.
+        """
+        from dondolo.analysis.plots_overturning import draw_spectrum
+
+        return draw_spectrum(self, ax)
 
     def _tables(self) -> dict[str, Any]:
         count = len(self.amplitudes)

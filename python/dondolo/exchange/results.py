@@ -57,6 +57,13 @@ class StoredResults:
     comments: tuple[str, ...] = ()
     written: datetime | None = None
 
+    @property
+    def edp_thresholds(self) -> list[float]:
+        """Damage states that the case of a wall names [rotation / capacity], if there are several."""
+        line = next((line for line in self.comments if line.startswith("edp_thresholds = ")), "")
+        values = [float(value) for value in re.findall(r"[0-9][-+0-9.eE]*", line)]
+        return values if len(values) > 1 else []
+
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     """Read the result files of the executable, or those that `Typology.save` wrote.

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,11 @@ from dondolo._base.shown import Shown, html_of
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo.errors import InputError
+from dondolo.figures.style import Panels
 from dondolo.walls.wall import Wall, wall_from, walls_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Name that Fortran gives a wall without one
 _UNNAMED = "wall"
@@ -239,6 +243,31 @@ class Population(Shown):
 
     def _repr_html_(self) -> str:
         return html_of("Population", [*self._facts(), *self._ranges()])
+
+    def plot(self, ax: Iterable[Axes] | None = None, *, by: str = "mechanism") -> Panels:
+        """Draw the walls: thickness against height above, trigger accelerations below.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+        by : {'mechanism', 'group'}
+            Property that distinguishes the walls.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Thickness against height [m], with lines of equal slenderness; and the weight of what begins to rock in an
+            interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
+
+        Raises
+        ------
+        InputError
+            No such property.
+        """
+        from dondolo.walls.plots import draw_population
+
+        return draw_population(self, ax, by)
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights.
