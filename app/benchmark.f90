@@ -3,12 +3,12 @@ module dondolo_benchmark
    use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
    use dondolo_case, only : case_type
-   use dondolo_counts, only : counts_type
    use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
    use dondolo_population, only : member_type
+   use dondolo_row_result, only : row_result_type
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type
    use dondolo_study, only : study_type
@@ -138,8 +138,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(study_type) :: study
-      type(counts_type), allocatable :: rows(:)
-      type(work_type) :: work
+      type(row_result_type), allocatable :: rows(:)
       integer(int64) :: start
       real(wp) :: spent(times)
       integer :: i
@@ -147,7 +146,7 @@ contains
       call case%make_study(study, threads)
       do i = 1, times
          call system_clock(start)
-         call run_rows(study, repeat_walls(walls, copies), rows, work, error, 0, 0)
+         call run_rows(study, repeat_walls(walls, copies), rows, error, 0, 0)
          if (allocated(error)) return
          spent(i) = seconds_since(start)
       end do

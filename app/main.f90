@@ -14,7 +14,7 @@ program dondolo_main
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
-   use dondolo_run_population, only : merge_population
+   use dondolo_population_case, only : merge_population
    use dondolo_threads, only : available_threads
    use dondolo_summary, only : print_summary
    use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
@@ -113,12 +113,12 @@ contains
       type(lines_type) :: paths
 
       if (case%job%task == 'typology' .and. case%survey%is_part) then
-         call paths%add(results%counts%files(1)%path)
+         call paths%add(results%stores(1)%path)
       else
          call write_reports(case, results, paths, error)
          if (allocated(error)) return
          ! The checkpoint of a whole population has served; parts are the user's
-         if (case%job%task == 'typology' .and. arguments%action == 'run') call results%counts%remove()
+         if (case%job%task == 'typology' .and. arguments%action == 'run') call results%remove_stores()
       end if
       call print_lines('warning', results%warnings)
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)

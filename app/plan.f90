@@ -2,17 +2,17 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
-   use dondolo_counts_file, only : counts_file_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
+   use dondolo_population_case, only : find_start
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
-   use dondolo_run_population, only : find_start
+   use dondolo_store, only : store_type
    use dondolo_text, only : rounded, to_text
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_input_type
@@ -37,9 +37,8 @@ contains
 
       type(scale_warning_type) :: scales
       type(wall_warning_type) :: oddities
-      type(counts_file_type) :: file
+      type(store_type) :: store
       type(work_type) :: work
-      logical :: has_begun
 
       if (case%job%task /= 'history') call plan_case(case, work, scales, error)
       if (allocated(error)) return
@@ -48,7 +47,7 @@ contains
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
       if (case%job%task == 'typology') then
-         call find_start(case, file, has_begun, error)
+         call find_start(case, store, error)
          if (.not. allocated(error)) call print_population(case, error)
          if (allocated(error)) return
          oddities = case%survey%oddities
@@ -70,9 +69,9 @@ contains
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
-      if (case%job%task == 'typology' .and. has_begun) write (output_unit, '(a)') 'of these an earlier run has done '// &
-         & to_text(file%work%histories)//', '//to_text(file%done - file%first + 1)//' of '// &
-         & to_text(file%last - file%first + 1)//' rows, in '//file%path
+      if (store%done > 0) write (output_unit, '(a)') 'of these an earlier run has done '// &
+         & to_text(store%work%histories)//', '//to_text(store%done)//' of '// &
+         & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//store%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
       call print_warnings(oddities, case%suite%records, case, scales)

@@ -80,8 +80,8 @@ contains
       histories = results%work%histories
       if (case%solver%solver%estimate_error) histories = histories/2
       if (results%resumed > 0) then
-         write (output_unit, '(a)') to_text(histories)//' histories, those of rows '//to_text(case%survey%first)//' to '// &
-            & to_text(results%resumed)//' by an earlier run, engine '//engines
+         write (output_unit, '(a)') to_text(histories)//' histories, those of '//counted(results%resumed, 'row')// &
+            & ' by an earlier run, engine '//engines
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
             & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//counted(threads, 'thread')// &

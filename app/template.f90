@@ -125,6 +125,7 @@ contains
       if (len_trim(property%unit) > 0) comment = comment//', '//trim(property%unit)
       if (len_trim(property%zero) > 0 .and. index(property%meaning, '0:') == 0) &
          & comment = comment//'; 0: '//trim(property%zero)
+      if (len_trim(property%more) > 0) comment = comment//': '//trim(property%more)
       count = number_of_choices(property%choices)
       if (count > 0) comment = comment//': '//join(property%choices(:count))
       if (property%name /= 'task' .and. property%name /= 'output') return

@@ -5,7 +5,6 @@ they are available in the folder DONDOLO_RECORDS (default ../shared/records). Ch
 remove the folder to compute everything again.
 """
 
-import functools
 import os
 import warnings
 from dataclasses import replace
@@ -399,9 +398,9 @@ def risk(study):
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
-            curves = (functools.partial(state.mean, mechanism=mechanism), state.fit(mechanism))
-            mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
-            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {curve:.4g}")
+            curve = state[mechanism]
+            mean, fit = (dd.mean_annual_frequency(one, HAZARD).frequency for one in (curve.mean, curve.fit))
+            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
     alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = study.typology["all"].risk(HAZARD)

@@ -191,28 +191,10 @@ EDITS = [
     ),
     # Populations
     Edit(
-        "probabilities of mechanisms in series are added",
-        "whole[walls] += (1.0 - whole[walls]) * rows[row]",
-        "whole[walls] += rows[row]",
-        "test_combination.py::test_mean_of_all_mechanisms",
-    ),
-    Edit(
-        "the mean over walls ignores weights",
-        "[weights @ part / weights.sum() for part, weights in parts]",
-        "[part.mean(axis=0) for part, weights in parts]",
-        "test_combination.py::test_mean_of_all_mechanisms",
-    ),
-    Edit(
         "the mean of one mechanism ignores its probabilities of occurrence",
         "weights = people.weights[rows] * people.p_occ[rows]",
         "weights = people.weights[rows]",
         "test_combination.py::test_mean_of_one_mechanism",
-    ),
-    Edit(
-        "fractiles over walls ignore weights",
-        "reached = np.cumsum(weights[order], axis=0)",
-        "reached = np.cumsum(np.full(order.shape, weights.mean()), axis=0)",
-        "test_combination.py::test_fractiles_by_sorting",
     ),
     # Incremental dynamic analysis
     Edit(

@@ -2,7 +2,6 @@
 program test_case
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_case, only : case_type, read_case
-   use dondolo_counts, only : counts_type
    use dondolo_error, only : error_type, status_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -247,9 +246,7 @@ contains
    subroutine test_run()
       type(case_type) :: case
       type(results_type) :: stripes, history, typology
-      type(counts_type) :: first, second
       type(error_type), allocatable :: error
-      logical :: found
       integer :: i
 
       call suite('run')
@@ -283,16 +280,13 @@ contains
       call check_ok(error, 'typology')
       if (allocated(error)) return
       call check(size(typology%shown) == 3, 'a curve for each wall')
-      call typology%counts%open(error)
-      call typology%counts%next(first, found, error)
-      call typology%counts%next(second, found, error)
-      associate (whole => typology%typologies(size(typology%typologies, 1), 1))
+      associate (whole => typology%typologies(size(typology%typologies, 1), 1), reached => typology%population%reached)
          do i = 1, 4
-            call check_close(whole%mean_fraction(i), (2.0_wp*real(first%reached(i, 1), wp) &
-               & + real(second%reached(i, 1), wp))/6.0_wp, 1.0e-14_wp, 'weighted mean', atol=1.0e-15_wp)
+            call check_close(whole%mean_fraction(i), (2.0_wp*real(reached(i, 1, 1), wp) &
+               & + real(reached(i, 1, 2), wp))/6.0_wp, 1.0e-14_wp, 'weighted mean', atol=1.0e-15_wp)
          end do
       end associate
-      call typology%counts%remove()
+      call typology%remove_stores()
       call remove_folder(scratch//'/out')
    end subroutine test_run
 

@@ -1,24 +1,25 @@
 !> Curves of populations: every formula by hand on small populations, fractiles against sorting
 program test_typology
-   use, intrinsic :: iso_fortran_env, only : int64, real64
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_error, only : error_type
-   use dondolo_fractiles, only : bits_within, fractiles_type, new_fractiles
+   use dondolo_fractiles, only : weighted_fractiles
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_members, only : choose_members, members_type, population_probabilities
+   use dondolo_population_counts, only : new_population_counts, population_counts_type
+   use dondolo_roster, only : number_of_group, roster_row_type, roster_type
    use dondolo_stripes, only : stripes_type
    use dondolo_study, only : check_thresholds
    use dondolo_text, only : to_text
-   use dondolo_typology, only : combination_type, combine_population, fractile_shares, typology_type, whole_population
-   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
+   use dondolo_typology, only : combine_population, fractile_shares, typology_type, whole_population
+   use dondolo_wall, only : mechanism_names
+   use dondolo_wall_curves, only : wall_curves_type
    implicit none
 
    !> Levels of all populations here
    real(wp), parameter :: x(3) = [0.1_wp, 0.2_wp, 0.4_wp]
-   !> Fractiles have the digits of real64
-   real(wp), parameter :: tolerance = 0.5_wp*real(epsilon(1.0_real64), wp)
-   !> Collapses of four walls of 44 histories; the second has no curve
-   integer, parameter :: z(3, 4) = reshape([4, 20, 40, 0, 0, 10, 1, 9, 30, 10, 30, 43], [3, 4])
+   !> Collapses of five walls of 44 histories; the second and the last have no curve
+   integer, parameter :: z(3, 5) = reshape([4, 20, 40, 0, 0, 10, 1, 9, 30, 10, 30, 43, 0, 44, 44], [3, 5])
 
    call test_one_wall()
    call test_mean()
@@ -33,6 +34,7 @@ program test_typology
    call test_fractiles_by_hand()
    call test_fractiles_by_sorting()
    call test_order()
+   call test_any_level()
    call test_thresholds()
    call finish()
 
@@ -55,26 +57,62 @@ contains
       !> The wall
       type(wall_curves_type) :: wall
 
-      type(mechanism_counts_type) :: counts(size(rows))
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: name
       integer :: i
 
-      counts%mechanism = mechanisms
-      counts%histories = 44
-      if (present(histories)) counts%histories = histories
-      if (present(p_occ)) counts%p_occ = p_occ
-      name = ''
-      if (present(group)) name = group
+      wall%group = ''
+      if (present(group)) wall%group = group
+      wall%weight = weight
+      wall%mechanism = mechanisms
+      wall%p_occ = spread(1.0_wp, 1, size(rows))
+      if (present(p_occ)) wall%p_occ = p_occ
+      wall%histories = spread(44, 1, size(rows))
+      if (present(histories)) wall%histories = histories
+      allocate (wall%curve(size(rows)), wall%fraction(size(x), size(rows)))
       do i = 1, size(rows)
-         counts(i)%collapses = z(:, rows(i))
-         call fit_fragility(counts(i)%curve, x, real(z(:, rows(i)), wp), &
-            & spread(real(counts(i)%histories, wp), 1, size(x)), error)
+         wall%fraction(:, i) = real(z(:, rows(i)), wp)/real(wall%histories(i), wp)
+         call fit_fragility(wall%curve(i), x, real(z(:, rows(i)), wp), spread(real(wall%histories(i), wp), 1, size(x)), error)
          call check_ok(error, 'fit')
       end do
-      call new_wall_curves(wall, name, weight, counts, x, error)
+      call wall%fit(x, error)
       call check_ok(error, 'wall')
    end function wall_of
+
+   !> A population of walls
+   function population_of(walls) result(population)
+      !> The walls
+      type(wall_curves_type), intent(in) :: walls(:)
+      !> The population, fitted
+      type(population_counts_type) :: population
+
+      type(roster_type) :: roster
+      type(error_type), allocatable :: error
+      integer :: i, m, row
+
+      allocate (roster%row(4*size(walls)))
+      do i = 1, size(walls)
+         associate (wall => walls(i))
+            if (len(wall%group) > 0 .and. number_of_group(roster%groups, wall%group) == 0) &
+               & call roster%groups%add(wall%group)
+            do m = 1, size(wall%p_occ)
+               roster%count = roster%count + 1
+               roster%row(roster%count) = roster_row_type(m > 1, findloc(mechanism_names == wall%mechanism(m), .true., &
+                  & dim=1), number_of_group(roster%groups, wall%group), wall%weight, wall%p_occ(m))
+            end do
+         end associate
+      end do
+      call new_population_counts(population, roster, x, 1, error)
+      call check_ok(error, 'population')
+      do i = 1, size(walls)
+         do m = 1, size(walls(i)%p_occ)
+            row = population%first(i) + m - 1
+            population%histories(row) = walls(i)%histories(m)
+            population%reached(:, 1, row) = nint(walls(i)%fraction(:, m)*real(walls(i)%histories(m), wp))
+         end do
+      end do
+      call population%fit(error)
+      call check_ok(error, 'curves')
+   end function population_of
 
    !> The curves of a population that must be fine
    function combined(walls) result(typologies)
@@ -85,7 +123,7 @@ contains
 
       type(error_type), allocatable :: error
 
-      call combine_population(typologies, walls, x, error)
+      call combine_population(typologies, population_of(walls), 1, error)
       call check_ok(error, 'combine')
    end function combined
 
@@ -108,20 +146,17 @@ contains
    subroutine test_all_that_can()
       type(wall_curves_type) :: wall
       type(typology_type), allocatable :: curves(:)
-      type(fragility_type) :: fit
       type(error_type), allocatable :: error
       real(wp) :: p_occ
       integer :: i, k
 
       call suite('all that can')
-      call fit_fragility(fit, x, [0.0_wp, 44.0_wp, 44.0_wp], spread(44.0_wp, 1, 3), error)
-      call check(fit%status == 'separated', 'one mechanism')
+      wall = wall_of([5], ['one_sided'], 1.0_wp)
+      call check(wall%curve(1)%status == 'separated', 'one mechanism')
       do i = 1, 200
          p_occ = 0.005_wp*real(i, wp)
-         call new_wall_curves(wall, '', 1.0_wp + p_occ, [mechanism_counts_type('one_sided', p_occ, fit, &
-            & [0, 44, 44], 44)], x, error)
-         call check_ok(error, 'wall')
-         call combine_population(curves, [wall], x, error)
+         wall = wall_of([5], ['one_sided'], 1.0_wp + p_occ, [p_occ])
+         call combine_population(curves, population_of([wall]), 1, error)
          call check_ok(error, 'population')
          if (allocated(error)) return
          do k = 1, size(curves)
@@ -149,21 +184,16 @@ contains
 
    !> A zero with a sign is a zero
    subroutine test_signed_zero()
-      type(fractiles_type) :: fractiles
-      real(wp) :: values(3, 1)
+      real(wp) :: values(3)
       integer :: i
 
       call suite('signed zero')
-      call new_fractiles(fractiles, [0.16_wp, 0.5_wp, 0.84_wp], 1, 5.0_wp, 8)
-      do while (.not. fractiles%complete())
-         do i = 1, 5
-            call fractiles%add([merge(-0.0_wp, 0.25_wp*real(i - 1, wp), i <= 2)], 1.0_wp)
-         end do
-         call fractiles%end_pass()
-      end do
-      values = fractiles%values()
-      do i = 1, 3
-         call check_close(values(i, 1), 0.5_wp*real(i - 1, wp), 0.0_wp, 'fractile '//to_text(i))
+      call weighted_fractiles([-0.0_wp, -0.0_wp, 0.5_wp, 0.75_wp, 1.0_wp], spread(1.0_wp, 1, 5), 5.0_wp, &
+         & [0.16_wp, 0.5_wp, 0.84_wp], values)
+      call check_close(values(1), 0.0_wp, 0.0_wp, 'zero')
+      call check(sign(1.0_wp, values(1)) > 0.0_wp, 'without its sign')
+      do i = 2, 3
+         call check_close(values(i), 0.5_wp*real(i - 1, wp), 0.0_wp, 'fractile '//to_text(i))
       end do
    end subroutine test_signed_zero
 
@@ -186,7 +216,7 @@ contains
          call check_close(curve%beta_records, wall%curve(1)%beta, 1.0e-14_wp, 'dispersion between records')
          call check_close(curve%fitted, 1.0_wp, 0.0_wp, 'share with a curve')
          do k = 1, 3
-            call check_close(curve%fractile(k, 2), wall%curve(1)%probability(x(2)), tolerance, 'fractile')
+            call check_close(curve%fractile(k, 2), wall%curve(1)%probability(x(2)), 0.0_wp, 'fractile')
          end do
       end associate
       call check_close(wall%combined%theta, wall%curve(1)%theta, 0.0_wp, 'the wall is its mechanism')
@@ -273,11 +303,11 @@ contains
       low = wall_of([3], ['one_sided'], 1.0_wp, [0.9_wp])
       high = wall_of([1], ['one_sided'], 1.0_wp, [0.1_wp])
       curves = combined([low, high])
-      call check_close(curves(1)%fractile(3, 2), low%curve(1)%probability(x(2)), tolerance, 'low where it can occur')
+      call check_close(curves(1)%fractile(3, 2), low%curve(1)%probability(x(2)), 0.0_wp, 'low where it can occur')
       low%p_occ = 0.1_wp
       high%p_occ = 0.9_wp
       curves = combined([low, high])
-      call check_close(curves(1)%fractile(1, 2), high%curve(1)%probability(x(2)), tolerance, 'high where it can occur')
+      call check_close(curves(1)%fractile(1, 2), high%curve(1)%probability(x(2)), 0.0_wp, 'high where it can occur')
 
       ! A lone mechanism that may not occur
       curves = combined([wall_of([1], ['one_sided'], 1.0_wp, [0.25_wp])])
@@ -362,8 +392,8 @@ contains
       call check_text(names_of(curves), ':one_sided ', 'curves')
       call check(curves(1)%walls == 1, 'one wall')
       call check_close(curves(1)%fit%theta, walls(2)%curve(1)%theta, 1.0e-12_wp, 'theta')
-      call check_close(curves(1)%fractile(1, 2), walls(2)%curve(1)%probability(x(2)), tolerance, 'fractile')
-      call combine_population(curves, walls([1, 3]), x, error)
+      call check_close(curves(1)%fractile(1, 2), walls(2)%curve(1)%probability(x(2)), 0.0_wp, 'fractile')
+      call combine_population(curves, population_of(walls([1, 3])), 1, error)
       call check_error(error, 'weight: must be positive for at least one wall', 'no weight at all')
    end subroutine test_weights_of_nothing
 
@@ -380,10 +410,10 @@ contains
          walls(i) = one
          walls(i)%group = 'g'//to_text(i)
       end do
-      call combine_population(curves, walls(:64), x, error)
+      call combine_population(curves, population_of(walls(:64)), 1, error)
       call check_ok(error, '64 groups')
       call check(size(curves) == 65, 'a curve for each and for all')
-      call combine_population(curves, walls, x, error)
+      call combine_population(curves, population_of(walls), 1, error)
       call check_error(error, 'group = ''g65'': is one too many, at most 64 are allowed', '66 groups')
    end subroutine test_too_many_groups
 
@@ -393,45 +423,32 @@ contains
       integer :: i
 
       call suite('fractiles by hand')
-      found = fractiles_of([0.5_wp], [2.0_wp], 8)
+      found = fractiles_of([0.5_wp], [2.0_wp])
       call check(all(abs(found - 0.5_wp) <= 0.0_wp), 'one number')
-      found = fractiles_of([0.75_wp, 0.25_wp], [1.0_wp, 1.0_wp], 13)
+      found = fractiles_of([0.75_wp, 0.25_wp], [1.0_wp, 1.0_wp])
       call check(all(abs(found - [0.25_wp, 0.25_wp, 0.75_wp]) <= 0.0_wp), 'half of two is the lower')
-      found = fractiles_of([0.75_wp, 0.25_wp], [1.0_wp, 0.99_wp], 5)
+      found = fractiles_of([0.75_wp, 0.25_wp], [1.0_wp, 0.99_wp])
       call check(all(abs(found - [0.25_wp, 0.75_wp, 0.75_wp]) <= 0.0_wp), 'less than half')
-      found = fractiles_of([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], spread(1.0_wp, 1, 5), 1)
+      found = fractiles_of([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp], spread(1.0_wp, 1, 5))
       call check(all(abs(found - [0.0_wp, 0.0_wp, 1.0_wp]) <= 0.0_wp), 'zeros and ones')
       ! Half of the weights is half of the weight, though rounding makes 0.3 twenty times less than half of forty times.
-      found = fractiles_of([(real(modulo(7*i, 40) + 1, wp)/64.0_wp, i=1, 40)], spread(0.3_wp, 1, 40), 11)
+      found = fractiles_of([(real(modulo(7*i, 40) + 1, wp)/64.0_wp, i=1, 40)], spread(0.3_wp, 1, 40))
       call check(all(abs(found - [7.0_wp, 20.0_wp, 34.0_wp]/64.0_wp) <= 0.0_wp), 'forty alike')
-      found = fractiles_of([1.0e-250_wp, 0.3_wp], [9.0_wp, 1.0_wp], 12)
+      found = fractiles_of([1.0e-250_wp, 0.3_wp], [9.0_wp, 1.0_wp])
       call check(found(2) < 1.0e-200_wp .and. found(2) > 0.0_wp, 'a very small number is not zero')
-      call check(bits_within(2_int64**25, 60_int64) == 13, 'many bits for few')
-      call check(bits_within(2_int64**25, 2_int64**40) == 1, 'one bit for very many')
    end subroutine test_fractiles_by_hand
 
-   !> Fractiles of one series
-   function fractiles_of(numbers, weights, bits) result(found)
+   !> Fractiles of numbers of which some have no weight
+   function fractiles_of(numbers, weights) result(found)
       !> The numbers
       real(wp), intent(in) :: numbers(:)
       !> Their weights
       real(wp), intent(in) :: weights(:)
-      !> Bits of a pass
-      integer, intent(in) :: bits
       !> Their fractiles
       real(wp) :: found(3)
 
-      type(fractiles_type) :: fractiles
-      integer :: i
-
-      call new_fractiles(fractiles, fractile_shares, 1, sum(weights), bits)
-      do while (.not. fractiles%complete())
-         do i = 1, size(numbers)
-            if (weights(i) > 0.0_wp) call fractiles%add(numbers(i:i), weights(i))
-         end do
-         call fractiles%end_pass()
-      end do
-      found = reshape(fractiles%values(), [3])
+      call weighted_fractiles(pack(numbers, weights > 0.0_wp), pack(weights, weights > 0.0_wp), sum(weights), &
+         & fractile_shares, found)
    end function fractiles_of
 
    !> The same by its definition: sorted, the first at which the weight is reached
@@ -459,7 +476,7 @@ contains
    !> Random numbers and weights, with ties, zeros, ones and weights of nothing
    subroutine test_fractiles_by_sorting()
       real(wp), allocatable :: numbers(:), weights(:), u(:)
-      integer :: trial, n, bits, wrong
+      integer :: trial, n, wrong
       integer, allocatable :: seed(:)
 
       call suite('fractiles by sorting')
@@ -469,7 +486,6 @@ contains
       wrong = 0
       do trial = 1, 300
          n = 1 + modulo(7*trial, 120)
-         bits = 1 + modulo(trial, 13)
          if (allocated(numbers)) deallocate (numbers, weights, u)
          allocate (numbers(n), weights(n), u(n))
          call random_number(numbers)
@@ -482,11 +498,8 @@ contains
          where (u > 0.9_wp) numbers = 1.0_wp
          where (u > 0.4_wp .and. u < 0.5_wp) weights = 0.0_wp
          weights(1) = 0.5_wp
-         ! Numbers with no more digits than real64
-         numbers = real(real(numbers, real64), wp)
-         if (any(abs(fractiles_of(numbers, weights, bits) - sorted_fractiles(numbers, weights)) > 0.0_wp)) then
-            wrong = wrong + 1
-         end if
+         if (any(abs(fractiles_of(numbers, weights) - sorted_fractiles(numbers, weights)) > 0.0_wp)) &
+            & wrong = wrong + 1
       end do
       call check(wrong == 0, to_text(wrong)//' of 300 samples differ from sorting')
    end subroutine test_fractiles_by_sorting
@@ -514,6 +527,48 @@ contains
          call check_close(again(3)%mean_curve(2), all%mean_curve(2), 0.0_wp, 'the same order, the same mean')
       end associate
    end subroutine test_order
+
+   !> At levels that were not run: curves where there are fits, lines between the fractions where there are none
+   subroutine test_any_level()
+      type(population_counts_type) :: population
+      type(members_type) :: members
+      type(wall_curves_type) :: walls(3)
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: p(:, :)
+      real(wp), parameter :: levels(6) = [0.0_wp, 0.05_wp, 0.1_wp, 0.3_wp, 0.4_wp, 2.0_wp], &
+         & lines(6) = [0.0_wp, 0.0_wp, 0.0_wp, 5.0_wp, 10.0_wp, 10.0_wp]/44.0_wp
+      real(wp) :: mean(6), fractiles(2, 6)
+      integer :: k
+
+      call suite('any level')
+      walls(1) = wall_of([1, 3], ['one_sided', 'two_block'], 2.0_wp, [0.3_wp, 0.8_wp])
+      walls(2) = wall_of([2], ['one_sided'], 1.0_wp, group='b')
+      walls(3) = wall_of([4], ['one_sided'], 4.0_wp, group='b')
+      population = population_of(walls)
+      call population_probabilities(population, 1, levels, p, error)
+      call check_ok(error, 'probabilities')
+      call check(all(shape(p) == [6, 7]), 'rows and walls')
+      do k = 1, size(levels)
+         call check_close(p(k, 3), lines(k), 1.0e-15_wp, 'a wall without a fit', atol=1.0e-16_wp)
+         call check_close(p(k, 5), 1.0_wp - (1.0_wp - 0.3_wp*p(k, 1))*(1.0_wp - 0.8_wp*p(k, 2)), 1.0e-14_wp, &
+            & 'mechanisms in series', atol=1.0e-16_wp)
+         call check_close(p(k, 4), walls(3)%curve(1)%probability(levels(k)), 0.0_wp, 'a wall with a fit')
+      end do
+      call choose_members(members, population, 'all', 0)
+      mean = members%mean(p)
+      fractiles = members%fractiles(p, [0.9_wp, 0.1_wp])
+      do k = 1, size(levels)
+         call check_close(mean(k), (2.0_wp*p(k, 5) + p(k, 6) + 4.0_wp*p(k, 7))/7.0_wp, 1.0e-14_wp, 'mean', atol=1.0e-16_wp)
+         call check(all(abs(fractiles(:, k) - [maxval(p(k, 5:)), minval(p(k, 5:))]) <= 0.0_wp), 'fractiles')
+      end do
+      call choose_members(members, population, 'one_sided', number_of_group(population%groups, 'b'))
+      call check(all(members%column == [3, 4]) .and. all(members%weight >= [1.0_wp, 4.0_wp]), 'a mechanism of a group')
+      call choose_members(members, population, 'one_sided', 0)
+      call check(all(members%column == [1, 3, 4]), 'a mechanism')
+      call check_close(members%weight(1), 0.6_wp, 1.0e-15_wp, 'counts as often as it can occur')
+      call choose_members(members, population, 'all', 1)
+      call check(all(members%column == [6, 7]), 'a group')
+   end subroutine test_any_level
 
    !> Damage states: thresholds and who reaches them
    subroutine test_thresholds()

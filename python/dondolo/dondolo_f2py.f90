@@ -1080,69 +1080,61 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    !$omp end parallel do
 end subroutine fit_curves
 
-! Curves of rows (mechanisms of walls), of their walls and of the population. texts: name, mechanism and group of each
-! row; rows: how many each wall has. Integers: number of the population's curves, statuses of the rows, of the walls and
-! of the population's curves, and the number of walls in each of these; reals: numbers of the curves of the rows and of
-! the walls, fractions of collapse of the walls, then for each of the population's curves weight, dispersions between
-! walls and between records, share with a curve, saturation, histories, mean fractions, mean curve, fractiles (3 a level), numbers;
-! text: group and mechanism of the population's curves, then warnings
-subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, rows, w, handle, sizes, stat, message)
+! Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
+! of its wall; shares: weight and probability of occurrence of each row; rows: how many each wall has. Integers: number of
+! the population's curves, statuses of the rows, of the walls and of the population's curves, and the number of walls in
+! each of these; reals: numbers of the curves of the rows and of the walls, fractions of collapse of the walls, then for
+! each of the population's curves weight, dispersions between walls and between records, share with a curve, saturation,
+! histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group and mechanism of the population's
+! curves, then warnings
+subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_room, pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
    use dondolo_error, only : error_type
-   use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_lines, only : lines_type
+   use dondolo_population_boundary, only : new_population
+   use dondolo_population_counts, only : population_counts_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_wall_curves, only : mechanism_counts_type, new_wall_curves, wall_curves_type
+   use dondolo_wall_curves, only : wall_curves_type
    use dondolo_warnings, only : fit_warning_type
    implicit none
-   character(len=*), intent(in) :: texts
+   character(len=*), intent(in) :: texts, names
    integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
-   real(c_double), intent(in) :: levels(m), weights(r), p_occ(r)
+   real(c_double), intent(in) :: levels(m), shares(2, r)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message
-   type(wall_curves_type), allocatable :: walls(:)
-   type(fragility_type), allocatable :: curves(:)
+   type(population_counts_type) :: population
+   type(wall_curves_type) :: wall
    type(typology_type), allocatable :: groups(:)
    type(fit_warning_type) :: fits
    type(lines_type) :: words, lines
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
-   type(mechanism_counts_type), allocatable :: counts(:)
    real(c_double), allocatable :: parts(:, :), whole(:, :)
-   integer :: first, last, i
+   integer :: i
 
    handle = 0
    sizes = 0
    call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
+   if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+   if (.not. allocated(error)) call population%fit(error)
+   if (.not. allocated(error)) call combine_population(groups, population, 1, error)
    if (.not. allocated(error)) then
-      allocate (walls(w), curves(r), counts(r), whole(m, w))
-      call split_lines(texts, words)
-   end if
-   do i = 1, r
-      if (allocated(error)) exit
-      call fit_fragility(curves(i), levels, real(collapses(:, i), c_double), &
-         & spread(real(histories(i), c_double), 1, m), error)
-      if (allocated(error)) exit
-      call fits%look(curves(i), words%line(3*i - 2)%text)
-      counts(i) = mechanism_counts_type(words%line(3*i - 1)%text, p_occ(i), curves(i), collapses(:, i), histories(i))
-   end do
-   last = 0
-   do i = 1, w
-      if (allocated(error)) exit
-      first = last + 1
-      last = last + rows(i)
-      call new_wall_curves(walls(i), words%line(3*first)%text, weights(first), counts(first:last), levels, &
-         & error)
-      parts = walls(i)%fractions()
-      whole(:, i) = parts(:, size(parts, 2))
-   end do
-   if (.not. allocated(error)) call combine_population(groups, walls, levels, error)
-   if (.not. allocated(error)) then
-      parcel%integers = [size(groups), (status_code(curves(i)), i=1, r), (status_code(walls(i)%combined), i=1, w), &
-         & (status_code(groups(i)%fit), i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
-      parcel%reals = [(pack_curve(curves(i)), i=1, r), (pack_curve(walls(i)%combined), i=1, w), &
+      call split_lines(names, words)
+      do i = 1, r
+         call fits%look(population%curve(1, i), words%line(i)%text)
+      end do
+      allocate (whole(m, w))
+      do i = 1, w
+         wall = population%wall(i, 1)
+         parts = wall%fractions()
+         whole(:, i) = parts(:, size(parts, 2))
+      end do
+      parcel%integers = [size(groups), (status_code(population%curve(1, i)), i=1, r), &
+         & (status_code(population%combined(1, i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups)), &
+         & (groups(i)%walls, i=1, size(groups))]
+      parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r), (pack_curve(population%combined(1, i)), i=1, w), &
          & whole, (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
          & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
          & pack_curve(groups(i)%fit), i=1, size(groups))]
@@ -1156,6 +1148,299 @@ subroutine fit_walls(texts, levels, collapses, m, r, histories, weights, p_occ, 
    end if
    call report(error, stat, message)
 end subroutine fit_walls
+
+! A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
+! statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
+! probabilities = 1 a parcel has their number as integer and their probabilities as reals (members, n)
+subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
+      & x, n, q, k, probabilities, mean, fractiles, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : check_room, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_members, only : choose_members, members_type, population_probabilities
+   use dondolo_population_boundary, only : new_population, set_curves
+   use dondolo_population_counts, only : population_counts_type
+   use dondolo_roster, only : number_of_group
+   implicit none
+   character(len=*), intent(in) :: texts, mechanism, group
+   integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(r), rows(w), statuses(r)
+   real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
+   real(c_double), intent(out) :: mean(n), fractiles(k, n)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   ! Numbers that are held at a time: a few tens of MB
+   integer, parameter :: most = 2000000
+   type(population_counts_type) :: population
+   type(members_type) :: members
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   real(c_double), allocatable :: p(:, :), all(:, :)
+   integer :: first, last, part
+
+   handle = 0
+   sizes = 0
+   mean = 0
+   fractiles = 0
+   call check_room(error, r + w, reals=real(most, c_double))
+   if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+   if (.not. allocated(error)) then
+      call set_curves(population, curves, statuses)
+      call choose_members(members, population, mechanism, number_of_group(population%groups, group))
+      if (probabilities == 1) then
+         call check_room(error, reals=4.0_c_double*real(size(members%column), c_double)*n)
+         if (.not. allocated(error)) allocate (all(size(members%column), n))
+      end if
+   end if
+   part = max(1, most/(r + w))
+   do first = 1, n, part
+      if (allocated(error)) exit
+      last = min(first + part - 1, n)
+      call population_probabilities(population, 1, x(first:last), p, error)
+      if (allocated(error)) exit
+      mean(first:last) = members%mean(p)
+      fractiles(:, first:last) = members%fractiles(p, q)
+      if (probabilities == 1) all(:, first:last) = transpose(p(:, members%column))
+   end do
+   if (.not. allocated(error) .and. probabilities == 1) then
+      parcel%integers = [size(members%column)]
+      parcel%reals = reshape(all, [size(all)])
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine curve_of_population
+
+! Open the store of walls, the rows of a population, under a study: a file, or memory where the path is empty. thresholds:
+! EDP of the damage states, the last that of collapse. The handle must be given back by close_store
+subroutine open_store(path, study, walls, thresholds, k, handle, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_handles, only : find_study, find_walls
+   use dondolo_identity, only : add_wall, study_identity
+   use dondolo_population_boundary, only : hold_store
+   use dondolo_store, only : open_file => open_store, store_type
+   use dondolo_store_format, only : identity_type
+   use dondolo_study, only : study_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   character(len=*), intent(in) :: path
+   integer(c_int64_t), intent(in) :: study, walls
+   integer(c_int), intent(in) :: k
+   real(c_double), intent(in) :: thresholds(k)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(study_type), pointer :: chosen
+   type(wall_type), pointer :: people(:)
+   type(study_type) :: own
+   type(identity_type) :: identity
+   type(store_type) :: store
+   type(fingerprint_type) :: fingerprint
+   type(error_type), allocatable :: error
+   integer :: i
+
+   handle = 0
+   call find_study(study, chosen, error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
+   if (.not. allocated(error)) then
+      own = chosen
+      own%thresholds = thresholds
+      do i = 1, size(people)
+         call add_wall(fingerprint, people(i))
+      end do
+      call study_identity(own, fingerprint, size(people), 1, size(people), identity)
+      call open_file(store, path, identity, error)
+   end if
+   if (.not. allocated(error)) call hold_store(store, handle)
+   call report(error, stat, message)
+end subroutine open_store
+
+! Which of the w rows a store has (1), and the counts of what was computed for them in the order of work_names
+subroutine store_state(handle, w, is_there, work)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_population_boundary, only : store_of
+   use dondolo_store, only : store_type
+   implicit none
+   integer(c_intptr_t), intent(in) :: handle
+   integer(c_int), intent(in) :: w
+   integer(c_int), intent(out) :: is_there(w)
+   real(c_double), intent(out) :: work(7)
+   type(store_type), pointer :: store
+   integer :: i
+
+   store => store_of(handle)
+   is_there = [(merge(1, 0, store%has(i)), i=1, w)]
+   work = real(store%work%counts(), c_double)
+end subroutine store_state
+
+! Make a store this process's to put rows in
+subroutine claim_store(handle, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_population_boundary, only : store_of
+   use dondolo_store, only : store_type
+   implicit none
+   integer(c_intptr_t), intent(in) :: handle
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(store_type), pointer :: store
+   type(error_type), allocatable :: error
+
+   store => store_of(handle)
+   call store%claim(error)
+   call report(error, stat, message)
+end subroutine claim_store
+
+! Run w walls, rows of a population the first of which has number first, under a study; thresholds as for open_store.
+! Integers: a block that put_block takes
+subroutine run_rows(study, walls, w, thresholds, k, first, handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use dondolo_boundary, only : check_interrupt, check_room, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_study, find_walls
+   use dondolo_population, only : member_type
+   use dondolo_population_boundary, only : pack_block
+   use dondolo_row_result, only : row_result_type, shape_type
+   use dondolo_run_rows, only : run_block => run_rows
+   use dondolo_study, only : study_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   !f2py threadsafe
+   integer(c_int64_t), intent(in) :: study, walls
+   integer(c_int), intent(in) :: w, k, first
+   real(c_double), intent(in) :: thresholds(k)
+   integer(c_intptr_t), intent(out) :: handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(study_type), pointer :: chosen
+   type(wall_type), pointer :: people(:)
+   type(study_type) :: own
+   type(member_type), allocatable :: members(:)
+   type(row_result_type), allocatable :: rows(:)
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   integer :: i
+
+   handle = 0
+   sizes = 0
+   call check_room(error, walls=w)
+   if (.not. allocated(error)) call find_study(study, chosen, error)
+   if (.not. allocated(error)) call find_walls(walls, people, error)
+   if (.not. allocated(error)) then
+      own = chosen
+      own%thresholds = thresholds
+      allocate (members(w))
+      members%wall = people(:w)
+      call run_block(own, members, rows, error, 0, 0)
+   end if
+   if (.not. allocated(error)) call check_interrupt(error)
+   if (.not. allocated(error)) then
+      rows%row = [(first + i - 1, i=1, w)]
+      call pack_block(rows, shape_type(size(own%levels), size(thresholds)), parcel%integers)
+      call send(parcel, handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine run_rows
+
+! Put a block of rows into a store that was claimed; rows that are there already stay as they are
+subroutine put_block(handle, block, n, count, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_intptr_t
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_population_boundary, only : bytes_of_integers, store_of
+   use dondolo_row_result, only : row_result_type
+   use dondolo_store, only : store_type
+   use dondolo_store_format, only : unpack_entries
+   implicit none
+   integer(c_intptr_t), intent(in) :: handle
+   integer(c_int), intent(in) :: n, count, block(n)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(store_type), pointer :: store
+   type(row_result_type), allocatable :: rows(:)
+   type(error_type), allocatable :: error
+   character(len=:), allocatable :: bytes
+   logical :: are_whole
+
+   store => store_of(handle)
+   call bytes_of_integers(block, bytes)
+   call unpack_entries(bytes, store%identity%shape, count, rows, are_whole)
+   if (.not. are_whole) then
+      call raise_failure(error, 'a block of rows was damaged on its way')
+   else
+      call store%put(rows, error)
+   end if
+   call report(error, stat, message)
+end subroutine put_block
+
+! What a store has of its rows. Integers: histories of a stripe of each row, how many of them reach each state (levels,
+! states, rows), 0 for rows that are not there; then the flags of the rows that are there, eight a byte, each row from a
+! byte of its own on, and the number of these bytes last
+subroutine read_store(handle, parcel_handle, sizes, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
+   use dondolo_boundary, only : check_room, parcel_type, report, send
+   use dondolo_error, only : error_type
+   use dondolo_population_boundary, only : store_of
+   use dondolo_row_result, only : row_result_type
+   use dondolo_store, only : store_type
+   implicit none
+   integer(c_intptr_t), intent(in) :: handle
+   integer(c_intptr_t), intent(out) :: parcel_handle
+   integer(c_int), intent(out) :: sizes(3), stat
+   character(len=2048), intent(out) :: message
+   type(store_type), pointer :: store
+   type(row_result_type) :: row
+   type(parcel_type) :: parcel
+   type(error_type), allocatable :: error
+   integer(c_int), allocatable :: histories(:), reached(:, :, :)
+   character(len=:), allocatable :: flags, more
+   integer :: i, at
+
+   parcel_handle = 0
+   sizes = 0
+   store => store_of(handle)
+   associate (rows => store%identity%last, shape => store%identity%shape)
+      call check_room(error, reals=8.0_c_double*rows*(shape%levels*shape%states + 16.0_c_double))
+      if (.not. allocated(error)) then
+         allocate (histories(rows), reached(shape%levels, shape%states, rows), source=0)
+         allocate (character(len=1024) :: flags)
+         at = 0
+         do i = 1, rows
+            if (.not. store%has(i)) cycle
+            call store%read(i, row, error)
+            if (allocated(error)) exit
+            histories(i) = row%histories
+            reached(:, :, i) = row%reached(shape)
+            if (at + len(row%flags) > len(flags)) then
+               allocate (character(len=2*(at + len(row%flags))) :: more)
+               more(:at) = flags(:at)
+               call move_alloc(more, flags)
+            end if
+            flags(at + 1:at + len(row%flags)) = row%flags
+            at = at + len(row%flags)
+         end do
+      end if
+   end associate
+   if (.not. allocated(error)) then
+      flags(at + 1:at + 3) = repeat(achar(0), 3)
+      parcel%integers = [histories, reached, transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
+      call send(parcel, parcel_handle, sizes)
+   end if
+   call report(error, stat, message)
+end subroutine read_store
+
+! End with a store: its rows are brought into order if all are there, and its handle is of no use any more
+subroutine close_store(handle)
+   use, intrinsic :: iso_c_binding, only : c_intptr_t
+   use dondolo_population_boundary, only : release_store
+   implicit none
+   integer(c_intptr_t), intent(in) :: handle
+
+   call release_store(handle)
+end subroutine close_store
 
 ! What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
 subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, handle, sizes, stat, &

@@ -4,37 +4,37 @@ import os
 import random
 import re
 import signal
-import sqlite3
+import struct
 import subprocess
 import sys
 import time
-from contextlib import closing, suppress
 
 import numpy as np
 import pytest
 import study
-from dondolo._fortran import _binding, _core
-from dondolo.analysis.work import Work
-from dondolo.populations import blocks
-from dondolo.populations.checkpoint import Checkpoint
+from dondolo._fortran import _core
+from dondolo.populations.store import Store
 
 import dondolo as dd
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")]
 
-# Says of every block that it is kept, and ends with all results in a folder
+# Says of every block that it is run and that it is kept, and ends with all results in a folder
 RUN = """
 import sys, warnings
 from pathlib import Path
 import dondolo as dd, study
-from dondolo.populations import checkpoint
+from dondolo.populations import blocks, store
 warnings.simplefilter("ignore")
-keep = checkpoint.Checkpoint.keep
-def tell(self, first, walls, work, flags):
-    print("run", first, walls, flush=True)
-    keep(self, first, walls, work, flags)
-    print("kept", first, walls, flush=True)
-checkpoint.Checkpoint.keep = tell
+run, put = blocks.Shared.run, store.Store.put
+def tell_run(self, walls, first):
+    print("run", first, len(walls), flush=True)
+    tell_run.first = first
+    return run(self, walls, first)
+def tell_put(self, block, rows):
+    put(self, block, rows)
+    print("kept", tell_run.first, rows, flush=True)
+blocks.Shared.run, store.Store.put = tell_run, tell_put
 path, folder, block = sys.argv[1:]
 typology = dd.typology(**study.arguments(checkpoint=path, block=int(block), threads=1))
 study.write(typology, Path(folder))
@@ -49,11 +49,22 @@ def whole(tmp_path_factory):
     return study.contents(folder)
 
 
+def head_of(content):
+    """Length of the head of a checkpoint: its first line says how long the rest is."""
+    first, _, _ = content.partition(b"\n")
+    return len(first) + 1 + int(first.split()[3])
+
+
 def kept(path):
-    """Numbers of the walls that a checkpoint holds."""
-    with closing(sqlite3.connect(path)) as file:
-        rows = file.execute("SELECT first, rows FROM block").fetchall()
-    return {wall for first, walls in rows for wall in range(first, first + walls)}
+    """Numbers of the rows that a checkpoint holds, from 0."""
+    content = path.read_bytes() if path.exists() else b""
+    rows, at = set(), head_of(content) if b"\n" in content else len(content)
+    while at + 32 <= len(content):
+        row, _, length = struct.unpack_from("=iiq", content, at)
+        if at + length <= len(content):
+            rows.add(row - 1)
+        at += length
+    return rows
 
 
 def of(result, folder):
@@ -71,7 +82,7 @@ def rows_of(contents):
 @pytest.mark.parametrize("seed", range(3))
 def test_killed_at_random_moments(whole, tmp_path, seed):
     chance = random.Random(seed)
-    path, folder = tmp_path / "study.sqlite", tmp_path / "out"
+    path, folder = tmp_path / "study.counts", tmp_path / "out"
     before: set[int] = set()
     for end in [*(chance.randrange(1, 9) for _ in range(4)), None]:
         block = chance.randrange(1, 4)
@@ -96,36 +107,36 @@ def test_killed_at_random_moments(whole, tmp_path, seed):
 
 
 def test_complete(whole, tmp_path, monkeypatch):
-    path = tmp_path / "study.sqlite"
+    path = tmp_path / "study.counts"
     dd.typology(**study.arguments(checkpoint=path, block=7))
-    with closing(sqlite3.connect(path)) as file:
-        assert file.execute("SELECT * FROM progress").fetchall() == [(60, 60, "complete")]
-    monkeypatch.setattr(_core, "run_block", None)
-    # Weights and groups are of no matter to histories.
+    assert kept(path) == set(range(60))
+    monkeypatch.setattr(_core, "run_rows", None)
+    # Weights, groups and names are of no matter to histories.
     people = study.arguments()["population"]
     again = dd.typology(**study.arguments(checkpoint=path))
     assert of(again, tmp_path / "out") == whole
     other = dd.typology(**study.arguments(checkpoint=path, population=dd.Population(people.walls)))
     assert np.array_equal(other.collapses, again.collapses)
-    assert not np.array_equal(other.mean_fraction, again.mean_fraction)
+    assert not np.array_equal(other["all"].mean_fraction, again["all"].mean_fraction)
 
 
 def test_ctrl_c(whole, tmp_path, monkeypatch):
-    path = tmp_path / "study.sqlite"
-    run_block, calls = _core.run_block, []
+    path = tmp_path / "study.counts"
+    run_rows, calls = _core.run_rows, []
 
     def stop(*given):
         calls.append(given)
         if len(calls) > 5:
             raise KeyboardInterrupt
-        return run_block(*given)
+        return run_rows(*given)
 
-    monkeypatch.setattr(_core, "run_block", stop)
-    with pytest.raises(dd.Interrupted, match=r"interrupted: \d+ of 60 walls are complete") as caught:
+    monkeypatch.setattr(_core, "run_rows", stop)
+    with pytest.raises(dd.Interrupted, match=r"interrupted: 15 of 60 walls are complete") as caught:
         dd.typology(**study.arguments(checkpoint=path, block=3))
     monkeypatch.undo()
     partial = caught.value.partial
-    assert len(kept(path)) <= len(partial.walls) <= len(kept(path)) + 3
+    assert kept(path) == set(range(15))
+    assert len(partial.walls) == 15
     alone = dd.typology(**study.arguments(population=partial.population))
     assert rows_of(of(partial, tmp_path / "partial")) == rows_of(of(alone, tmp_path / "alone"))
     assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
@@ -138,17 +149,17 @@ CHANGES = {
     "im pga there, pgv here": {"im": "pgv"},
     "polarity both there, reversed here": {"polarity": "reversed"},
     "engine auto there, rk45 here": {"solver": dd.Solver(engine="rk45")},
-    "rtol 1e-08 there, 1e-06 here": {"solver": dd.Solver(rtol=1e-6)},
-    "atol 1e-10 there, 1e-09 here": {"solver": dd.Solver(atol=1e-9)},
-    "edp_limit 1.0 there, 0.9 here": {"solver": dd.Solver(edp_limit=0.9)},
-    "edp_thresholds 0.1, 0.4 there, none here": {"edp_thresholds": None},
+    "rtol 1e-8 there, 1e-6 here": {"solver": dd.Solver(rtol=1e-6)},
+    "atol 1e-10 there, 1e-9 here": {"solver": dd.Solver(atol=1e-9)},
+    "edp_limit 1 there, 0.9 here": {"solver": dd.Solver(edp_limit=0.9)},
+    "edp_thresholds 0.1, 0.4, 1 there, 1 here": {"edp_thresholds": None},
 }
 
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory):
     """A checkpoint of a run that is complete."""
-    path = tmp_path_factory.mktemp("finished") / "study.sqlite"
+    path = tmp_path_factory.mktemp("finished") / "study.counts"
     dd.typology(**study.arguments(checkpoint=path))
     return path
 
@@ -157,25 +168,44 @@ def finished(tmp_path_factory):
 def test_another_study(finished, sentence):
     with pytest.raises(dd.InputError) as caught:
         dd.typology(**study.arguments(checkpoint=finished, **CHANGES[sentence]))
-    assert str(caught.value).startswith(f"checkpoint = '{finished}': belongs to another study: ")
+    assert str(caught.value).startswith(f"{finished}: belongs to another study: ")
     assert sentence in str(caught.value).replace("number of rows", "")
-    if sentence not in ("other walls", "edp_limit 1.0 there, 0.9 here"):
+    if sentence not in ("other walls", "edp_limit 1 there, 0.9 here"):
         assert str(caught.value).endswith(f"study: {sentence}")
 
 
-def test_another_build(finished, monkeypatch):
-    monkeypatch.setattr(_binding, "build_variant", lambda: "z80")
-    with pytest.raises(dd.InputError, match=r"another study: build variant .* there, z80 here"):
-        dd.typology(**study.arguments(checkpoint=finished))
-    constants = _binding.constants()._replace(version="9.9")
-    monkeypatch.undo()
-    monkeypatch.setattr(_binding, "constants", lambda: constants)
-    with pytest.raises(dd.InputError, match=r"another study: dondolo \S+ there, 9.9 here"):
-        dd.typology(**study.arguments(checkpoint=finished))
+def test_another_build(finished, tmp_path):
+    path = tmp_path / "study.counts"
+    content = finished.read_bytes()
+    line, _, rest = content.partition(b"\n")
+    for name, other, why in (
+        ("build variant", b"z80", r"build variant z80 there, \S+ here"),
+        ("dondolo", b"9.9", r"dondolo 9\.9 there, \S+ here"),
+    ):
+        length = head_of(content) - len(line) - 1
+        head = re.sub(rb"(?m)^%s = .*$" % name.encode(), name.encode() + b" = " + other, rest[:length])
+        # Fingerprints are those of the store.
+        first = b"dondolo counts 3 %08d " % len(head)
+        path.write_bytes(first + fingerprint(head, b"") + b"\n" + head + rest[length:])
+        with pytest.raises(dd.InputError, match=f"another study: {why}$"):
+            dd.typology(**study.arguments(checkpoint=path))
 
 
-def test_files_that_are_no_checkpoints(finished, tmp_path):
-    path = tmp_path / "study.sqlite"
+def fingerprint(*texts):
+    """The fingerprint of some texts, by its definition."""
+    values = [1, 2]
+    for text in texts:
+        padded = text + b" " * (-len(text) % 4)
+        for number in (len(text), *struct.unpack(f"={len(padded) // 4}i", padded)):
+            values = [
+                (value * base + number % prime + 1) % prime
+                for value, base, prime in zip(values, (1103515245, 1597334677), (2147483647, 2147483629), strict=True)
+            ]
+    return b"%08X%08X" % tuple(values)
+
+
+def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
+    path = tmp_path / "study.counts"
 
     def refused(sentence, kind=dd.InputError):
         with pytest.raises(kind, match=sentence) as caught:
@@ -183,119 +213,58 @@ def test_files_that_are_no_checkpoints(finished, tmp_path):
         assert "\n" not in str(caught.value)
 
     path.write_text("height,thickness\n" * 1000)
-    refused("is no checkpoint, or damaged")
-    path.unlink()
-    with closing(sqlite3.connect(path)) as file:
-        file.execute("CREATE TABLE mine (x)")
-    refused("is a database, but no checkpoint of dondolo")
-    path.write_bytes(finished.read_bytes())
-    with closing(sqlite3.connect(path)) as file:
-        file.execute("PRAGMA user_version = 1")
+    refused(r"study\.counts: is no file of counts of dondolo, or its head is damaged")
+    path.write_bytes(b"dondolo counts 2" + bytes(1000))
     refused("was written by another version of dondolo")
     content = finished.read_bytes()
-    path.write_bytes(content[: len(content) // 2])
-    refused("is no checkpoint, or damaged")
-    with closing(sqlite3.connect(finished)) as file:
-        ((flags,),) = file.execute("SELECT flags FROM block ORDER BY first LIMIT 1")
-    place = content.index(flags[200:240]) + 5
-    path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
-    refused(r"is damaged \(the block of row 1\)")
-    # SQLite keeps a value of any type in any column.
-    for column, value in (
-        ("flags", "text"),
-        ("flags", 5),
-        ("work", b"bytes"),
-        ("work", "[]"),
-        ("rows", "many"),
-        ("rows", 2.5),
-    ):
-        path.write_bytes(content)
-        with closing(sqlite3.connect(path)) as file, file:
-            file.execute(f"UPDATE block SET {column} = ? WHERE first = 0", (value,))
-        refused(r"is damaged \(the block of row 1\)")
-    # A schema that is not UTF-8, or has no such column
-    for name in (b"fl\xe0gs", b"flegs"):
-        path.write_bytes(content.replace(b"flags BLOB", name + b" BLOB"))
-        refused("is no checkpoint, or damaged")
-    path.write_bytes(content)
-    with closing(sqlite3.connect(path)) as file, file:
-        file.execute("UPDATE study SET value = ? WHERE what = 'im'", (b"pga",))
-    refused("belongs to another study: im b'pga' there, pga here")
+    path.write_bytes(content[:100] + b"x" + content[101:])
+    refused("is no file of counts of dondolo, or its head is damaged")
     for wrong in (3, "", "a\0b", b"a"):
         with pytest.raises(dd.InputError, match=r"checkpoint = .*: must be the path of a file"):
             dd.typology(**study.arguments(checkpoint=wrong))
+    # A row that is damaged is computed again, with those behind it; a file that was cut goes on.
+    for cut in (5, head_of(content), len(content) // 2, len(content) - 1):
+        path.write_bytes(content[:cut])
+        assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
+        assert path.read_bytes() == content
+    place = len(content) // 2
+    path.write_bytes(content[:place] + bytes([content[place] ^ 16]) + content[place + 1 :])
+    assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
+    assert path.read_bytes() == content
     path.unlink()
     path.mkdir()
-    refused("cannot be written: unable to open", dd.DondoloError)
-    path = path / "missing" / "study.sqlite"
-    refused("cannot be written: unable to open", dd.DondoloError)
+    refused("is no file of counts of dondolo")
+    path = path / "missing" / "study.counts"
+    refused("cannot be written", dd.DondoloError)
+
+
+def store_of(path):
+    """The store of the study in this process."""
+    from dondolo.analysis.request import new_request
+
+    given = study.arguments()
+    request = new_request(
+        given["population"].walls, given["records"], given["levels"], "pga", given["polarity"], dd.Solver(), threads=1
+    )
+    return Store(path, request, np.array([*given["edp_thresholds"], 1.0]))
 
 
 def test_two_runs(tmp_path, monkeypatch):
-    path = tmp_path / "study.sqlite"
-    monkeypatch.setattr(blocks.Run, "add", interrupt)
-    with pytest.raises(dd.Interrupted):
-        dd.typology(**study.arguments(checkpoint=path, block=5))
-    monkeypatch.undo()
-    with Checkpoint(path, of_study(path)) as first:
-        assert len(list(first.blocks())) == 1
-        monkeypatch.setattr(blocks.Shared, "run", None)
+    path = tmp_path / "study.counts"
+    with store_of(path) as first:
+        first.claim()
         with pytest.raises(dd.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))
-    monkeypatch.undo()
     dd.typology(**study.arguments(checkpoint=path))
-
-
-def test_rows_are_counted_and_called_so(few, tmp_path):
-    """Two walls with three mechanisms"""
-    path = tmp_path / "study.sqlite"
-    walls = [
-        dd.OneSidedWall(1.5, 0.25, name="a"),
-        dd.TwoBlockWall(3.0, 0.25, name="a"),
-        dd.OneSidedWall(2, 0.3, name="b"),
-    ]
-    dd.typology(walls, few, [0.4, 0.8], checkpoint=path, progress=False)
-    with closing(sqlite3.connect(path)) as file:
-        assert file.execute("SELECT * FROM progress").fetchall() == [(3, 3, "complete")]
-    with pytest.raises(dd.InputError, match="another study: number of rows 3 there, 2 here"):
-        dd.typology(walls[:2], few, [0.4, 0.8], checkpoint=path, progress=False)
-
-
-def of_study(path):
-    """What a checkpoint says of its study."""
-    with closing(sqlite3.connect(path)) as file:
-        return dict(file.execute("SELECT what, value FROM study"))
-
-
-def claimed(file):
-    """Is a checkpoint this run's?"""
-    with suppress(dd.DondoloError):
-        file.claim()
-        return True
-    return False
-
-
-@pytest.mark.parametrize("first", [0, 1])
-def test_of_two_runs_that_begin_together_one_goes_on(tmp_path, monkeypatch, first):
-    path = tmp_path / "study.sqlite"
-    monkeypatch.setattr(blocks.Run, "add", interrupt)
-    with pytest.raises(dd.Interrupted):
-        dd.typology(**study.arguments(checkpoint=path, block=5))
-    given = of_study(path)
-    with Checkpoint(path, given) as one, Checkpoint(path, given) as other:
-        # Both read what is there, and then both want to write, in either order.
-        assert len(list(one.blocks())) == len(list(other.blocks())) == 1
-        files = [one, other] if first == 0 else [other, one]
-        refused = [file for file in files if not claimed(file)]
-        assert len(refused) == 1
-        files.remove(refused[0])
-        files[0].keep(20, 1, Work(), b"flags")
-    assert kept(path) == {0, 1, 2, 3, 4, 20}
+    # Who has all rows needs to write nothing.
+    with store_of(path) as first:
+        first.claim()
+        dd.typology(**study.arguments(checkpoint=path))
 
 
 def test_two_processes_that_begin_together(whole, tmp_path):
     """On a file that is not there, and on one that is not finished."""
-    path = tmp_path / "study.sqlite"
+    path = tmp_path / "study.counts"
     for turn in range(2):
         command = [sys.executable, "-c", RUN, str(path), str(tmp_path / "out"), "3"]
         options = {"cwd": os.path.dirname(__file__), "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
@@ -308,42 +277,49 @@ def test_two_processes_that_begin_together(whole, tmp_path):
             assert code == 0 or "is being written by another run" in said
         assert study.contents(tmp_path / "out") == whole
         if turn == 0:
-            with closing(sqlite3.connect(path)) as file, file:
-                file.execute("DELETE FROM block WHERE first > 30")
+            path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
 
 
-def test_a_file_that_cannot_be_written_can_be_read(finished, whole, tmp_path, monkeypatch):
-    connect = sqlite3.connect
-    monkeypatch.setattr(
-        sqlite3, "connect", lambda path, **options: connect(f"file:{path}?mode=ro", uri=True, **options)
-    )
+def test_a_file_that_cannot_be_written_can_be_read(finished, whole, tmp_path):
+    os.chmod(finished, 0o444)
     assert of(dd.typology(**study.arguments(checkpoint=finished)), tmp_path / "out") == whole
-    monkeypatch.undo()
-    with Checkpoint(finished, of_study(finished)), closing(sqlite3.connect(finished)) as file:
-        assert file.execute("SELECT * FROM progress").fetchall() == [(60, 60, "complete")]
 
 
-def interrupt(*given):
-    """Ctrl-C, after the first block was kept."""
-    raise KeyboardInterrupt
+# A process that may write files of a limited size only
+FULL = """
+import sys, warnings
+import dondolo as dd, study
+warnings.simplefilter("ignore")
+import resource
+resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+try:
+    dd.typology(**study.arguments(checkpoint=sys.argv[1], block=5, progress=False))
+except dd.DondoloError as error:
+    print(error)
+"""
 
 
-def test_full_disk(whole, tmp_path, monkeypatch):
-    path = tmp_path / "study.sqlite"
-    connect = sqlite3.connect
-
-    def small(*given, **settings):
-        file = connect(*given, **settings)
-        file.execute("PRAGMA page_size = 512")
-        file.execute("PRAGMA max_page_count = 10")
-        return file
-
-    monkeypatch.setattr(sqlite3, "connect", small)
-    with pytest.raises(dd.DondoloError, match=r"cannot be written: .*full; it holds \d+ of 60 rows"):
-        dd.typology(**study.arguments(checkpoint=path, block=5))
-    monkeypatch.undo()
+def test_full_disk(whole, tmp_path):
+    path = tmp_path / "study.counts"
+    command = [sys.executable, "-c", FULL, str(path)]
+    done = subprocess.run(command, cwd=os.path.dirname(__file__), capture_output=True, text=True)
+    assert re.search(r"cannot be written whole: is the disk full\? It holds \d+ of 60 rows", done.stdout), done
     assert 0 < len(kept(path)) < 60
     assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
+
+
+def test_rows_are_counted_and_called_so(few, tmp_path):
+    """Two walls with three mechanisms"""
+    path = tmp_path / "study.counts"
+    walls = [
+        dd.OneSidedWall(1.5, 0.25, name="a"),
+        dd.TwoBlockWall(3.0, 0.25, name="a"),
+        dd.OneSidedWall(2, 0.3, name="b"),
+    ]
+    dd.typology(walls, few, [0.4, 0.8], checkpoint=path, progress=False)
+    assert kept(path) == {0, 1, 2}
+    with pytest.raises(dd.InputError, match="another study: number of rows 3 there, 2 here"):
+        dd.typology(walls[:2], few, [0.4, 0.8], checkpoint=path, progress=False)
 
 
 def test_blocks_change_nothing(whole, tmp_path):

@@ -6,7 +6,6 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo.analysis.work import Work
-from dondolo.curves import members
 from dondolo.populations import plots
 from dondolo.populations.combination import combine
 from matplotlib.colors import to_rgba
@@ -245,13 +244,10 @@ def test_which_curves_there_are(people):
         people["all"].fractiles(0.3, q=0.0)
 
 
-def test_memory_in_parts(people, monkeypatch):
-    x = np.linspace(0.0, 2.0, 50)
-    mean, fractiles = people["all"].mean(x), people["all"].fractiles(x)
-    monkeypatch.setattr(members, "_NUMBERS", 30)
-    assert people["all"].mean(x) == pytest.approx(mean, rel=1e-14, abs=0.0)
-    assert np.array_equal(people["all"].fractiles(x), fractiles)
+def test_no_levels(people):
     assert people["all"].mean([]).shape == (0,)
+    assert people["all"].fractiles([]).shape == (3, 0)
+    assert people["all"].probabilities([]).shape[1:] == (0,)
 
 
 def test_walls_without_a_fit():

@@ -179,7 +179,7 @@ def test_few_tasks_are_in_flight(pool, crews):
 
 
 def test_ctrl_c(whole, tmp_path, pool):
-    path = tmp_path / "study.sqlite"
+    path = tmp_path / "study.counts"
     with pytest.raises(dd.Interrupted, match=r"interrupted: \d+ of 60 walls are complete") as caught:
         dd.typology(**study.arguments(executor=Disturbed(pool, 20, stop), block=1, checkpoint=path))
     assert 5 < len(caught.value.partial.walls) < 20
@@ -193,7 +193,7 @@ def stop():
 
 
 def test_a_broken_pool(whole, tmp_path):
-    path = tmp_path / "study.sqlite"
+    path = tmp_path / "study.counts"
 
     def kill():
         for process in list(executor._processes):
@@ -305,7 +305,7 @@ def mpiexec():
 
 
 def test_mpi(whole, tmp_path, mpiexec):
-    result = mpiexec(tmp_path, tmp_path / "out", tmp_path / "study.sqlite", 0)
+    result = mpiexec(tmp_path, tmp_path / "out", tmp_path / "study.counts", 0)
     assert result.returncode == 0, result.stderr
     assert study.contents(tmp_path / "out") == whole
     # MPI may print lines of its own.
@@ -314,7 +314,7 @@ def test_mpi(whole, tmp_path, mpiexec):
 
 def test_a_process_of_mpi_is_killed(whole, tmp_path, mpiexec):
     """MPI ends the whole run; the checkpoint is there."""
-    path = tmp_path / "study.sqlite"
+    path = tmp_path / "study.counts"
     assert mpiexec(tmp_path, tmp_path / "out", path, 20).returncode != 0
     assert not (tmp_path / "out").exists()
     assert path.exists()

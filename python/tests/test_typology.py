@@ -147,22 +147,20 @@ def test_errors(population, few):
 def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     from dondolo._fortran import _core
 
-    monkeypatch.setattr(request, "_FIRST_SAMPLES", 100_000)
-    monkeypatch.setattr(request, "_SECONDS", 0.0)
     done = []
-    run_block = _core.run_block
+    run_rows = _core.run_rows
 
     def stop(*arguments):
-        if sum(done) > 100:
+        if sum(done) > 2:
             raise KeyboardInterrupt
-        done.append(arguments[-1])
-        return run_block(*arguments)
+        done.append(arguments[2])
+        return run_rows(*arguments)
 
-    monkeypatch.setattr(_core, "run_block", stop)
+    monkeypatch.setattr(_core, "run_rows", stop)
     with pytest.raises(dd.Interrupted) as caught:
-        dd.typology(population, few, LEVELS, progress=False)
+        dd.typology(population, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
-    assert len(partial.walls) == sum(done) // (len(few) * len(LEVELS))
+    assert len(partial.walls) == sum(done)
     assert 0 < len(partial.walls) < len(population)
     # The partial result is the typology of these walls alone.
     monkeypatch.undo()
@@ -181,23 +179,21 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
 
     kinds = (dd.OneSidedWall, dd.TwoBlockWall)
     rows = [kind(2.0 + 0.1 * i, 0.25, name=f"wall {i}") for i in range(4) for kind in kinds]
-    run_block, calls = _core.run_block, []
+    run_rows, calls = _core.run_rows, []
 
     def stop(*arguments):
         calls.append(1)
         if len(calls) == 6:
             raise KeyboardInterrupt
-        return run_block(*arguments)
+        return run_rows(*arguments)
 
-    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1e9)
-    monkeypatch.setattr(_core, "run_block", stop)
+    monkeypatch.setattr(_core, "run_rows", stop)
     with pytest.raises(dd.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
         dd.typology(rows, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
     assert [wall.name for wall in partial.walls] == ["wall 0", "wall 0", "wall 1", "wall 1"]
     assert len(partial.flags.histories) == 4
     calls.clear()
-    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
     calls += [1] * 4
     with pytest.raises(dd.Interrupted, match="interrupted: no wall is complete"):
         dd.typology(rows, few, LEVELS, block=1, progress=False)
@@ -215,7 +211,6 @@ def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
-    monkeypatch.setattr(request, "_FIRST_SAMPLES", 1e9)
     with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     assert len(caught.value.partial.walls) == 3

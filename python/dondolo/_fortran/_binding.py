@@ -53,6 +53,8 @@ class Property(NamedTuple):
         As in a namelist; 'required', or 'optional' where there is none.
     smallest, largest : float
         Range of a number.
+    bounds : str
+        'positive' for a number greater than 0, 'less' for one less than the largest.
     choices, owners : tuple of str
         What a text can be; the mechanisms that have it, () for all.
     column : str
@@ -67,6 +69,7 @@ class Property(NamedTuple):
     default: str
     smallest: float
     largest: float
+    bounds: str
     choices: tuple[str, ...]
     owners: tuple[str, ...]
     column: str
@@ -145,6 +148,30 @@ class Parcel(NamedTuple):
     lines: list[str]
 
 
+class FlatPopulation(NamedTuple):
+    """A population as Fortran takes it, with the counts of one damage state.
+
+    Attributes
+    ----------
+    texts : bytes
+        Mechanism and group of each row, a line each.
+    levels : ndarray, shape (levels,)
+    counts : ndarray of int, shape (levels, rows)
+    histories : ndarray of int, shape (rows,)
+    shares : ndarray, shape (2, rows)
+        Weight of the wall and probability of occurrence.
+    rows : ndarray of int, shape (walls,)
+        How many each wall has.
+    """
+
+    texts: bytes
+    levels: FloatArray
+    counts: NDArray[np.int32]
+    histories: NDArray[np.int32]
+    shares: FloatArray
+    rows: NDArray[np.int32]
+
+
 class GroupData(NamedTuple):
     """A curve of a population, or of one of its groups."""
 
@@ -200,12 +227,13 @@ def properties(group: str) -> tuple[Property, ...]:
             default,
             float(smallest),
             float(largest),
+            bounds,
             tuple(choices.split()),
             tuple(owners.split()),
             column,
             meaning,
         )
-        for name, kind, unit, default, smallest, largest, choices, owners, column, meaning in rows
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
     )
 
 
@@ -483,26 +511,16 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
     return curves.T, [names[code - 1] for code in codes]
 
 
-def fit_walls(
-    texts: bytes,
-    levels: FloatArray,
-    collapses: NDArray[np.int32],
-    histories: NDArray[np.int32],
-    weights: FloatArray,
-    p_occ: FloatArray,
-    rows: NDArray[np.int32],
-) -> PopulationData:
+def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
 
-    Texts are name, mechanism and group of each mechanism of a wall, collapses (mechanisms, levels); rows tell how many
-    mechanisms each wall has.
+    Names are those of the wall of each row, one a line.
     """
-    parcel = receive(
-        *_core.fit_walls(texts, levels, np.ascontiguousarray(collapses).T, histories, weights, p_occ, rows)
-    )
+    parcel = receive(*_core.fit_walls(population.texts, names, *population[1:]))
+    levels, histories, rows = population.levels, population.histories, population.rows
     m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
-    names = ("", *constants().statuses)
-    status = [names[code] for code in parcel.integers[1 : 1 + r + w + number]]
+    known = ("", *constants().statuses)
+    status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
     walls = parcel.integers[1 + r + w + number :]
     numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
@@ -527,6 +545,33 @@ def fit_walls(
             )
         )
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, parcel.lines[2 * number :])
+
+
+def curve_of_population(
+    population: FlatPopulation,
+    curves: Sequence[tuple[str, float, float]],
+    which: tuple[str, str],
+    x: FloatArray,
+    q: FloatArray,
+    members: bool = False,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
+
+    Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. The probabilities are
+    there with `members` only.
+    """
+    statuses = constants().statuses
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [curve[1:] for curve in curves]
+    codes = np.array([statuses.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+    texts = (as_text("group", text) for text in which)
+    mean, fractiles, *sent = _core.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
+    check(*sent[2:])
+    found = np.zeros((0, len(x)))
+    if members:
+        parcel = receive(*sent)
+        found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
+    return mean, fractiles, found
 
 
 def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:

@@ -32,6 +32,10 @@ class MeanCurve(ABC):
     def members(self) -> Members:
         """The walls behind the curve."""
 
+    @abstractmethod
+    def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Mean (x,), fractiles (q, x) and, where they are wanted, probabilities (members, x) at some levels."""
+
     def probabilities(self, x: ArrayLike) -> FloatArray:
         """Probability that each wall collapses, mechanisms in series; of one mechanism, if it can occur.
 
@@ -52,7 +56,7 @@ class MeanCurve(ABC):
             A level that is negative or no number.
         """
         values = as_levels(x)
-        probabilities, _ = self.members.at(values.ravel())
+        _, _, probabilities = self._at(values.ravel(), np.zeros(0), members=True)
         return probabilities.reshape((len(probabilities), *values.shape))
 
     def mean(self, x: ArrayLike) -> Any:
@@ -73,10 +77,8 @@ class MeanCurve(ABC):
             As `probabilities`.
         """
         values = as_levels(x)
-        members = self.members
-        parts = (members.at(part) for part in members.parts(values.ravel()))
-        mean = np.concatenate([weights @ part / weights.sum() for part, weights in parts] or [np.zeros(0)])
-        return shaped(np.minimum(mean, 1.0), values)
+        mean, _, _ = self._at(values.ravel(), np.zeros(0))
+        return shaped(mean, values)
 
     def fractiles(self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84)) -> FloatArray:
         """Fractiles of the walls' curves at any levels: what a share of the weight does not exceed.
@@ -105,17 +107,5 @@ class MeanCurve(ABC):
             shares = np.array(np.nan)
         if not np.all((shares > 0.0) & (shares <= 1.0)):
             raise InputError("q: must be shares of the weight, above 0 and up to 1")
-        members = self.members
-        found = np.zeros((shares.size, values.size))
-        done = 0
-        for part in members.parts(values.ravel()):
-            probabilities, weights = members.at(part)
-            order = np.argsort(probabilities, axis=0, kind="stable")
-            reached = np.cumsum(weights[order], axis=0)
-            # The rounding that Fortran allows, too
-            targets = (shares.ravel() - 1e-12)[:, None] * weights.sum()
-            for k in range(probabilities.shape[1]):
-                place = np.minimum(np.searchsorted(reached[:, k], targets[:, 0]), len(weights) - 1)
-                found[:, done + k] = probabilities[order[place, k], k]
-            done += probabilities.shape[1]
+        _, found, _ = self._at(values.ravel(), shares.ravel())
         return found.reshape(shares.shape + values.shape)

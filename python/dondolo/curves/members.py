@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.fragility import Fragility
-
-# Numbers that curves of many walls are computed at together: a few tens of MB
-_NUMBERS = 2_000_000
 
 
 class Members:
@@ -33,18 +29,6 @@ class Members:
         # Of each wall its first row, its second row, ...
         number = np.diff(np.append(first, len(curves)))
         self.rows = [(np.flatnonzero(number > k), first[number > k] + k) for k in range(max(number, default=0))]
-
-    def parts(self, x: FloatArray) -> list[FloatArray]:
-        """Levels in parts that all walls together take little memory for."""
-        return np.array_split(x, max(1, math.ceil(len(x) * len(self.p_occ) / _NUMBERS)))
-
-    def at(self, x: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Probabilities (walls, x) and weights (walls,)."""
-        rows = self.rows_at(np.arange(len(self.theta)), x) * self.p_occ[:, None]
-        whole = np.zeros((len(self.weights), len(x)))
-        for walls, row in self.rows:
-            whole[walls] += (1.0 - whole[walls]) * rows[row]
-        return whole, self.weights
 
     def rows_at(self, rows: np.ndarray[Any, Any], x: FloatArray) -> FloatArray:
         """Probabilities (rows, x) of some rows, if their mechanisms can occur."""

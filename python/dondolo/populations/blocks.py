@@ -1,67 +1,78 @@
-"""A population in blocks of walls: run here or by an executor, kept in a checkpoint.
-
-Only the blocks in flight hold EDPs; of the others a bit of each history and state is kept.
-"""
+"""A population in blocks of walls: run here or by an executor, and put into a store."""
 
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Iterator
 from contextlib import nullcontext
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count
-from dondolo._fortran import _binding
+from dondolo._fortran import _binding, _core
 from dondolo.analysis.request import Request, progress_bar
-from dondolo.analysis.work import Work
 from dondolo.errors import DondoloError, InputError
-from dondolo.populations.flags import Flags
-from dondolo.populations.parts import Blocks, Part, Shared
-from dondolo.records.record import flatten
+from dondolo.populations.store import Contents, Store
+from dondolo.walls.wall import Wall
+from dondolo.walls.wall import upload as upload_walls
 
-# Loaded where they are used: databases, sockets and futures would make every import of dondolo slower by 20 ms.
+# Loaded where they are used: sockets and futures would make every import of dondolo slower.
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from dondolo.populations.checkpoint import Checkpoint
-    from dondolo.populations.crew import Crew
 
 IntArray = NDArray[np.int32]
 
+# What a block should take [s]: here, where Ctrl-C loses it, and in a worker; and the least where workers share out the
+# last ones of a long run
+_SECONDS_HERE, _SECONDS_THERE = 0.5, 1.5
+_LEAST_SECONDS = 0.1
+# A guess for the first block: histories of a thread
+_FIRST_HISTORIES = 25_000
+# The most histories of a thread in a block, for the memory of walls that hardly move: a few tens of MB
+_MOST_HISTORIES = 200_000
 
-@dataclass(frozen=True, eq=False)
-class Run:
-    """What is known of the walls so far.
+
+class Part(NamedTuple):
+    """What came of a block.
 
     Attributes
     ----------
-    flags : Flags
-        States that the histories reach.
-    exceedances : ndarray of int, shape (states, levels, walls)
-        How many do.
-    complete : ndarray of bool, shape (walls,)
-    works : list of Work
-        What was computed in each block.
+    block : ndarray of int
+        Its rows, as the store takes them.
+    seconds : float
+        What it took.
     """
 
-    flags: Flags
-    exceedances: IntArray
-    complete: NDArray[np.bool_]
-    works: list[Work]
+    block: IntArray
+    seconds: float
 
-    def add(self, first: int, part: Part) -> None:
-        """Take what came of a block."""
-        self.works.append(part.work)
-        if not part.walls:
-            return
-        self.flags.bits[self.flags.place(first, part.walls)] = np.frombuffer(part.flags, dtype=np.uint8)
-        here = slice(first, first + part.walls)
-        self.exceedances[:, :, here] = self.flags.counts(first, part.walls)
-        self.complete[here] = True
+
+class Shared(NamedTuple):
+    """What the blocks of a study share.
+
+    Attributes
+    ----------
+    request : Request
+        Without walls.
+    states : ndarray, shape (states,)
+        EDP from which on a history is in a state; the last is collapse.
+    """
+
+    request: Request
+    states: FloatArray
+
+    def run(self, walls: tuple[Wall, ...], first: int) -> Part:
+        """Run consecutive rows of the population, the first of which has a number, from 0."""
+        start = time.perf_counter()
+        study, people = self.request._study, upload_walls(walls)
+        with _binding.stoppable():
+            sent = _core.run_rows(study.number, people.number, len(walls), self.states, first + 1)
+        return Part(_binding.receive(*sent).integers, time.perf_counter() - start)
 
 
 def run_walls(
@@ -72,109 +83,122 @@ def run_walls(
     checkpoint: str | os.PathLike[str] | None,
     block: int | None,
     progress: bool,
-) -> Run:
+) -> Contents:
     """Run all walls, or those that are complete when Ctrl-C comes."""
-    from dondolo.populations.checkpoint import Checkpoint
     from dondolo.populations.crew import CrewError
 
     _check(executor, block)
-    levels, walls = len(request.levels), len(histories)
-    run = Run(
-        Flags.empty(histories, levels, len(states), len(request.records)),
-        np.zeros((len(states), levels, walls), dtype=np.int32),
-        np.zeros(walls, dtype=bool),
-        [],
-    )
-    with nullcontext() if checkpoint is None else Checkpoint(checkpoint, _study(request, states)) as file:
-        if file is not None:
-            for stored in file.blocks():
-                run.add(stored.first, Part(stored.rows, stored.flags, stored.work, 0.0, False))
-            if not run.complete.all():
-                file.claim()
+    with Store(checkpoint, request, states) as store:
+        if not store.complete().all():
+            store.claim()
         try:
-            _run_rest(run, request, states, executor, file, block, progress)
+            _run_rest(store, request, histories, states, executor, block, progress)
         except KeyboardInterrupt:
-            # What is complete is in `run`.
+            # What is complete is in the store.
             pass
         except CrewError as error:
-            later = "a checkpoint would keep them" if file is None else "the same call goes on from there"
+            later = "a checkpoint would keep them" if checkpoint is None else "the same call goes on from there"
             raise DondoloError(
-                f"executor: {error}; {run.complete.sum()} of {walls} rows are complete, {later}"
+                f"executor: {error}; {store.complete().sum()} of {len(histories)} rows are complete, {later}"
             ) from error.__cause__
-    return run
+        return store.read()
 
 
 def _run_rest(
-    run: Run,
+    store: Store,
     request: Request,
+    histories: IntArray,
     states: FloatArray,
     executor: Executor | None,
-    file: Checkpoint | None,
     block: int | None,
     progress: bool,
 ) -> None:
     """Run the walls that are not complete."""
     from dondolo.populations.crew import Crew
 
-    histories = run.flags.histories
+    complete = store.complete()
     sizes = histories.astype(np.int64) * len(request.levels)
-    blocks = Blocks(sizes, run.complete, request.threads or _all_threads(), block)
-    shared = Shared(request, states)
-    done = int(sizes[run.complete].sum())
+    seconds = _SECONDS_HERE if executor is None else _SECONDS_THERE
+    blocks = Blocks(sizes, complete, request.threads or _all_threads(), block, seconds)
+    shared = Shared(replace(request, walls=()), states)
 
     def parts_here() -> Iterator[tuple[int, int, Part]]:
         while place := blocks.take():
             first, count = place
-            here = slice(first, first + count)
-            yield first, count, shared.run(request.walls[here], histories[here], bar.update)
-
-    def parts_there(crew: Crew) -> Iterator[tuple[int, int, Part]]:
-        for first, count, part in crew.run(request.walls, histories, blocks):
-            bar.update(int(sizes[first : first + count].sum()))
-            yield first, count, part
+            yield first, count, shared.run(request.walls[first : first + count], first)
 
     with (
-        progress_bar(int(sizes.sum()), progress, f"{len(histories)} rows", "history", done) as bar,
+        progress_bar(
+            int(sizes.sum()), progress, f"{len(histories)} rows", "history", int(sizes[complete].sum())
+        ) as bar,
         nullcontext() if executor is None else Crew(executor, shared) as crew,
     ):
-        for first, count, part in parts_here() if crew is None else parts_there(crew):
-            if part.walls == count:
-                blocks.learn(first, count, part.seconds)
-                if file is not None:
-                    file.keep(first, count, part.work, part.flags)
-            run.add(first, part)
-            if part.interrupted:
-                raise KeyboardInterrupt
+        for first, count, part in parts_here() if crew is None else crew.run(request.walls, blocks):
+            store.put(part.block, count)
+            blocks.learn(first, count, part.seconds)
+            bar.update(int(sizes[first : first + count].sum()))
+
+
+class Blocks:
+    """The walls that are still to be run, cut into blocks of the time that is wished for.
+
+    Parameters
+    ----------
+    sizes : ndarray of int, shape (walls,)
+        Histories of each wall, of all stripes.
+    done : ndarray of bool, shape (walls,)
+        Walls that need not be run.
+    threads : int
+        Threads that a block is run on.
+    walls : int or None
+        Walls of a block, if given.
+    seconds : float
+        What a block should take.
+    """
+
+    def __init__(
+        self, sizes: NDArray[np.int64], done: NDArray[np.bool_], threads: int, walls: int | None, seconds: float
+    ) -> None:
+        self._seconds = seconds
+        self._ends = np.cumsum(sizes)
+        edges = np.flatnonzero(np.diff(np.concatenate([[True], done, [True]]).astype(np.int8)))
+        self._gaps = [(int(first), int(end)) for first, end in edges.reshape(-1, 2)]
+        self._gaps.reverse()
+        self._total = self._left = int(sizes[~done].sum())
+        self._size = float(_FIRST_HISTORIES * threads)
+        self._most = float(_MOST_HISTORIES * threads)
+        self._walls = walls
+
+    def take(self, shares: int = 1) -> tuple[int, int] | None:
+        """First wall and number of walls of the next block; what is left should go into so many shares at least."""
+        if not self._gaps:
+            return None
+        first, end = self._gaps.pop()
+        before = int(self._ends[first - 1]) if first else 0
+        if self._walls is None:
+            # Blocks become smaller towards the end, so that all workers end together.
+            least = min(self._size * _LEAST_SECONDS / self._seconds, self._total / shares)
+            size = min(self._size, max(self._left / shares, least))
+            cut = int(np.searchsorted(self._ends, before + size, side="right"))
+            cut = min(max(cut, first + 1), end)
+        else:
+            cut = min(first + self._walls, end)
+        if cut < end:
+            self._gaps.append((cut, end))
+        self._left -= int(self._ends[cut - 1]) - before
+        return first, cut - first
+
+    def learn(self, first: int, count: int, seconds: float) -> None:
+        """What a block took."""
+        histories = int(self._ends[first + count - 1] - (self._ends[first - 1] if first else 0))
+        wished = histories * self._seconds / max(seconds, 1e-6)
+        self._size = min(max(wished, 0.25 * self._size), 4.0 * self._size, self._most)
 
 
 def _all_threads() -> int:
     """How many threads OpenMP will take, for the size of the first blocks."""
     asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
     return int(asked) if asked.isdigit() and int(asked) else os.cpu_count() or 1
-
-
-def _study(request: Request, states: FloatArray) -> dict[str, str]:
-    """All that the flags depend on, for a checkpoint: weights, groups, threads and blocks are not among it."""
-    from dondolo.populations.checkpoint import digest
-
-    rtol, atol, *_ = (repr(float(value)) for value in request.settings)
-    flat = _binding.join_walls([wall._flat for wall in request.walls])
-    records = flatten(request.records)
-    return {
-        "dondolo": _binding.constants().version,
-        "build variant": _binding.build_variant(),
-        "number of rows": str(len(request.walls)),
-        "walls": digest(flat.texts, *(np.ascontiguousarray(values).tobytes() for values in flat[1:])),
-        "records": digest(records.names, *(values.tobytes() for values in records[1:])),
-        "im": request.im,
-        "levels": digest(request.levels.tobytes()),
-        "polarity": request.polarity,
-        "engine": request.engine,
-        "rtol": rtol,
-        "atol": atol,
-        "edp_limit": repr(float(states[-1])),
-        "edp_thresholds": ", ".join(repr(float(value)) for value in states[:-1]) or "none",
-    }
 
 
 def _check(executor: Executor | None, block: int | None) -> None:

@@ -12,7 +12,7 @@ from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.errors import Interrupted
-from dondolo.populations.curve import Group, IntArray
+from dondolo.populations.curve import Group, IntArray, flat_population
 from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population
 
@@ -59,14 +59,9 @@ def combine_rows(
     origin = {"im": im, "edp": float(edp_thresholds[-1])}
     first = people.first_rows
     rows = np.diff(np.append(first, len(walls))).astype(np.int32)
-    words = (
-        as_text("name", word)
-        for wall, group in zip(walls, people.groups, strict=True)
-        for word in (wall.name, wall.mechanism, group)
-    )
-    texts = b"".join(word + b"\n" for word in words)
     counts = exceedances[-1].T
-    data = _binding.fit_walls(texts, levels, counts, histories, people.weights, people.p_occ, rows)
+    names = b"".join(as_text("name", wall.name) + b"\n" for wall in walls)
+    data = _binding.fit_walls(names, flat_population(people, levels, counts, histories))
     own = tuple(
         curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
         for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)

@@ -19,12 +19,9 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from types import TracebackType
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dondolo._fortran import _binding
 from dondolo.errors import DondoloError, InputError
-from dondolo.populations.parts import Blocks, Part, Shared
+from dondolo.populations.blocks import Blocks, Part, Shared
 from dondolo.walls.wall import Wall
 
 # Studies whose records a worker keeps
@@ -101,11 +98,7 @@ def perform(head: Head, block: bytes, parcel: bytes | None) -> Answer:
         shared = _shared.get(head.key)
     if shared is None:
         return Answer(worker, None)
-    walls, histories = pickle.loads(block)
-    part = shared.run(walls, histories, lambda count: None)
-    if part.interrupted:
-        raise KeyboardInterrupt
-    return Answer(worker, part)
+    return Answer(worker, shared.run(*pickle.loads(block)))
 
 
 class Crew:
@@ -135,9 +128,7 @@ class Crew:
         self._supplied: dict[str, int] = {}
         self.sends = 0
 
-    def run(
-        self, walls: tuple[Wall, ...], histories: NDArray[np.int32], blocks: Blocks
-    ) -> Iterator[tuple[int, int, Part]]:
+    def run(self, walls: tuple[Wall, ...], blocks: Blocks) -> Iterator[tuple[int, int, Part]]:
         """First wall and number of walls of each block that is finished, and what came of it.
 
         What is finished when something goes wrong comes before the exception.
@@ -146,8 +137,7 @@ class Crew:
             while True:
                 while len(self._flying) < self._window and (place := blocks.take(2 * self._window)):
                     first, count = place
-                    here = slice(first, first + count)
-                    self._send(Task(first, count, pickle.dumps((walls[here], histories[here]))), carries=False)
+                    self._send(Task(first, count, pickle.dumps((walls[first : first + count], first))), carries=False)
                 if not self._flying:
                     return
                 for future in wait(self._flying, return_when=FIRST_COMPLETED).done:

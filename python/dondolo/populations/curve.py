@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, as_text
+from dondolo._fortran import _binding
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.members import Members
@@ -26,6 +27,25 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
+
+
+def flat_population(
+    people: Population, levels: FloatArray, counts: IntArray, histories: IntArray
+) -> _binding.FlatPopulation:
+    """A population as Fortran takes it; counts are those of a damage state (rows, levels)."""
+    words = (
+        as_text("group", word)
+        for wall, group in zip(people.walls, people.groups, strict=True)
+        for word in (wall.mechanism, group)
+    )
+    return _binding.FlatPopulation(
+        b"".join(word + b"\n" for word in words),
+        levels,
+        np.ascontiguousarray(counts).T,
+        histories,
+        np.stack([people.weights, people.p_occ]),
+        np.diff(np.append(people.first_rows, len(people))).astype(np.int32),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,6 +165,12 @@ class PopulationCurve(Group, MeanCurve):
             return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
         weights = people.weights[rows] * people.p_occ[rows]
         return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+
+    def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
+        source = self._source
+        population = flat_population(source.population, source.levels, source.exceedances[-1].T, source.histories)
+        curves = [(curve.status, curve.theta, curve.beta) for curve in source.curves]
+        return _binding.curve_of_population(population, curves, (self.mechanism, self.group), x, q, members)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curves of the walls, thin, with their weighted mean and fractiles.

@@ -30,7 +30,7 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None) -> Axes:
     members = curve.members
     walls = len(members.weights)
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
-    thin = np.concatenate([members.at(part)[0][drawn] for part in members.parts(grid)], axis=1)
+    thin = curve.probabilities(grid)[drawn]
     ax.plot(grid, thin.T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
     text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)

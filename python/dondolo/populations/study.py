@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 from dondolo._fortran import _binding
 from dondolo.analysis.request import new_request
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.analysis.work import Work
 from dondolo.errors import Interrupted
 from dondolo.populations.blocks import run_walls
 from dondolo.populations.combination import combine
@@ -100,9 +99,8 @@ def typology(
     rows = np.repeat(whole, np.diff(np.append(first, len(people))))
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
-    work = Work.total(run.works)
-    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, work)
-    flags, told = run.flags.chosen(np.flatnonzero(rows)), (*plan.warnings, *result.warnings)
+    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, run.work)
+    flags, told = run.flags.chosen(np.flatnonzero(rows[run.complete])), (*plan.warnings, *result.warnings)
     result = dataclasses.replace(result, flags=flags, warnings=told)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)

@@ -263,20 +263,23 @@ class OneSidedWall(Wall):
 
     Parameters
     ----------
-    height, thickness : float
-        Its size [m].
+    height : float
+        Height of the wall [m].
+    thickness : float
+        Thickness of the wall [m].
     density : float, optional
-        [kg/m3], 1800 if left out.
+        Density of the masonry [kg/m3], 1800 if left out.
     restitution : {'default', 'sorrentino', 'constant'}, optional
-        Model of the impacts against the walls behind (Sorrentino, AlShawa and Decanini 2011 by default).
+        Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
+        (2011).
     restitution_value : float, optional
-        Speed ratio, only with 'constant': 0 <= value < 1.
+        Speed after / before an impact, only with restitution = 'constant': 0 <= value < 1.
     restitution_factor : float, optional
         Factor on the speed ratio of any model, 1 if left out.
     gravity : float, optional
-        [m/s2], 9.81 if left out.
+        Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional
-        Name in tables and figures.
+        Name in the results, 'wall' if left out.
 
     Raises
     ------
@@ -319,16 +322,16 @@ class TwoBlockWall(Wall):
     Parameters
     ----------
     hinge : float, optional
-        Height of the hinge / height of the wall, 0.5 if left out.
+        Height of the intermediate hinge / height of the wall, 0.5 if left out.
     overburden : float, optional
-        Vertical load on the top [N per metre of wall], 0 if left out.
+        Vertical load on the top, per metre of wall [N/m], 0 if left out.
     eccentricity : float, optional
-        Its distance from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall that
-        folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
+        Distance of that load from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall
+        that folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
     bearing : {'inner', 'outer', 'centre'}, optional
-        Where the load bears, instead of the eccentricity: near the inner or the outer face, or on the centreline.
+        Where that load bears, instead of the eccentricity: near the inner or the outer face, or on the centreline.
     bearing_distance : float, optional
-        Distance of the load's resultant from the inner or the outer face [m]; half the length that joists bear on the
+        Distance of the load's resultant from the inner or the outer face [m]: half the length that joists bear on the
         wall, a third where they bear harder on its edge.
 
     Notes

@@ -15,7 +15,7 @@ module dondolo_history_group
    public :: history_properties
 
    !> Variables of the group
-   type(property_type), target, save, protected :: history_properties(3) = [ &
+   type(property_type), target, protected :: history_properties(3) = [ &
       & property_type('record', is_number_or_name, default=1.0_wp, &
       &   meaning='number in the catalogue from 1, or a record''s name in quotes'), &
       & property_type('scale', default=1.0_wp, positive=.true., meaning='factor on the record'), &

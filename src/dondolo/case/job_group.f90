@@ -22,7 +22,7 @@ module dondolo_job_group
       & reshape([character(len=choices_length) :: 'typology'], [most_choices], pad=blank)
 
    !> Variables of the group
-   type(property_type), target, save, protected :: job_properties(5) = [ &
+   type(property_type), target, protected :: job_properties(5) = [ &
       & property_type('task', is_text, word='stripes', choices=reshape(task_names, [most_choices], pad=blank), &
       &   meaning='what is to be done'), &
       & property_type('title', is_text, changes_results=.false., meaning='any text'), &

@@ -12,7 +12,7 @@ module dondolo_population_group
    public :: population_properties
 
    !> Variables of the group
-   type(property_type), target, save, protected :: population_properties(1) = [ &
+   type(property_type), target, protected :: population_properties(1) = [ &
       & property_type('file', is_text, required=.true., names='a CSV table with one row a wall', changes_results=.false., &
       &   example='data/walls/population.csv', meaning='table with one row a wall, from the folder of this file')]
 

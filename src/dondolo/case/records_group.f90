@@ -13,7 +13,7 @@ module dondolo_records_group
    public :: records_properties
 
    !> Variables of the group
-   type(property_type), target, save, protected :: records_properties(2) = [ &
+   type(property_type), target, protected :: records_properties(2) = [ &
       & property_type('catalogue', is_text, required=.true., names='a CSV table with one row a record', &
       &   changes_results=.false., example='data/records/synthetic44.csv', meaning='table with one row a record, from '// &
       &   'the folder of this file; its columns: file, dt_s, units, channel, format, and any others'), &

@@ -117,7 +117,7 @@ contains
       else if (name == '_history.csv') then
          call write_history(case, results, files)
       else if (case%job%task == 'typology') then
-         call write_rows(case, results%counts, name, files, error)
+         call write_rows(case, results, name, files, error)
       else
          call write_one_row(case, results%row, name, files, error)
       end if

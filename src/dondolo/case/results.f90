@@ -1,17 +1,18 @@
 !> What comes of a case.
 module dondolo_results
-   use dondolo_counts, only : counts_type
-   use dondolo_counts_stream, only : counts_stream_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_lines, only : lines_type
+   use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
+   use dondolo_store, only : store_type
+   use dondolo_stripe_counts, only : stripe_counts_type
    use dondolo_typology, only : typology_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: results_type, shown_row_type
+   public :: results_type, row_counts_type, shown_row_type
    public :: shown_rows
 
    !> Rows of a population that are shown one by one at the end of a run
@@ -27,18 +28,26 @@ module dondolo_results
       type(fragility_type) :: curve
    end type shown_row_type
 
+   !> Counts and curves of a wall, or of one of its mechanisms
+   type, extends(stripe_counts_type) :: row_counts_type
+      !> All its histories (histories, levels), if they are kept
+      type(response_type), allocatable :: response(:, :)
+   end type row_counts_type
+
    !> Results of a case; what its task does not make stays empty
    type :: results_type
       !> Counts and curves of the one wall, with all its histories: task 'stripes'
-      type(counts_type) :: row
-      !> Counts of all rows of the population: task 'typology'
-      type(counts_stream_type) :: counts
+      type(row_counts_type) :: row
+      !> What came of the rows of the population, in the order of rows: task 'typology'
+      type(store_type), allocatable :: stores(:)
+      !> Their counts and curves; none if only some of the rows were run
+      type(population_counts_type) :: population
       !> Curves of the population for each EDP threshold (curves, thresholds): task 'typology'; none if only some of its
       !> rows were run
       type(typology_type), allocatable :: typologies(:, :)
       !> The first rows of the population: task 'typology'
       type(shown_row_type), allocatable :: shown(:)
-      !> Last row that an earlier run had left, 0 if there was none: task 'typology'
+      !> How many rows an earlier run had left: task 'typology'
       integer :: resumed = 0
       !> The one response: task 'history'
       type(response_type) :: response
@@ -51,6 +60,8 @@ module dondolo_results
    contains
       !> The engines that have run, with the build variant
       procedure :: name_engines => name_engines_that_ran
+      !> Remove the stores
+      procedure :: remove_stores
    end type results_type
 
 contains
@@ -62,11 +73,23 @@ contains
       !> See name_engines
       character(len=:), allocatable, intent(out) :: text
 
-      if (allocated(self%counts%files)) then
-         call name_engines(self%work, text, self%counts%files(1)%key%variant)
-      else
-         call name_engines(self%work, text)
-      end if
+      character(len=:), allocatable :: variant
+
+      if (allocated(self%stores)) call self%stores(1)%identity%key%get('build variant', variant)
+      ! A variant that is not allocated is an argument that is not present
+      call name_engines(self%work, text, variant)
    end subroutine name_engines_that_ran
+
+   !> Remove the stores
+   subroutine remove_stores(self)
+      !> Results
+      class(results_type), intent(inout) :: self
+
+      integer :: i
+
+      do i = 1, size(self%stores)
+         call self%stores(i)%remove()
+      end do
+   end subroutine remove_stores
 
 end module dondolo_results

@@ -2,13 +2,13 @@
 !> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
-   use dondolo_counts, only : counts_type
-   use dondolo_counts_stream, only : counts_stream_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_report_rows, only : fragility_head, history_head, make_fragility_row, make_history_row, &
       & make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
    use dondolo_result_files, only : result_files_type
+   use dondolo_results, only : results_type, row_counts_type
+   use dondolo_row_result, only : row_result_type
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_table
@@ -20,44 +20,73 @@ module dondolo_row_reports
 contains
 
    !> Write one table of a population
-   subroutine write_rows(case, counts, name, files, error)
+   subroutine write_rows(case, results, name, files, error)
       !> The case
       type(case_type), intent(in) :: case
-      !> Counts of all rows
-      type(counts_stream_type), intent(inout) :: counts
+      !> Its results
+      type(results_type), intent(inout) :: results
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files, one of which was begun
       type(result_files_type), intent(inout) :: files
-      !> The population or the counts have changed
+      !> The population or a store has changed
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
       type(member_type) :: member
-      type(counts_type) :: row
-      logical :: found, is_there
+      type(row_counts_type) :: row
+      integer :: i
+      logical :: found
 
       call write_names(case, name, files)
-      call counts%open(error)
-      if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
-      do while (.not. allocated(error))
-         call reader%next(member, found, error)
-         if (.not. allocated(error)) call counts%next(row, is_there, error)
-         if (allocated(error)) exit
-         if (found .neqv. is_there) call raise_failure(error, case%population_path()//': has changed while it was read')
-         if (allocated(error) .or. .not. found) exit
-         call write_row(case, member, row, name, files, error)
-      end do
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      associate (population => results%population)
+         do i = 1, population%rows() + 1
+            if (allocated(error)) exit
+            call reader%next(member, found, error)
+            if (.not. allocated(error) .and. (found .neqv. i <= population%rows())) &
+               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (allocated(error) .or. .not. found) exit
+            row%histories = population%histories(i)
+            row%reached = population%reached(:, :, i)
+            row%curve = population%curve(:, i)
+            if (name == '_histories.csv') call read_histories(results, i, row, error)
+            if (.not. allocated(error)) call write_row(case, member, row, name, files, error)
+         end do
+      end associate
       call reader%close()
+      do i = 1, size(results%stores)
+         call results%stores(i)%close()
+      end do
    end subroutine write_rows
+
+   !> Histories of a row of a population
+   subroutine read_histories(results, number, row, error)
+      !> Results
+      type(results_type), intent(inout) :: results
+      !> Number of the row
+      integer, intent(in) :: number
+      !> The row: its histories are set
+      type(row_counts_type), intent(inout) :: row
+      !> A store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_result_type) :: stored
+      integer :: k
+
+      do k = 1, size(results%stores) - 1
+         if (number <= results%stores(k)%identity%last) exit
+      end do
+      call results%stores(k)%read(number, stored, error)
+      if (.not. allocated(error)) call move_alloc(stored%response, row%response)
+   end subroutine read_histories
 
    !> Write one table of the one wall of a case
    subroutine write_one_row(case, row, name, files, error)
       !> The case
       type(case_type), intent(in) :: case
       !> Counts of the wall, with all its histories
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files, one of which was begun
@@ -108,7 +137,7 @@ contains
       !> The wall
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
       !> Files
@@ -138,7 +167,7 @@ contains
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
       !> They cannot be chosen again
@@ -171,7 +200,7 @@ contains
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
 
@@ -195,7 +224,7 @@ contains
       !> The row
       type(member_type), intent(in) :: member
       !> Its counts
-      type(counts_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: row
       !> Files
       type(result_files_type), intent(inout) :: files
 

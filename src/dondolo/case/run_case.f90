@@ -9,7 +9,7 @@ module dondolo_run_case
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_results, only : results_type
-   use dondolo_run_population, only : run_population
+   use dondolo_population_case, only : run_population_case
    use dondolo_simulate, only : simulate
    use dondolo_stripes, only : multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_survey, only : check_size
@@ -61,7 +61,7 @@ contains
       case ('stripes')
          call run_stripes(case, results, error, team, progress)
       case ('typology')
-         call run_population(case, results, error, team, progress)
+         call run_population_case(case, results, error, team, progress)
       end select
    end subroutine run_case
 

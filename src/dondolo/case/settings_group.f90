@@ -5,7 +5,8 @@ module dondolo_settings_group
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, property_type
+   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, name_length, &
+      & property_type
    use dondolo_settings, only : settings_type
    implicit none
    private
@@ -24,10 +25,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(property_type), pointer :: table(:)
+      character(len=name_length), allocatable :: names(:)
       integer :: i
 
       call settings%get_table(table)
-      call group%check_names(table%name, error)
+      names = table%name
+      call group%check_names(names, error)
       do i = 1, size(table)
          if (allocated(error)) return
          if (group%has(trim(table(i)%name))) call read_value(group, table(i), settings, error)

@@ -19,7 +19,7 @@ module dondolo_stripes_group
    integer, parameter :: most_levels = 1000, most_thresholds = 100
 
    !> Variables of the group; first, last and count become levels
-   type(property_type), target, save, protected :: stripes_properties(6) = [ &
+   type(property_type), target, protected :: stripes_properties(6) = [ &
       & property_type('im', is_text, word='pga', meaning='intensity measure: also ''sa(0.5)'', ''saavg(0.2:2)'' (periods '// &
       &   'in s; levels in g), ''pgv'', ''arias'', ''cav'' (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)'), &
       & property_type('levels', is_list, optional=.true., instead='first, last and count', &

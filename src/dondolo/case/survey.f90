@@ -4,11 +4,13 @@ module dondolo_survey
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_identity, only : add_wall
    use dondolo_kinds, only : wp
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
+   use dondolo_roster, only : roster_type
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
@@ -19,7 +21,7 @@ module dondolo_survey
    implicit none
    private
 
-   public :: survey_type, survey_population, check_size, fingerprint_lines, number_of_group
+   public :: survey_type, survey_population, check_size, fingerprint_lines
 
    !> What a survey has found
    type :: survey_type
@@ -33,14 +35,14 @@ module dondolo_survey
       logical :: is_part = .false.
       !> Histories of these rows, all levels
       integer(int64) :: histories = 0
-      !> Names of the groups, in the order in which they appear
-      type(lines_type) :: groups
+      !> Its rows
+      type(roster_type) :: roster
       !> What there is to say of scale factors
       type(scale_warning_type) :: scales
       !> What there is to say of values that no masonry has
       type(wall_warning_type) :: oddities
-      !> Fingerprint of the table
-      type(fingerprint_type) :: fingerprint
+      !> Fingerprints of the lines of the table, and of the walls in it
+      type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -78,7 +80,9 @@ contains
          survey%rows = reader%row
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
-            call note_group(survey%groups, member%group, error)
+            call survey%roster%add(member)
+            call add_wall(survey%walls_fingerprint, member%wall)
+            if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)
             call add_place(error, reader%table%place())
@@ -103,34 +107,17 @@ contains
       if (.not. allocated(error)) call fingerprint_lines(file, survey%fingerprint, error)
    end subroutine survey_population
 
-   !> Note a group, if it is new
-   subroutine note_group(groups, name, error)
-      !> Names of the groups
+   !> Refuse a group that is one too many
+   subroutine refuse_group(groups, error)
+      !> Names of the groups; the last one is taken out again
       type(lines_type), intent(inout) :: groups
-      !> Name of a group, empty for none
-      character(len=*), intent(in) :: name
       !> There are too many
       type(error_type), allocatable, intent(out) :: error
 
-      if (len(name) == 0 .or. number_of_group(groups, name) > 0) return
-      if (groups%count == most_groups) then
-         call raise_input(error, 'group = '''//name//''': there may be at most '//to_text(most_groups)//' groups')
-      else
-         call groups%add(name)
-      end if
-   end subroutine note_group
-
-   !> Number of a group
-   pure integer function number_of_group(groups, name) result(number)
-      !> Names of the groups
-      type(lines_type), intent(in) :: groups
-      !> Name of a group; there is none of an empty name
-      character(len=*), intent(in) :: name
-
-      do number = groups%count, 1, -1
-         if (groups%line(number)%text == name) exit
-      end do
-   end function number_of_group
+      call raise_input(error, 'group = '''//groups%line(groups%count)%text//''': there may be at most '// &
+         & to_text(most_groups)//' groups')
+      groups%count = groups%count - 1
+   end subroutine refuse_group
 
    !> Check that the histories of a run can be counted; those of parts that are merged may be more
    subroutine check_size(file, histories, error)

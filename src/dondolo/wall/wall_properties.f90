@@ -30,7 +30,7 @@ module dondolo_wall_properties
 
    !> The rows, in the order in which a user thinks of them
    type(property_type), parameter :: rows(*) = [ &
-      & property_type('name', is_text, word='wall', column='wall', meaning='name in the results'), &
+      & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
@@ -52,17 +52,17 @@ module dondolo_wall_properties
       &   meaning='vertical load on the top, per metre of wall', usual_least=200.0_wp, usual_most=1.0e6_wp, &
       &   if_less='is it in kN/m?', if_more='is it per metre of wall?'), &
       & property_type('eccentricity', unit='m', default=0.0_wp, owners=two_block, meaning='distance of that load '// &
-      &   'from the centreline towards the active top hinge: the outer face where the wall folds outwards, negative '// &
-      &   'for an inner bearing'), &
+      &   'from the centreline towards the active top hinge', more='the outer face where the wall folds outwards; '// &
+      &   'negative for an inner bearing'), &
       & property_type('bearing', is_text, optional=.true., owners=two_block, replaced=.true., example='centre', &
       &   choices=reshape(bearing_names, [most_choices], pad=blank), meaning='where that load bears, '// &
       &   'instead of the eccentricity'), &
       & property_type('bearing_distance', unit='m', optional=.true., owners=two_block, replaced=.true., &
-      &   example='0.06', meaning='distance of the load''s resultant from the inner or the outer face: half the '// &
-      &   'length that joists bear')]
+      &   example='0.06', meaning='distance of the load''s resultant from the inner or the outer face', &
+      &   more='half the length that joists bear')]
 
    !> The same where pointers can point
-   type(property_type), target, save, protected :: wall_properties(size(rows)) = rows
+   type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &

@@ -12,10 +12,13 @@ module dondolo_property
    public :: property_type, find_property, has_owner, number_of_choices, check_number, check_word
    public :: column_name, default_text, describe_property
    public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name
-   public :: choices_length, most_choices, blank, no_limit
+   public :: name_length, choices_length, most_choices, blank, no_limit
 
    !> Kinds of values: a real number, a whole number, a text, yes or no, a list of real numbers, a whole number or a name
    integer, parameter :: is_real = 1, is_integer = 2, is_text = 3, is_logical = 4, is_list = 5, is_number_or_name = 6
+
+   !> Length of a name
+   integer, parameter :: name_length = 18
 
    !> Length of a choice, and how many a property can have
    integer, parameter :: choices_length = 16, most_choices = 8
@@ -29,13 +32,15 @@ module dondolo_property
    !> One property
    type :: property_type
       !> Name, in lower case, as it stands in namelists, in the columns of populations and in Python
-      character(len=18) :: name = ''
+      character(len=name_length) :: name = ''
       !> Kind of its value
       integer :: kind = is_real
       !> Unit; empty for a number without one
       character(len=8) :: unit = ''
       !> One sentence: what it is
       character(len=180) :: meaning = ''
+      !> What helps to choose it, for templates; empty: nothing more
+      character(len=80) :: more = ''
       !> Must it be given?
       logical :: required = .false.
       !> Has it no value where it is not given? Else it has its default
@@ -161,8 +166,9 @@ contains
       text = short_limit(limit)
    end function limit_text
 
-   !> A property as a line: name, kind, unit, 'required', 'optional' or its default, smallest and largest value, choices,
-   !> owners, column (empty where it has none) and meaning, with a tab between two; entries with several names have blanks between
+   !> A property as a line: name, kind, unit, 'required', 'optional' or its default, smallest and largest value,
+   !> 'positive' or 'less' where one of them cannot be reached, choices, owners, column (empty where it has none) and
+   !> meaning, with a tab between two; entries with several names have blanks between
    subroutine describe_property(property, line)
       !> Property
       type(property_type), intent(in) :: property
@@ -179,6 +185,7 @@ contains
       call add(trim(merge('required', merge('optional', '        ', property%optional), property%required))//default)
       call add(to_text(property%smallest))
       call add(to_text(property%largest))
+      call add(trim(merge('positive', merge('less    ', '        ', property%less), property%positive)))
       call add(listed(property%choices))
       call add(listed(property%owners))
       call add(merge(repeat(' ', len(property%column)), column_name(property), property%replaced))

@@ -2,8 +2,8 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_logical, &
-      & is_number_or_name, is_real, is_text, number_of_choices, property_type
+   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
+      & is_text, name_length, number_of_choices, property_type
    use dondolo_text, only : join, lower, must_be_plain, plain, to_text
    implicit none
    private
@@ -449,12 +449,15 @@ contains
       character(len=*), intent(in), optional :: owner
 
       type(property_type), pointer :: table(:)
+      character(len=name_length), allocatable :: names(:)
       character(len=:), allocatable :: allowed
       integer :: i
 
       call self%get_table(table)
-      if (allocated(self%unknown)) &
-         & call problems%note(self%unknown//': no such variable; there are '//join(table%name))
+      if (allocated(self%unknown)) then
+         names = table%name
+         call problems%note(self%unknown//': no such variable; there are '//join(names))
+      end if
       do i = 1, size(table)
          associate (property => table(i))
             if (present(owner)) then

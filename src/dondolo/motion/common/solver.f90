@@ -44,7 +44,7 @@ module dondolo_solver
       & reshape([character(len=choices_length) :: 'history', 'stripes'], [most_choices], pad=blank)
 
    !> What a user can set; gravity, which walls have, stands among it for all walls of a case
-   type(property_type), target, save, protected :: solver_properties(6) = [ &
+   type(property_type), target, protected :: solver_properties(6) = [ &
       & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' takes the one that suits the task', &
       &   choices=reshape(engine_names, [most_choices], pad=blank)), &
       & property_type('rtol', default=standard%rtol, smallest=10.0_wp*epsilon(1.0_wp), largest=1.0e-2_wp, &

@@ -19,6 +19,10 @@ module dondolo_system
       procedure :: open => open_writer
       !> Write a text
       procedure :: write => write_text
+      !> Give what was written to the system
+      procedure :: flush => flush_writer
+      !> Keep the file for this writer
+      procedure :: lock
       !> Close the file
       procedure :: close => close_writer
    end type writer_type
@@ -117,6 +121,29 @@ module dondolo_system
          !> File
          type(c_ptr), value :: handle
       end function c_fwrite
+
+      !> Give what was written to the system
+      integer(c_int) function c_fflush(handle) bind(c, name='fflush')
+         import :: c_int, c_ptr
+         !> File
+         type(c_ptr), value :: handle
+      end function c_fflush
+
+      !> Descriptor of a file
+      integer(c_int) function c_fileno(handle) bind(c, name='fileno')
+         import :: c_int, c_ptr
+         !> File
+         type(c_ptr), value :: handle
+      end function c_fileno
+
+      !> Take or give back the lock of a file
+      integer(c_int) function c_flock(descriptor, operation) bind(c, name='flock')
+         import :: c_int
+         !> Descriptor
+         integer(c_int), value :: descriptor
+         !> What to do
+         integer(c_int), value :: operation
+      end function c_flock
 
       !> Close a file
       integer(c_int) function c_fclose(handle) bind(c, name='fclose')
@@ -285,6 +312,30 @@ contains
       if (c_fwrite(text, 1_c_size_t, length, self%handle) /= length) ok = .false.
    end subroutine write_text
 
+   !> Give what was written to the system: it then outlives the process
+   subroutine flush_writer(self, ok)
+      !> The file
+      class(writer_type), intent(inout) :: self
+      !> Set to false when it could not be written; left alone otherwise
+      logical, intent(inout) :: ok
+
+      if (c_fflush(self%handle) /= 0) ok = .false.
+   end subroutine flush_writer
+
+   !> Keep the file for this writer until it is closed or the process ends
+   subroutine lock(self, is_taken)
+      !> The file
+      class(writer_type), intent(inout) :: self
+      !> Another writer has it. A file system without locks refuses none
+      logical, intent(out) :: is_taken
+
+      ! LOCK_EX and LOCK_NB, and EWOULDBLOCK of Linux and macOS, which mean nothing else there
+      integer(c_int), parameter :: exclusive = 2_c_int, at_once = 4_c_int, would_block(2) = [11_c_int, 35_c_int]
+
+      is_taken = .false.
+      if (c_flock(c_fileno(self%handle), ior(exclusive, at_once)) /= 0) is_taken = any(gnu_errno() == would_block)
+   end subroutine lock
+
    !> Close the file; nothing happens if it is not open
    subroutine close_writer(self, ok)
       !> The file
@@ -292,7 +343,12 @@ contains
       !> Set to false when what was written last did not reach the disk; left alone otherwise
       logical, intent(inout) :: ok
 
+      integer(c_int), parameter :: give_back = 8_c_int
+      integer(c_int) :: stat
+
       if (.not. c_associated(self%handle)) return
+      ! A process that was forked meanwhile would hold the lock.
+      stat = c_flock(c_fileno(self%handle), give_back)
       if (c_fclose(self%handle) /= 0) ok = .false.
       self%handle = c_null_ptr
    end subroutine close_writer

@@ -22,7 +22,7 @@ module dondolo_population
    public :: member_properties
 
    !> Columns besides the properties of a wall
-   type(property_type), target, save, protected :: member_properties(3) = [ &
+   type(property_type), target, protected :: member_properties(3) = [ &
       & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
       &   meaning='weight of the wall in its population, such as the number of walls like it'), &
       & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &

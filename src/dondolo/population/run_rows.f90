@@ -1,17 +1,17 @@
-!> Some rows of a population: the histories of each, their counts and curves.
+!> Some rows of a population through the stripes.
 !>
 !> As many rows as go round evenly are shared out among the threads; on each of the others, all threads work together.
 !> Results do not depend on it.
 module dondolo_run_rows
    use, intrinsic :: omp_lib, only : omp_get_thread_num
-   use dondolo_counts, only : counts_type
    use dondolo_error, only : add_place, error_type
    use dondolo_population, only : member_type
    use dondolo_queue, only : progress_interface
+   use dondolo_row_result, only : row_result_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_study, only : study_type
    use dondolo_threads, only : team_of
-   use dondolo_wall, only : mechanism_names
+   use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -21,15 +21,13 @@ module dondolo_run_rows
 contains
 
    !> Run some rows
-   subroutine run_rows(study, members, rows, work, error, done, total, progress)
+   subroutine run_rows(study, members, rows, error, done, total, progress)
       !> What their walls are tried with
       type(study_type), intent(in) :: study
       !> The rows
       type(member_type), intent(in) :: members(:)
-      !> Their counts and curves; their numbers and groups are not set
-      type(counts_type), allocatable, intent(out) :: rows(:)
-      !> What was computed
-      type(work_type), intent(out) :: work
+      !> What came of them; their numbers in the population are not set
+      type(row_result_type), allocatable, intent(out) :: rows(:)
       !> What cannot be run: of the first such row
       type(error_type), allocatable, intent(out) :: error
       !> Histories that are done already, and those of the whole work
@@ -37,6 +35,7 @@ contains
       !> Hears how far the work is, after a row
       procedure(progress_interface), optional :: progress
 
+      type(work_type) :: work
       integer :: i, threads, shared_out, failed
 
       allocate (rows(size(members)))
@@ -61,17 +60,16 @@ contains
          !> Threads that work on it
          integer, intent(in) :: crew
 
-         type(work_type) :: own
          type(error_type), allocatable :: trouble
          integer :: first_failed, now
 
          !$omp atomic read
          first_failed = failed
          if (i > first_failed) return
-         call run_row(study, members(i), rows(i), own, trouble, crew)
+         call run_row(study, members(i)%wall, rows(i), trouble, crew)
          !$omp critical (gather_row)
          if (.not. allocated(trouble)) then
-            call work%add(own)
+            call work%add(rows(i)%work)
          else if (i < failed) then
             !$omp atomic write
             failed = i
@@ -87,34 +85,29 @@ contains
    end subroutine run_rows
 
    !> Run one row
-   subroutine run_row(study, member, row, work, error, team)
+   subroutine run_row(study, wall, row, error, threads)
       !> What its wall is tried with
       type(study_type), intent(in) :: study
-      !> The row
-      type(member_type), intent(in) :: member
-      !> Its counts and curves
-      type(counts_type), intent(out) :: row
-      !> What was computed
-      type(work_type), intent(out) :: work
+      !> The wall
+      type(wall_type), intent(in) :: wall
+      !> What came of it
+      type(row_result_type), intent(out) :: row
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
       !> Number of threads; 0: all
-      integer, intent(in) :: team
+      integer, intent(in) :: threads
 
       type(stripes_type) :: stripes
 
-      row%continues = member%continues
-      row%mechanism = findloc(mechanism_names == member%wall%mechanism_name(), .true., dim=1)
-      row%weight = member%weight
-      row%p_occ = member%p_occ
-      call plan_stripes(stripes, member%wall, study, error)
-      if (.not. allocated(error)) then
-         call run_histories(stripes, member%wall, study, team)
-         call row%of(stripes, study%thresholds, error)
-         work = stripes%work
-         if (study%keeps_histories) call move_alloc(stripes%response, row%response)
+      call plan_stripes(stripes, wall, study, error)
+      if (allocated(error)) then
+         call add_place(error, 'wall '''//wall%name()//'''')
+         return
       end if
-      call add_place(error, 'wall '''//member%wall%name()//'''')
+      call run_histories(stripes, wall, study, threads)
+      row%work = stripes%work
+      call row%set_flags(stripes%response, study%thresholds)
+      if (study%keeps_histories) call move_alloc(stripes%response, row%response)
    end subroutine run_row
 
 end module dondolo_run_rows

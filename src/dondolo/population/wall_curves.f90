@@ -11,24 +11,10 @@ module dondolo_wall_curves
    implicit none
    private
 
-   public :: wall_curves_type, mechanism_counts_type, new_wall_curves, mechanism_length
+   public :: wall_curves_type, mechanism_length
 
    !> Room for the name of a mechanism
    integer, parameter :: mechanism_length = len(mechanism_names)
-
-   !> What one mechanism of a wall came to
-   type :: mechanism_counts_type
-      !> The mechanism
-      character(len=mechanism_length) :: mechanism = ''
-      !> Probability that it can occur
-      real(wp) :: p_occ = 1.0_wp
-      !> Its curve
-      type(fragility_type) :: curve
-      !> Collapses at each level
-      integer, allocatable :: collapses(:)
-      !> Histories of a stripe
-      integer :: histories = 0
-   end type mechanism_counts_type
 
    !> A wall with the curves of its mechanisms
    type :: wall_curves_type
@@ -50,6 +36,8 @@ module dondolo_wall_curves
       !> mechanism, if one always can occur
       type(fragility_type) :: combined
    contains
+      !> Fit the wall as a whole
+      procedure :: fit
       !> Can the wall do anything but collapse by one mechanism?
       procedure :: is_mixed
       !> Probability that any mechanism can occur
@@ -64,46 +52,24 @@ module dondolo_wall_curves
 
 contains
 
-   !> A wall from the counts and curves of its mechanisms
-   subroutine new_wall_curves(wall, group, weight, counts, levels, error, is_fitted)
-      !> The wall
-      type(wall_curves_type), intent(out) :: wall
-      !> Name of its group, empty if none was given
-      character(len=*), intent(in) :: group
-      !> Its weight, >= 0
-      real(wp), intent(in) :: weight
-      !> Its mechanisms, one at least
-      type(mechanism_counts_type), intent(in) :: counts(:)
+   !> Fit the wall as a whole
+   subroutine fit(self, levels, error)
+      !> The wall: `combined` is set
+      class(wall_curves_type), intent(inout) :: self
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
-      !> Is the wall as a whole to be fitted? Yes if absent
-      logical, intent(in), optional :: is_fitted
 
-      real(wp) :: n(size(levels)), part(size(levels), size(counts) + 1)
-      integer :: i
+      real(wp) :: n(size(levels)), part(size(levels), size(self%p_occ) + 1)
 
-      wall%group = group
-      wall%weight = weight
-      wall%mechanism = counts%mechanism
-      wall%p_occ = counts%p_occ
-      wall%curve = counts%curve
-      wall%histories = counts%histories
-      allocate (wall%fraction(size(levels), size(counts)))
-      do i = 1, size(counts)
-         wall%fraction(:, i) = real(counts(i)%collapses, wp)/real(counts(i)%histories, wp)
-      end do
-      wall%combined = counts(1)%curve
-      if (.not. wall%is_mixed()) return
-      if (present(is_fitted)) then
-         if (.not. is_fitted) return
-      end if
-      n = real(wall%combined_histories(), wp)
-      part = wall%fractions()
-      if (wall%occurrence() > 0.0_wp) part = min(part/wall%occurrence(), 1.0_wp)
-      call fit_fragility(wall%combined, levels, n*part(:, size(part, 2)), n, error)
-   end subroutine new_wall_curves
+      self%combined = self%curve(1)
+      if (.not. self%is_mixed()) return
+      n = real(self%combined_histories(), wp)
+      part = self%fractions()
+      if (self%occurrence() > 0.0_wp) part = min(part/self%occurrence(), 1.0_wp)
+      call fit_fragility(self%combined, levels, n*part(:, size(part, 2)), n, error)
+   end subroutine fit
 
    !> Can the wall do anything but collapse by one mechanism?
    pure logical function is_mixed(self)
@@ -145,26 +111,57 @@ contains
    end function fractions
 
    !> Probabilities of collapse of the mechanisms, if they can occur, and of the wall as a whole. A mechanism without a
-   !> fit takes part with its fractions
-   pure function probabilities(self, levels) result(p)
+   !> fit takes part with its fractions: between the levels they are interpolated linearly, from 0 at x = 0; above the
+   !> highest level they stay
+   pure function probabilities(self, levels, x) result(p)
       !> The wall
       class(wall_curves_type), intent(in) :: self
-      !> Levels of intensity, those of the fractions
+      !> Levels of intensity of the fractions
       real(wp), intent(in) :: levels(:)
-      !> Probabilities (levels, mechanisms and last the wall)
-      real(wp) :: p(size(levels), size(self%p_occ) + 1)
+      !> Levels that are asked for
+      real(wp), intent(in) :: x(:)
+      !> Probabilities (x, mechanisms and last the wall)
+      real(wp) :: p(size(x), size(self%p_occ) + 1)
 
       integer :: m
 
       do m = 1, size(self%p_occ)
          if (self%curve(m)%has_fit()) then
-            p(:, m) = self%curve(m)%probability(levels)
+            p(:, m) = self%curve(m)%probability(x)
          else
-            p(:, m) = self%fraction(:, m)
+            p(:, m) = interpolated(levels, self%fraction(:, m), x)
          end if
       end do
       p(:, size(p, 2)) = in_series(self%p_occ, p(:, :size(self%p_occ)))
    end function probabilities
+
+   !> Fractions at any levels, on the lines between those that are known
+   pure function interpolated(levels, fractions, x) result(p)
+      !> Levels of intensity, positive and increasing
+      real(wp), intent(in) :: levels(:)
+      !> Fractions there
+      real(wp), intent(in) :: fractions(:)
+      !> Levels that are asked for
+      real(wp), intent(in) :: x(:)
+      !> Fractions at these
+      real(wp) :: p(size(x))
+
+      real(wp) :: below, before
+      integer :: i, j
+
+      do i = 1, size(x)
+         j = count(levels <= x(i))
+         below = 0.0_wp
+         before = 0.0_wp
+         if (j > 0) then
+            below = fractions(j)
+            before = levels(j)
+         end if
+         p(i) = below
+         if (j < size(levels) .and. x(i) > before) &
+            & p(i) = below + (fractions(j + 1) - below)*(x(i) - before)/(levels(j + 1) - before)
+      end do
+   end function interpolated
 
    !> 1 - prod_m (1 - p_occ,m P_m)
    pure function in_series(p_occ, p) result(whole)

@@ -1,0 +1,64 @@
+"""Write docs/variables.md, the variables of a case, from the tables of the library: python docs/variables.py."""
+
+from pathlib import Path
+
+from dondolo._fortran import _binding
+
+TITLES = {
+    "job": "What is to be done",
+    "wall": "One wall, for the tasks 'stripes' and 'history'; in the columns of a population, its walls",
+    "member": "Further columns of a population",
+    "population": "A population of walls, for the task 'typology'",
+    "records": "The accelerograms",
+    "stripes": "The intensity measure and its levels",
+    "solver": "How the motions are computed",
+    "history": "Which record and how strong, for the task 'history'",
+}
+HEAD = """# Variables of a case
+
+What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs. The names of the
+group `&wall` are the columns of a population and the arguments of the walls in Python too. This page is written by
+`docs/variables.py` from the tables of properties in the sources, where ranges and defaults have their only home.
+"""
+
+
+def allowed(row: _binding.Property) -> str:
+    """What a value can be."""
+    if row.choices:
+        return ", ".join(f"'{choice}'" for choice in row.choices)
+    low, high = (f"{limit:.6g}" if abs(limit) < 1e308 else "" for limit in (row.smallest, row.largest))
+    if row.bounds == "less":
+        return f"at least {low}, less than {high}"
+    if row.bounds == "positive" and not low:
+        return f"more than 0, at most {high}" if high else "more than 0"
+    if low and high:
+        return f"{low} to {high}"
+    return f"at least {low}" if low else f"at most {high}" if high else ""
+
+
+def default(row: _binding.Property) -> str:
+    """Its default, or that it has none."""
+    if row.default in ("required", "optional"):
+        return {"required": "required", "optional": ""}[row.default]
+    return f"`'{row.default}'`" if row.kind == "text" else f"`{row.default}`" if row.default else ""
+
+
+def table(group: str) -> list[str]:
+    """Lines of the table of a group."""
+    title = f"## {'Columns' if group == 'member' else f'&{group}'}"
+    lines = [title, "", TITLES[group] + ".", "", "| variable | unit | default | allowed | only for | meaning |"]
+    lines.append("|---|---|---|---|---|---|")
+    for row in _binding.properties(group):
+        owners = ", ".join(row.owners)
+        cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, row.meaning]
+        lines.append("| " + " | ".join(cells) + " |")
+    return [*lines, ""]
+
+
+def page() -> str:
+    """The page."""
+    return HEAD + "\n" + "\n".join(line for group in TITLES for line in table(group))
+
+
+if __name__ == "__main__":
+    (Path(__file__).parent / "variables.md").write_text(page(), encoding="utf-8")

@@ -1,0 +1,106 @@
+"""What is kept of a population while it runs: Fortran's store, in a file or in memory.
+
+It is that of the executable: each goes on with a file that the other has begun.
+"""
+
+from __future__ import annotations
+
+import os
+import weakref
+from types import TracebackType
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray
+from dondolo._base.files import as_file
+from dondolo._fortran import _binding, _core
+from dondolo.analysis.request import Request
+from dondolo.analysis.work import Work
+from dondolo.populations.flags import Flags
+
+IntArray = NDArray[np.int32]
+
+
+class Contents(NamedTuple):
+    """What a store has.
+
+    Attributes
+    ----------
+    complete : ndarray of bool, shape (rows,)
+        Which rows.
+    exceedances : ndarray of int, shape (states, levels, rows)
+        How many histories reach each state; 0 for rows that are not there.
+    flags : Flags
+        Which do, of the rows that are there.
+    work : Work
+        What was computed for them.
+    """
+
+    complete: NDArray[np.bool_]
+    exceedances: IntArray
+    flags: Flags
+    work: Work
+
+
+class Store:
+    """Rows of a population that are finished.
+
+    Parameters
+    ----------
+    path : path or None
+        The file, which need not be there; in memory if None.
+    request : Request
+        All walls, and what they are tried with.
+    states : ndarray
+        EDP of each damage state.
+
+    Raises
+    ------
+    InputError
+        The file is something else, damaged, or of another study.
+    """
+
+    def __init__(self, path: str | os.PathLike[str] | None, request: Request, states: FloatArray) -> None:
+        self._request, self._states = request, states
+        file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
+        study, people = request._study.number, request._people.number
+        handle, stat, message = _core.open_store(file, study, people, states)
+        _binding.check(stat, message)
+        self._handle = handle
+        self._close = weakref.finalize(self, _core.close_store, handle)
+
+    def complete(self) -> NDArray[np.bool_]:
+        """Which rows are there, shape (rows,)."""
+        there: IntArray = _core.store_state(self._handle, len(self._request.walls))[0]
+        return there.astype(bool)
+
+    def claim(self) -> None:
+        """Make the file this process's; a `DondoloError` tells that it cannot be written, or that another run does."""
+        _binding.check(*_core.claim_store(self._handle))
+
+    def put(self, block: IntArray, rows: int) -> None:
+        """Put in the rows of a block; a `DondoloError` tells that they cannot be written."""
+        _binding.check(*_core.put_block(self._handle, block, rows))
+
+    def read(self) -> Contents:
+        """Everything that is there."""
+        request, rows = self._request, len(self._request.walls)
+        there, counts = _core.store_state(self._handle, rows)
+        complete = there.astype(bool)
+        states, levels = len(self._states), len(request.levels)
+        numbers = _binding.receive(*_core.read_store(self._handle)).integers
+        histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
+        exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
+        packed = bits.view(np.uint8)[: numbers[-1]]
+        flags = Flags(histories[complete], levels, states, len(request.records), packed)
+        return Contents(complete, exceedances, flags, Work(*map(int, counts)))
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._close()

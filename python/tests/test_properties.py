@@ -1,0 +1,124 @@
+"""Names, defaults, units and meanings of parameters have one home, the tables of the library: Python says the same."""
+
+import dataclasses
+import importlib.util
+import inspect
+import re
+import typing
+
+import pytest
+from dondolo._fortran import _binding
+from dondolo.walls.wall import MECHANISMS
+
+import dondolo as dd
+
+WALL = _binding.properties("wall")
+(GRAVITY,) = (row for row in _binding.properties("solver") if row.name == "gravity")
+
+
+def entries(kind):
+    """Type and description of each parameter in a docstring, those of the parent class included."""
+    found = {}
+    for owner in (dd.OneSidedWall, kind):
+        text = inspect.getdoc(owner)
+        section = re.search(r"Parameters\n-+\n(.*?)(?:\n\n[A-Z]\w+\n-+\n|\Z)", text, re.S)
+        for name, what, body in re.findall(
+            r"^(\w+) : (.*)\n((?:    .*\n?)+)", section[1] + "\n" if section else "", re.M
+        ):
+            found[name] = what, " ".join(body.split())
+    return found
+
+
+def sentence(row):
+    """How a docstring begins to describe a property."""
+    text = row.meaning[0].upper() + row.meaning[1:]
+    if row.unit:
+        text += f" [{row.unit}]"
+    if row.default in ("required", "optional", ""):
+        return text
+    default = repr(row.default) if row.kind == "text" else f"{float(row.default):g}"
+    return f"{text}, {default} if left out"
+
+
+def test_mechanisms():
+    (row,) = (row for row in WALL if row.name == "mechanism")
+    assert row.choices == tuple(MECHANISMS)
+    assert all(set(row.owners) <= set(MECHANISMS) for row in WALL)
+    assert all(kind.__name__ in dd.__all__ for kind in MECHANISMS.values())
+
+
+@pytest.mark.parametrize("kind", MECHANISMS.values(), ids=MECHANISMS)
+def test_walls(kind):
+    rows = [row for row in WALL if row.name != "mechanism" and (not row.owners or kind.mechanism in row.owners)]
+    rows.append(GRAVITY)
+    parameters = inspect.signature(kind).parameters
+    assert set(parameters) == {row.name for row in rows}
+    said = entries(kind)
+    for row in rows:
+        required = parameters[row.name].default is inspect.Parameter.empty
+        assert required == (row.default == "required"), row.name
+        if not required:
+            assert parameters[row.name].default is None, row.name
+        what, description = said[row.name]
+        assert description.startswith(sentence(row)), (description, sentence(row))
+        assert what.startswith("{" if row.choices else "str" if row.kind == "text" else "float"), row.name
+        assert what.endswith(", optional") != required, row.name
+        if row.choices and row.name != "restitution":
+            assert what.startswith("{" + ", ".join(map(repr, row.choices)) + "}")
+
+
+@pytest.mark.parametrize("kind", MECHANISMS.values(), ids=MECHANISMS)
+def test_defaults_of_walls(kind):
+    wall = kind(3.0, 0.25)
+    for field in dataclasses.fields(wall):
+        (row,) = (row for row in (*WALL, GRAVITY) if row.name == field.name)
+        value = getattr(wall, row.name)
+        if row.default == "optional":
+            assert value is None
+        elif row.kind == "text":
+            assert value == row.default
+        elif row.default != "required":
+            assert value == float(row.default)
+
+
+def test_solver():
+    """`dd.Solver` has what the table of the solver has, but for what analyses and walls have themselves."""
+    rows = {row.name: row for row in _binding.properties("solver")}
+    fields = {field.name: field for field in dataclasses.fields(dd.Solver)}
+    assert set(fields) | {"estimate_error", "gravity"} == set(rows)
+    assert "estimate_error" in inspect.signature(dd.multiple_stripe).parameters
+    assert set(typing.get_args(typing.get_type_hints(dd.Solver)["engine"])) == set(rows["engine"].choices)
+    assert fields["engine"].default == rows["engine"].default
+    text = inspect.getdoc(dd.Solver)
+    for name in ("rtol", "atol", "edp_limit"):
+        assert fields[name].default is None
+        assert re.search(rf"\b{float(rows[name].default):g}\b".replace("e-0", "e-"), text), name
+
+
+def test_columns():
+    wall = dd.TwoBlockWall(3.0, 0.25, overburden=1000.0)
+    population = dd.Population([wall])
+    columns = list(population.to_frame().columns)
+    own = [row.column for row in WALL if row.column]
+    assert columns[: len(own)] == own
+
+
+def test_page_of_variables(root):
+    spec = importlib.util.spec_from_file_location("variables", root / "docs/variables.py")
+    variables = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(variables)
+    assert variables.page() == (root / "docs/variables.md").read_text(encoding="utf-8"), "python docs/variables.py"
+
+
+def test_template_has_every_property(run, tmp_path):
+    for task, groups in {
+        "stripes": ("job", "wall", "records", "stripes", "solver"),
+        "history": ("job", "wall", "records", "stripes", "solver", "history"),
+        "typology": ("job", "population", "wall", "member", "records", "stripes", "solver"),
+    }.items():
+        text = run("--template", task).stdout
+        for group in groups:
+            for row in _binding.properties(group):
+                if {"history", "stripes", "typology"} & set(row.owners) and task not in row.owners:
+                    continue
+                assert re.search(rf"^[ !]*{row.name}\b.*! ", text, re.M), (task, row.name)

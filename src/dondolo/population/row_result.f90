@@ -1,0 +1,206 @@
+!> What is kept of a row of a population once its histories have been run - a flag for each history and damage state, and
+!> where histories are kept all of their results - and how it stands in a store, as bytes.
+!>
+!> The flags of a row are bits, eight a byte from the highest on: state by state, level by level, history by history.
+!> They are all that counts, curves and resampled records are made of.
+module dondolo_row_result
+   use, intrinsic :: iso_fortran_env, only : int32, int64
+   use dondolo_kinds, only : wp
+   use dondolo_response, only : response_type
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: row_result_type, shape_type, pack_row, unpack_row, bytes_of_row, bytes_of_flags
+
+   !> How many numbers there are of a row, besides its histories
+   type :: shape_type
+      !> Levels
+      integer :: levels = 0
+      !> Damage states; the last is collapse
+      integer :: states = 0
+      !> Are all histories kept?
+      logical :: keeps_histories = .false.
+   end type shape_type
+
+   !> What came of a row
+   type :: row_result_type
+      !> Number of the row
+      integer :: row = 0
+      !> Histories of a stripe
+      integer :: histories = 0
+      !> What was computed
+      type(work_type) :: work
+      !> Flags, packed
+      character(len=:), allocatable :: flags
+      !> All histories (histories, levels), if they are kept
+      type(response_type), allocatable :: response(:, :)
+   contains
+      !> Set the flags
+      procedure :: set_flags
+      !> Histories that reach each state
+      procedure :: reached
+   end type row_result_type
+
+   !> Counts of work, bytes of them, and of the results of a history: edp and time of the peak, impacts
+   integer, parameter :: work_counts = 8, work_bytes = 8*work_counts
+   integer, parameter :: real_bytes = storage_size(1.0_wp)/8, history_bytes = 2*real_bytes + 4
+
+contains
+
+   ! The lengths precede what is as long; otherwise gfortran 12 reports an implicit interface.
+
+   !> Bytes that the flags of a row take
+   pure integer function bytes_of_flags(shape, histories)
+      !> How many levels and states there are
+      type(shape_type), intent(in) :: shape
+      !> Histories of a stripe
+      integer, intent(in) :: histories
+
+      bytes_of_flags = int((int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64)
+   end function bytes_of_flags
+
+   !> Bytes that a row takes
+   pure integer(int64) function bytes_of_row(shape, histories)
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> Histories of a stripe
+      integer, intent(in) :: histories
+
+      bytes_of_row = work_bytes + int(bytes_of_flags(shape, histories), int64)
+      if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
+   end function bytes_of_row
+
+   !> Set the flags: a history is in a state from a threshold of the EDP on
+   pure subroutine set_flags(self, response, thresholds)
+      !> The row: histories and flags are set
+      class(row_result_type), intent(inout) :: self
+      !> Its histories (histories, levels)
+      type(response_type), intent(in) :: response(:, :)
+      !> Thresholds of the states, rotation / capacity
+      real(wp), intent(in) :: thresholds(:)
+
+      integer :: i, j, k, byte, bit, value
+
+      self%histories = size(response, 1)
+      allocate (character(len=bytes_of_flags(shape_type(size(response, 2), size(thresholds)), self%histories)) :: self%flags)
+      byte = 0
+      bit = 8
+      value = 0
+      do k = 1, size(thresholds)
+         do j = 1, size(response, 2)
+            do i = 1, size(response, 1)
+               bit = bit - 1
+               if (response(i, j)%edp >= thresholds(k)) value = ibset(value, bit)
+               if (bit > 0) cycle
+               byte = byte + 1
+               self%flags(byte:byte) = char(value)
+               bit = 8
+               value = 0
+            end do
+         end do
+      end do
+      if (bit < 8) self%flags(byte + 1:byte + 1) = char(value)
+   end subroutine set_flags
+
+   !> Histories that reach each state
+   pure function reached(self, shape)
+      !> The row
+      class(row_result_type), intent(in) :: self
+      !> How many levels and states there are
+      type(shape_type), intent(in) :: shape
+      !> Counts (levels, states)
+      integer :: reached(shape%levels, shape%states)
+
+      integer :: i, j, k, flag
+
+      flag = 0
+      do k = 1, shape%states
+         do j = 1, shape%levels
+            reached(j, k) = 0
+            do i = 1, self%histories
+               if (btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))) reached(j, k) = reached(j, k) + 1
+               flag = flag + 1
+            end do
+         end do
+      end do
+   end function reached
+
+   !> A row as bytes: what was computed, flags, and of the histories that are kept edp, time of the peak and impacts
+   pure subroutine pack_row(row, bytes)
+      !> The row
+      type(row_result_type), intent(in) :: row
+      !> Bytes, as many as bytes_of_row says
+      character(len=*), intent(out) :: bytes
+
+      real(wp), allocatable :: numbers(:)
+      integer(int64) :: at, number
+
+      bytes(:work_bytes) = transfer([row%work%histories, row%work%still, row%work%in_lanes, row%work%intervals, &
+         & row%work%rocked, row%work%steps, row%work%evaluations, row%work%impacts], bytes(:work_bytes))
+      at = work_bytes
+      bytes(at + 1:at + len(row%flags)) = row%flags
+      at = at + len(row%flags)
+      if (.not. allocated(row%response)) return
+      number = real_bytes*size(row%response, kind=int64)
+      ! gfortran 12 transfers components of an array of a derived type as if they stood one after the other.
+      numbers = [row%response%edp]
+      bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
+      at = at + number
+      numbers = [row%response%time_of_peak]
+      bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
+      at = at + number
+      number = 4*size(row%response, kind=int64)
+      bytes(at + 1:at + number) = transfer(int(row%response%impacts, int32), bytes(at + 1:at + number))
+   end subroutine pack_row
+
+   !> A row out of bytes
+   subroutine unpack_row(bytes, shape, row)
+      !> Bytes, as many as bytes_of_row says
+      character(len=*), intent(in) :: bytes
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row: its number and its histories are given, all else is set
+      type(row_result_type), intent(inout) :: row
+
+      integer(int64) :: counts(work_counts), at, number
+      integer :: flags
+
+      counts = transfer(bytes(:work_bytes), counts)
+      row%work = work_type(histories=counts(1), still=counts(2), in_lanes=counts(3), intervals=counts(4), &
+         & rocked=counts(5), steps=counts(6), evaluations=counts(7), impacts=counts(8))
+      at = work_bytes
+      flags = bytes_of_flags(shape, row%histories)
+      row%flags = bytes(at + 1:at + flags)
+      at = at + flags
+      if (.not. shape%keeps_histories) return
+      if (allocated(row%response)) deallocate (row%response)
+      allocate (row%response(row%histories, shape%levels))
+      number = real_bytes*size(row%response, kind=int64)
+      row%response%edp = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%histories, shape%levels])
+      at = at + number
+      row%response%time_of_peak = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%histories, shape%levels])
+      at = at + number
+      number = 4*size(row%response, kind=int64)
+      row%response%impacts = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%histories, shape%levels])
+      call set_collapsed()
+
+   contains
+
+      !> A history has collapsed where it reaches the last state
+      subroutine set_collapsed()
+
+         integer :: i, j, flag
+
+         flag = (shape%states - 1)*shape%levels*row%histories
+         do j = 1, shape%levels
+            do i = 1, row%histories
+               row%response(i, j)%collapsed = btest(ichar(row%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))
+               flag = flag + 1
+            end do
+         end do
+      end subroutine set_collapsed
+
+   end subroutine unpack_row
+
+end module dondolo_row_result

@@ -1,0 +1,114 @@
+!> A population through the stripes, block after block, within a memory that does not depend on the number of its walls:
+!> rows that a store lacks are read, run, and put into it.
+module dondolo_run_population
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_kinds, only : wp
+   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_queue, only : progress_interface
+   use dondolo_row_result, only : row_result_type
+   use dondolo_run_rows, only : run_rows
+   use dondolo_store, only : store_type
+   use dondolo_study, only : study_type
+   use dondolo_threads, only : team_of
+   implicit none
+   private
+
+   public :: run_population
+
+   !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
+   integer, parameter :: histories_of_thread = 100000
+
+   !> Rows that it has for each thread at most: about 1 kB each
+   integer, parameter :: rows_of_thread = 4000
+
+contains
+
+   !> Run the rows that a store lacks
+   subroutine run_population(study, table, gravity, store, histories, error, progress)
+      !> What the walls are tried with
+      type(study_type), intent(in) :: study
+      !> Path of the table of walls, which was checked
+      character(len=*), intent(in) :: table
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> The store, claimed; complete at the end
+      type(store_type), intent(inout) :: store
+      !> Histories of all rows that the store is for
+      integer, intent(in) :: histories
+      !> What cannot be run, or the table has changed
+      type(error_type), allocatable, intent(out) :: error
+      !> Hears how far the work is, in histories
+      procedure(progress_interface), optional :: progress
+
+      type(population_reader_type) :: reader
+      type(member_type), allocatable :: members(:)
+      type(row_result_type), allocatable :: rows(:)
+      integer, allocatable :: numbers(:)
+      integer :: block
+
+      block = block_size(study, histories, store%identity%last - store%identity%first + 1)
+      call reader%open(table, error, gravity, is_checked=.false.)
+      do while (.not. allocated(error))
+         call read_block(reader, table, store, block, members, numbers, error)
+         if (allocated(error) .or. size(members) == 0) exit
+         call run_rows(study, members, rows, error, int(store%work%histories), histories, progress)
+         if (allocated(error)) exit
+         rows%row = numbers
+         call store%put(rows, error)
+      end do
+      call reader%close()
+      if (present(progress) .and. .not. allocated(error)) call progress(histories, histories)
+   end subroutine run_population
+
+   !> Read the next rows that a store lacks
+   subroutine read_block(reader, table, store, most, members, numbers, error)
+      !> The table
+      type(population_reader_type), intent(inout) :: reader
+      !> Its path
+      character(len=*), intent(in) :: table
+      !> The store
+      type(store_type), intent(in) :: store
+      !> How many at most
+      integer, intent(in) :: most
+      !> The rows; none at the end
+      type(member_type), allocatable, intent(out) :: members(:)
+      !> Their numbers
+      integer, allocatable, intent(out) :: numbers(:)
+      !> The table has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, row
+      logical :: found
+
+      numbers = [integer ::]
+      row = max(reader%row, store%identity%first - 1)
+      do while (size(numbers) < most .and. row < store%identity%last)
+         row = row + 1
+         if (.not. store%has(row)) numbers = [numbers, row]
+      end do
+      allocate (members(size(numbers)))
+      do i = 1, size(numbers)
+         call reader%skip(numbers(i) - 1 - reader%row, error)
+         if (allocated(error)) return
+         call reader%next(members(i), found, error)
+         if (.not. found .and. .not. allocated(error)) call raise_failure(error, table//': has changed while it was read')
+         if (allocated(error)) return
+      end do
+   end subroutine read_block
+
+   !> Rows of a block, a multiple of the number of threads
+   integer function block_size(study, histories, rows)
+      !> What the walls are tried with
+      type(study_type), intent(in) :: study
+      !> Histories of all rows
+      integer, intent(in) :: histories
+      !> Number of rows
+      integer, intent(in) :: rows
+
+      integer :: threads
+
+      threads = team_of(study%threads, huge(1))
+      block_size = threads*min(rows_of_thread, max(1, histories_of_thread/max(1, histories/rows)))
+   end function block_size
+
+end module dondolo_run_population

@@ -1,0 +1,405 @@
+!> Store of what came of the rows of a population: a file that grows with every block that is put in, so that a run that
+!> was killed goes on where it was; or the memory.
+!>
+!> Rows come in any order, from one process or from many that hand them to one. One run at a time writes a file. When all
+!> rows are there they are brought into their order: the same bytes, however the work was divided.
+module dondolo_store
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
+   use dondolo_row_result, only : row_result_type
+   use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
+      & read_head
+   use dondolo_system, only : cut_file, remove_file, rename_file, writer_type
+   use dondolo_text, only : to_text
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: store_type, open_store, look_into_store
+
+   !> A store
+   type :: store_type
+      !> Path of its file; empty: it is in memory
+      character(len=:), allocatable :: path
+      !> What it is for
+      type(identity_type) :: identity
+      !> How many rows it has
+      integer :: done = 0
+      !> What was computed for them
+      type(work_type) :: work
+      !> Bytes of the file up to the end of its last whole row, and of all of it when it was read
+      integer(int64), private :: bytes = 0, size = 0
+      !> Where each row begins in the file; 0: it is not there
+      integer(int64), allocatable, private :: place(:)
+      !> Rows in memory
+      type(row_result_type), allocatable, private :: kept(:)
+      !> Unit while rows are read; 0: not open
+      integer, private :: unit = 0
+      !> The file while rows are put in
+      type(writer_type), private :: writer
+      logical, private :: is_writing = .false.
+   contains
+      !> Is a row there?
+      procedure :: has
+      !> Are all rows there?
+      procedure :: is_complete
+      !> Make it this run's to put rows in
+      procedure :: claim
+      !> Put rows in
+      procedure :: put
+      !> Read a row
+      procedure :: read => read_row
+      !> End putting in and reading
+      procedure :: close => close_store
+      !> Remove it
+      procedure :: remove
+   end type store_type
+
+contains
+
+   !> Open a store, with what an earlier run has left in it; nothing is written
+   subroutine open_store(store, path, identity, error)
+      !> The store
+      type(store_type), intent(out) :: store
+      !> Path of its file, which need not be there; empty: in memory
+      character(len=*), intent(in) :: path
+      !> What it is for
+      type(identity_type), intent(in) :: identity
+      !> The file is something else, or of another study or other rows; or lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(store_type) :: found
+      logical :: exists
+
+      exists = .false.
+      if (len(path) > 0) call look_into_store(found, path, exists, error)
+      if (allocated(error)) return
+      if (exists) then
+         call identity%key%compare(found%identity%key, path, error)
+         if (.not. allocated(error) .and. (found%identity%first /= identity%first .or. &
+            & found%identity%last /= identity%last)) call raise_input(error, path//': is of rows '// &
+            & to_text(found%identity%first)//' to '//to_text(found%identity%last))
+         if (.not. allocated(error)) store = found
+      else
+         store%path = path
+         store%identity = identity
+         call make_room(store, error)
+         store%size = max(found%size, 0_int64)
+      end if
+   end subroutine open_store
+
+   !> Look into a file: what it is for, and which rows it has
+   subroutine look_into_store(store, path, exists, error)
+      !> The store
+      type(store_type), intent(out) :: store
+      !> Path of its file
+      character(len=*), intent(in) :: path
+      !> Is there such a file, with at least a whole head?
+      logical, intent(out) :: exists
+      !> It is something else
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: stat
+
+      store%path = path
+      inquire (file=path, exist=exists, size=store%size)
+      if (.not. exists) return
+      exists = .false.
+      if (store%size == 0) return
+      stat = 1
+      ! A pipe has no size, and would be waited for.
+      if (store%size > 0) open (newunit=store%unit, file=path, access='stream', form='unformatted', action='read', &
+         & status='old', iostat=stat)
+      if (stat /= 0) then
+         store%unit = 0
+         call raise_input(error, path//': is no file of counts of dondolo, or cannot be read')
+         return
+      end if
+      if (.not. is_cut_head(store%unit, store%size)) then
+         call read_head(store%unit, path, store%identity, store%bytes, error)
+         if (.not. allocated(error)) call make_room(store, error)
+         if (.not. allocated(error)) call find_rows(store)
+         exists = .not. allocated(error)
+      end if
+      call store%close()
+   end subroutine look_into_store
+
+   !> Make room for the places of all rows, none of which is there
+   subroutine make_room(store, error)
+      !> The store
+      type(store_type), intent(inout) :: store
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), parameter :: bytes_of_place = 8.0_wp
+
+      associate (first => store%identity%first, last => store%identity%last)
+         call check_room(bytes_of_place*(real(last, wp) - real(first, wp) + 1.0_wp), error)
+         if (allocated(error)) return
+         allocate (store%place(first:last), source=0_int64)
+         if (len(store%path) == 0) allocate (store%kept(first:last))
+      end associate
+   end subroutine make_room
+
+   !> Find the rows of a file, up to the first that is not whole
+   subroutine find_rows(store)
+      !> The store, its unit open and its head read
+      type(store_type), intent(inout) :: store
+
+      type(row_result_type) :: row
+      integer(int64) :: bytes
+
+      do
+         call read_entry(store%unit, store%bytes + 1, store%identity%shape, row, bytes)
+         if (bytes == 0) exit
+         if (row%row < store%identity%first .or. row%row > store%identity%last) exit
+         if (store%has(row%row)) exit
+         call note_row(store, row, bytes)
+      end do
+   end subroutine find_rows
+
+   !> Note a row that stands at the end of the file
+   subroutine note_row(store, row, bytes)
+      !> The store
+      type(store_type), intent(inout) :: store
+      !> The row
+      type(row_result_type), intent(in) :: row
+      !> Its length
+      integer(int64), intent(in) :: bytes
+
+      store%place(row%row) = store%bytes + 1
+      store%bytes = store%bytes + bytes
+      store%done = store%done + 1
+      call store%work%add(row%work)
+   end subroutine note_row
+
+   !> Is a row there?
+   pure logical function has(self, row)
+      !> The store
+      class(store_type), intent(in) :: self
+      !> Number of the row
+      integer, intent(in) :: row
+
+      has = self%place(row) > 0
+   end function has
+
+   !> Are all rows there?
+   pure logical function is_complete(self)
+      !> The store
+      class(store_type), intent(in) :: self
+
+      is_complete = self%done == size(self%place)
+   end function is_complete
+
+   !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off
+   subroutine claim(self, error)
+      !> The store
+      class(store_type), intent(inout) :: self
+      !> The file cannot be written, or another run is writing it
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: head
+      type(store_type) :: now
+      integer(int64) :: size
+      logical :: ok, is_taken
+
+      if (len(self%path) == 0) return
+      call self%writer%open(self%path, ok, append=.true.)
+      if (.not. ok) then
+         call raise_failure(error, self%path//': cannot be written')
+         return
+      end if
+      self%is_writing = .true.
+      call self%writer%lock(is_taken)
+      if (is_taken) call raise_failure(error, self%path//': is being written by another run')
+      inquire (file=self%path, size=size)
+      if (.not. allocated(error) .and. size /= self%size) then
+         ! Another run has put rows in between, and has ended.
+         call open_store(now, self%path, self%identity, error)
+         if (.not. allocated(error)) then
+            self%done = now%done
+            self%work = now%work
+            self%bytes = now%bytes
+            self%place = now%place
+         end if
+      end if
+      if (.not. allocated(error)) then
+         if (size > self%bytes) then
+            call cut_file(self%path, self%bytes, ok)
+            if (.not. ok) call raise_failure(error, self%path//': cannot be written')
+         end if
+         if (self%bytes == 0 .and. ok) then
+            call make_head(self%identity, head)
+            call append(self, head, error)
+            if (.not. allocated(error)) self%bytes = len(head, int64)
+         end if
+      end if
+      if (allocated(error)) call self%close()
+   end subroutine claim
+
+   !> Put rows in; those that are there already stay as they are
+   subroutine put(self, rows, error)
+      !> The store, claimed
+      class(store_type), intent(inout) :: self
+      !> The rows
+      type(row_result_type), intent(in) :: rows(:)
+      !> They cannot be written whole, or another run writes the file too
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: entries
+      integer(int64) :: bytes(size(rows)), at
+      integer :: i
+
+      bytes = 0
+      do i = 1, size(rows)
+         if (.not. self%has(rows(i)%row)) bytes(i) = bytes_of_entry(self%identity%shape, rows(i)%histories)
+      end do
+      if (len(self%path) > 0) then
+         allocate (character(len=sum(bytes)) :: entries)
+         at = 0
+         do i = 1, size(rows)
+            if (bytes(i) > 0) call pack_entry(rows(i), entries(at + 1:at + bytes(i)))
+            at = at + bytes(i)
+         end do
+         call append(self, entries, error)
+         if (allocated(error)) return
+      end if
+      do i = 1, size(rows)
+         if (bytes(i) == 0) cycle
+         call note_row(self, rows(i), bytes(i))
+         if (len(self%path) == 0) self%kept(rows(i)%row) = rows(i)
+      end do
+   end subroutine put
+
+   !> Append bytes to the file, whole or not at all
+   subroutine append(store, bytes, error)
+      !> The store, claimed; what it has is known to its caller
+      class(store_type), intent(inout) :: store
+      !> The bytes
+      character(len=*), intent(in) :: bytes
+      !> They could not be written, or the file is not as this run has left it
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: size
+      logical :: ok
+
+      ! Where the file system has no locks
+      inquire (file=store%path, size=size)
+      if (size /= store%bytes) then
+         call raise_failure(error, store%path//': has changed since this run began: does another run write it?')
+         return
+      end if
+      ok = .true.
+      call store%writer%write(bytes, ok)
+      call store%writer%flush(ok)
+      if (ok) return
+      call raise_failure(error, store%path//': cannot be written whole: is the disk full? It holds '// &
+         & to_text(store%done)//' of '//to_text(store%identity%last - store%identity%first + 1)//' rows')
+      call store%close()
+      if (store%bytes > 0) then
+         call cut_file(store%path, store%bytes, ok)
+      else
+         call remove_file(store%path)
+      end if
+   end subroutine append
+
+   !> Read a row
+   subroutine read_row(self, number, row, error)
+      !> The store
+      class(store_type), intent(inout) :: self
+      !> Number of the row, which is there
+      integer, intent(in) :: number
+      !> The row
+      type(row_result_type), intent(out) :: row
+      !> The file has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: bytes
+      integer :: stat
+
+      if (len(self%path) == 0) then
+         row = self%kept(number)
+         return
+      end if
+      stat = 0
+      if (self%unit == 0) open (newunit=self%unit, file=self%path, access='stream', form='unformatted', action='read', &
+         & status='old', iostat=stat)
+      if (stat /= 0) then
+         self%unit = 0
+         call raise_failure(error, self%path//': cannot be read')
+         return
+      end if
+      call read_entry(self%unit, self%place(number), self%identity%shape, row, bytes)
+      if (bytes == 0 .or. row%row /= number) call raise_failure(error, self%path//': has changed while it was read')
+   end subroutine read_row
+
+   !> End putting in and reading; a store that has all rows gets them in their order
+   subroutine close_store(self)
+      !> The store
+      class(store_type), intent(inout) :: self
+
+      logical :: ok
+
+      ok = .true.
+      if (self%unit /= 0) close (self%unit)
+      self%unit = 0
+      if (.not. self%is_writing) return
+      self%is_writing = .false.
+      if (self%is_complete()) then
+         if (any(self%place(lbound(self%place, 1) + 1:) < self%place(:ubound(self%place, 1) - 1))) call bring_into_order(self)
+      end if
+      call self%writer%close(ok)
+   end subroutine close_store
+
+   !> Write the rows anew in their order; if there is no room for that the file stays as it is
+   subroutine bring_into_order(store)
+      !> The store, complete
+      type(store_type), intent(inout) :: store
+
+      type(writer_type) :: writer
+      type(row_result_type) :: row
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: bytes, path
+      integer(int64), allocatable :: place(:)
+      integer(int64) :: at
+      integer :: i
+      logical :: ok
+
+      path = store%path//'.part'
+      call writer%open(path, ok)
+      if (.not. ok) return
+      call make_head(store%identity, bytes)
+      call writer%write(bytes, ok)
+      at = len(bytes, int64)
+      place = store%place
+      do i = store%identity%first, store%identity%last
+         call store%read(i, row, error)
+         if (allocated(error)) exit
+         deallocate (bytes)
+         allocate (character(len=bytes_of_entry(store%identity%shape, row%histories)) :: bytes)
+         call pack_entry(row, bytes)
+         call writer%write(bytes, ok)
+         place(i) = at + 1
+         at = at + len(bytes, int64)
+      end do
+      call writer%close(ok)
+      if (store%unit /= 0) close (store%unit)
+      store%unit = 0
+      ok = ok .and. .not. allocated(error)
+      if (ok) call rename_file(path, store%path, ok)
+      if (ok) store%place = place
+      if (.not. ok) call remove_file(path)
+   end subroutine bring_into_order
+
+   !> Remove it
+   subroutine remove(self)
+      !> The store
+      class(store_type), intent(inout) :: self
+
+      call self%close()
+      if (len(self%path) > 0) call remove_file(self%path)
+   end subroutine remove
+
+end module dondolo_store

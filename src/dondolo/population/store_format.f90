@@ -1,0 +1,275 @@
+!> How rows of a population stand in a file: a head that says in plain text which study they belong to, and then rows, each
+!> with its number, its length and a fingerprint of all of it.
+!>
+!> The file is for machines like the one that wrote it (little endian or big endian, real64 or real128). Rows may stand in
+!> any order. What a killed run left of its last row is seen by its length or its fingerprint.
+module dondolo_store_format
+   use, intrinsic :: iso_fortran_env, only : int32, int64
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_row_result, only : bytes_of_row, pack_row, row_result_type, shape_type, unpack_row
+   use dondolo_study_key, only : study_key_type
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entries, is_cut_head
+
+   !> What the file begins with, and the number of the format
+   character(len=*), parameter :: mark = 'dondolo counts ', format_number = '3'
+
+   !> Bytes of the first line - mark, format, length of the head behind this line, fingerprint of it, end of line - and the
+   !> longest head; bytes of a row before its contents, the last 16 a fingerprint
+   integer, parameter :: line_bytes = 43, longest_head = 10000000, entry_head = 32, guarded = 16
+
+   !> Which rows of which study a file is for
+   type :: identity_type
+      !> The study
+      type(study_key_type) :: key
+      !> How many numbers there are of a row
+      type(shape_type) :: shape
+      !> First and last row of the population
+      integer :: first = 1, last = 0
+   end type identity_type
+
+contains
+
+   !> Fingerprint of two texts
+   pure function fingerprint_of(first, second) result(text)
+      !> A text
+      character(len=*), intent(in) :: first
+      !> Another
+      character(len=*), intent(in) :: second
+      !> Fingerprint
+      character(len=16) :: text
+
+      type(fingerprint_type) :: fingerprint
+
+      call fingerprint%add_text(first)
+      call fingerprint%add_text(second)
+      text = fingerprint%text()
+   end function fingerprint_of
+
+   !> The head of a file
+   subroutine make_head(identity, head)
+      !> What the file is for
+      type(identity_type), intent(in) :: identity
+      !> Its head
+      character(len=:), allocatable, intent(out) :: head
+
+      character(len=*), parameter :: lf = new_line('a')
+      character(len=line_bytes) :: line
+      integer :: i
+
+      associate (shape => identity%shape)
+         head = 'rows '//to_text(identity%first)//' '//to_text(identity%last)//' levels '//to_text(shape%levels)// &
+            & ' states '//to_text(shape%states)//' histories '//to_text(merge(1, 0, shape%keeps_histories))// &
+            & ' bits '//to_text(storage_size(1.0_wp))//lf
+      end associate
+      do i = 1, identity%key%settings%count
+         head = head//identity%key%settings%line(i)%text//lf
+      end do
+      write (line, '(3a, i8.8, 3a)') mark, format_number, ' ', len(head), ' ', fingerprint_of(head, ''), lf
+      head = line//head
+   end subroutine make_head
+
+   !> Does a file hold the beginning of a head only? A run was killed when it had hardly begun
+   logical function is_cut_head(unit, size)
+      !> Unit of the file, at its beginning
+      integer, intent(in) :: unit
+      !> Its size
+      integer(int64), intent(in) :: size
+
+      character(len=min(size, int(line_bytes, int64))) :: line
+      integer :: stat, length
+
+      read (unit, pos=1, iostat=stat) line
+      length = min(len(line), len(mark))
+      is_cut_head = stat == 0 .and. line(:length) == mark(:length)
+      if (.not. is_cut_head .or. len(line) < line_bytes) return
+      read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
+      is_cut_head = stat == 0 .and. size < line_bytes + int(length, int64)
+   end function is_cut_head
+
+   !> Read the head of a file
+   subroutine read_head(unit, path, identity, bytes, error)
+      !> Unit of the file
+      integer, intent(in) :: unit
+      !> Its path
+      character(len=*), intent(in) :: path
+      !> What it is for
+      type(identity_type), intent(out) :: identity
+      !> Length of the head
+      integer(int64), intent(out) :: bytes
+      !> It is something else, of another format, or damaged
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=line_bytes) :: line
+      character(len=:), allocatable :: head
+      character(len=10) :: words(5)
+      integer :: length, stat, keeps, bits, at, ends
+
+      bytes = 0
+      length = -1
+      read (unit, pos=1, iostat=stat) line
+      if (stat == 0 .and. line(:len(mark)) == mark .and. line(len(mark) + 1:len(mark) + 2) /= format_number//' ') then
+         call raise_input(error, path//': was written by another version of dondolo')
+         return
+      end if
+      if (stat == 0 .and. line(:len(mark)) == mark) read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
+      if (stat == 0 .and. length > 0 .and. length <= longest_head) then
+         allocate (character(len=length) :: head)
+         read (unit, iostat=stat) head
+         if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
+            at = index(head, new_line('a'))
+            read (head(:at - 1), *, iostat=stat) words(1), identity%first, identity%last, words(2), &
+               & identity%shape%levels, words(3), identity%shape%states, words(4), keeps, words(5), bits
+            if (stat == 0) bytes = line_bytes + length
+         end if
+      end if
+      if (bytes == 0) then
+         call raise_input(error, path//': is no file of counts of dondolo, or its head is damaged')
+         return
+      end if
+      identity%shape%keeps_histories = keeps == 1
+      do while (at < len(head))
+         ends = at + index(head(at + 1:), new_line('a'))
+         call identity%key%settings%add(head(at + 1:ends - 1))
+         at = ends
+      end do
+      if (bits /= storage_size(1.0_wp)) call raise_input(error, path//': was made in real'//to_text(bits)// &
+         & ', not in real'//to_text(storage_size(1.0_wp)))
+   end subroutine read_head
+
+   !> Bytes of a row in a file
+   pure integer(int64) function bytes_of_entry(shape, histories) result(bytes)
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> Histories of a stripe
+      integer, intent(in) :: histories
+
+      bytes = entry_head + bytes_of_row(shape, histories)
+   end function bytes_of_entry
+
+   !> A row as it stands in a file
+   subroutine pack_entry(row, entry)
+      !> The row
+      type(row_result_type), intent(in) :: row
+      !> Its bytes, as many as bytes_of_entry says
+      character(len=*), intent(out) :: entry
+
+      entry(:8) = transfer([int(row%row, int32), int(row%histories, int32)], entry(:8))
+      entry(9:guarded) = transfer(len(entry, int64), entry(9:guarded))
+      call pack_row(row, entry(entry_head + 1:))
+      entry(guarded + 1:entry_head) = fingerprint_of(entry(:guarded), entry(entry_head + 1:))
+   end subroutine pack_entry
+
+   !> Read a row
+   subroutine read_entry(unit, place, shape, row, bytes)
+      !> Unit of the file
+      integer, intent(in) :: unit
+      !> Byte that the row begins with
+      integer(int64), intent(in) :: place
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row
+      type(row_result_type), intent(out) :: row
+      !> Its length in the file; 0: there is none, or not all of it
+      integer(int64), intent(out) :: bytes
+
+      character(len=entry_head) :: head
+      character(len=:), allocatable :: contents
+      integer(int64) :: length, room
+      integer :: stat
+      logical :: is_whole
+
+      bytes = 0
+      read (unit, pos=place, iostat=stat) head
+      if (stat /= 0) return
+      inquire (unit=unit, size=room)
+      call read_entry_head(head, shape, row, length)
+      if (length == 0 .or. length > room) return
+      allocate (character(len=length - entry_head) :: contents)
+      read (unit, iostat=stat) contents
+      if (stat /= 0) return
+      call unpack_entry(head, contents, shape, row, is_whole)
+      if (is_whole) bytes = length
+   end subroutine read_entry
+
+   !> Rows out of bytes, one behind the other
+   subroutine unpack_entries(bytes, shape, count, rows, are_whole)
+      !> The bytes
+      character(len=*), intent(in) :: bytes
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> How many rows there are
+      integer, intent(in) :: count
+      !> The rows
+      type(row_result_type), allocatable, intent(out) :: rows(:)
+      !> They are as they were packed
+      logical, intent(out) :: are_whole
+
+      integer(int64) :: at, length
+      integer :: i
+
+      allocate (rows(count))
+      at = 0
+      are_whole = .true.
+      do i = 1, count
+         if (at + entry_head <= len(bytes, int64)) then
+            call read_entry_head(bytes(at + 1:at + entry_head), shape, rows(i), length)
+         else
+            length = 0
+         end if
+         are_whole = length > 0 .and. at + length <= len(bytes, int64)
+         if (are_whole) call unpack_entry(bytes(at + 1:at + entry_head), bytes(at + entry_head + 1:at + length), shape, &
+            & rows(i), are_whole)
+         if (.not. are_whole) return
+         at = at + length
+      end do
+   end subroutine unpack_entries
+
+   !> Read what a row begins with
+   subroutine read_entry_head(head, shape, row, length)
+      !> Its first bytes
+      character(len=*), intent(in) :: head
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row: its number and its histories are set
+      type(row_result_type), intent(inout) :: row
+      !> Its length; 0: it is none of this shape
+      integer(int64), intent(out) :: length
+
+      integer(int32) :: numbers(2)
+
+      numbers = transfer(head(:8), numbers)
+      length = transfer(head(9:guarded), length)
+      row%row = numbers(1)
+      row%histories = numbers(2)
+      if (row%histories < 1) then
+         length = 0
+      else if (length /= bytes_of_entry(shape, row%histories)) then
+         length = 0
+      end if
+   end subroutine read_entry_head
+
+   !> Take what a row contains, if it is as it was packed
+   subroutine unpack_entry(head, contents, shape, row, is_whole)
+      !> Its first bytes
+      character(len=*), intent(in) :: head
+      !> The bytes behind
+      character(len=*), intent(in) :: contents
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      !> The row, with its number and its histories
+      type(row_result_type), intent(inout) :: row
+      !> It is
+      logical, intent(out) :: is_whole
+
+      is_whole = fingerprint_of(head(:guarded), contents) == head(guarded + 1:)
+      if (is_whole) call unpack_row(contents, shape, row)
+   end subroutine unpack_entry
+
+end module dondolo_store_format
