@@ -59,7 +59,8 @@ def _parser() -> argparse.ArgumentParser:
         "plot",
         help="draw the figures of a run",
         description="Draw the figures of a run from its CSV files, those of the executable or of Typology.save: the "
-        "histories and the curve of a wall, the curves of a population, or a motion and the wall at its peak.",
+        "histories, the curve and the damage states of a wall, the curves of a population, or a motion and the wall at "
+        "its peak.",
     )
     plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     plot.add_argument(

@@ -1,5 +1,6 @@
 """Figures, by what they hold: labels, data, geometry; and the shell command that draws them."""
 
+import inspect
 import subprocess
 import sys
 from dataclasses import replace
@@ -220,6 +221,67 @@ def command(*arguments, folder):
     )
 
 
+def test_results_draw_themselves():
+    """One way to draw: methods, of which the axes come first and the options are named."""
+    assert [name for name in dd.__all__ if name.startswith(("plot", "draw", "animate"))] == []
+    methods = {
+        (name, method): getattr(getattr(dd, name), method)
+        for name in dd.__all__
+        if isinstance(getattr(dd, name), type)
+        for method in dir(getattr(dd, name))
+        if method.startswith("plot")
+    }
+    drawn = {name for name, _ in methods}
+    assert drawn >= {"Cloud", "Fragility", "Incremental", "IntensityComparison", "OverturningSpectrum", "Population"}
+    assert drawn >= {"PopulationCurve", "Response", "Risk", "Stripes", "Typology", "OneSidedWall"}
+    for method in methods.values():
+        _, ax, *options = inspect.signature(method).parameters.values()
+        assert (ax.name, ax.default) == ("ax", None)
+        assert all(option.kind is option.KEYWORD_ONLY for option in options)
+
+
+@pytest.mark.parametrize("ax", ["mine", 3, [], [None, None], "panels"])
+def test_wrong_axes(ax, wall, motion, stripes):
+    if ax == "panels":
+        ax = plt.subplots(3)[1]
+    for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
+        with pytest.raises(dd.InputError, match=r"^ax: must be an Axes of Matplotlib$"):
+            draw(ax)
+    for draw in (motion.plot, dd.Population([wall]).plot):
+        with pytest.raises(dd.InputError, match=r"^ax: must be 2 Axes of Matplotlib$"):
+            draw(ax)
+
+
+def test_axes_are_returned(wall, motion, stripes):
+    _, ax = plt.subplots()
+    for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
+        assert draw(ax) is ax
+    _, axes = plt.subplots(1, 2, squeeze=False)
+    assert list(dd.Population([wall]).plot(axes)) == list(axes.flat)
+
+
+@pytest.mark.parametrize(
+    ("draw", "message"),
+    [
+        (lambda wall, motion, stripes: wall.plot(rotation="wide"), "rotation = 'wide': must be a number"),
+        (lambda wall, motion, stripes: wall.plot(rotation=4.0), "rotation"),
+        (lambda wall, motion, stripes: wall.plot(rotation=np.nan), "rotation"),
+        (lambda wall, motion, stripes: motion.animate(speed="fast"), "speed = 'fast': must be a number"),
+        (lambda wall, motion, stripes: stripes.fit().plot(level="most"), "level = 'most': must be a number"),
+        (lambda wall, motion, stripes: stripes.plot_damage_states(edp=0.4), "edp: must be one row of numbers"),
+        (lambda wall, motion, stripes: stripes.plot_damage_states(edp=[2.0]), "edp = 2: must be positive and at most"),
+    ],
+)
+def test_wrong_options(draw, message, wall, motion, stripes):
+    with pytest.raises(dd.InputError, match=message):
+        draw(wall, motion, stripes)
+
+
+def test_titles_of_curves(stripes):
+    assert stripes.fit().plot().get_title(loc="left") == "parapet"
+    assert stripes.fit().plot(label="one of several").get_title(loc="left") == ""
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "figures"),
@@ -237,6 +299,18 @@ def test_command_draws_the_executables_files(case, figures, executable, root, tm
         picture = imread(tmp_path / "out" / f"{case}_{figure}.png")
         assert picture.shape[0] > 300
         assert np.ptp(picture) > 0.5
+
+
+@pytest.mark.slow
+def test_command_draws_the_damage_states_of_a_wall(executable, root, tmp_path):
+    case = (root / "data/cases/parapet.nml").read_text().replace("../records", str(root / "data/records"))
+    (tmp_path / "case.nml").write_text(case.replace("&stripes", "&stripes edp_thresholds = 0.1, 0.4"))
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
+    assert dd.read_results(tmp_path / "out/parapet").edp_thresholds == [0.1, 0.4, 1.0]
+    done = command("plot", "out/parapet", folder=tmp_path)
+    assert done.stdout == "".join(
+        f"drawn: out/parapet_{name}.png\n" for name in ("stripes", "fragility", "damage_states")
+    )
 
 
 def test_results_read_back_are_those_of_a_run(executable, root, tmp_path):
