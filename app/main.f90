@@ -20,6 +20,7 @@ program dondolo_main
    use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template
    use dondolo_version, only : dondolo_version_text
+   use dondolo_warning_sentence, only : warning_sentences
    implicit none
 
    type(arguments_type) :: arguments
@@ -110,7 +111,7 @@ contains
       !> The reports could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      type(lines_type) :: paths
+      type(lines_type) :: paths, warnings
 
       if (case%job%task == 'typology' .and. case%survey%is_part) then
          call paths%add(results%stores(1)%path)
@@ -120,7 +121,8 @@ contains
          ! The checkpoint of a whole population has served; parts are the user's
          if (case%job%task == 'typology' .and. arguments%action == 'run') call results%remove_stores()
       end if
-      call print_lines('warning', results%warnings)
+      call warning_sentences(results%warnings, warnings)
+      call print_lines('warning', warnings)
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
    end subroutine finish_run
 

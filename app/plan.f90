@@ -16,6 +16,8 @@ module dondolo_plan
    use dondolo_text, only : rounded, to_text
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_input_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : scale_warning_type, warn_of_records
    use dondolo_work, only : work_type
    implicit none
@@ -88,15 +90,17 @@ contains
       !> What there is to say of scale factors
       type(scale_warning_type), intent(in) :: scales
 
-      type(lines_type) :: warnings
+      type(warnings_type) :: warnings
+      type(lines_type) :: sentences
       integer :: i
 
       call oddities%warn(warnings)
       call warn_of_records(records, case%solver%gravity, warnings)
       call scales%warn(warnings)
       if (warnings%count > 0) write (output_unit, '(a)') ''
-      do i = 1, warnings%count
-         write (output_unit, '(a)') 'warning: '//warnings%line(i)%text
+      call warning_sentences(warnings, sentences)
+      do i = 1, sentences%count
+         write (output_unit, '(a)') 'warning: '//sentences%line(i)%text
       end do
    end subroutine print_warnings
 

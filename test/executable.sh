@@ -105,7 +105,7 @@ good_case >good.nml
 run good.nml
 check "stripes: exit code" equal "$rc" 0
 check "stripes: files" equal "$(ls out/deep | tr '\n' ' ')" \
-   "wall_fragility.csv wall_histories.csv wall_stripes.csv wall_walls.csv "
+   "wall_fragility.csv wall_histories.csv wall_run.json wall_stripes.csv wall_walls.csv "
 check "stripes: header of walls" equal "$(header out/deep/wall_walls.csv)" \
    "wall,mechanism,height_m,thickness_m,density_kg_m3,hinge,restitution_model,restitution_value,restitution_factor,\
 overburden_n_m,eccentricity_m,alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ"
@@ -127,6 +127,14 @@ check "stripes: engine in the head" grep -qE '^# engine and build variant: lanes
 check "stripes: title in the head" contains out/deep/wall_walls.csv "title = 'It''s a wall'"
 check "stripes: levels in the head" contains out/deep/wall_walls.csv 'levels = 0.1, 0.2, 0.4, 0.6, 1'
 check "stripes: tolerances in the head" contains out/deep/wall_walls.csv 'rtol = 1e-8, atol = 1e-10'
+check "stripes: the file of the run" python3 -c 'import json, zlib
+run = json.load(open("out/deep/wall_run.json", encoding="utf-8"))
+assert run["format"] == "dondolo run 1" and run["settings"]["job"]["title"] == "It'"'"'s a wall"
+assert run["settings"]["stripes"]["levels"] == [0.1, 0.2, 0.4, 0.6, 1] and run["work"]["histories"] == 40
+assert {one["role"] for one in run["inputs"]} == {"case", "catalogue", "record"}
+for one in run["inputs"]:
+    content = open(one["path"], "rb").read()
+    assert (one["bytes"], one["crc32"]) == (len(content), f"{zlib.crc32(content):08x}"), one'
 check "stripes: collapses of the tables agree" equal \
    "$(grep -v '^#' out/deep/wall_histories.csv | awk -F, 'NR > 1 { s += $(NF - 2) } END { print s }')" \
    "$(grep -v '^#' out/deep/wall_stripes.csv | awk -F, 'NR > 1 { s += $(NF - 2) } END { print s }')"
@@ -223,7 +231,7 @@ population >walls.csv
 run people.nml
 check "typology: exit code" equal "$rc" 0
 check "typology: files" equal "$(ls out | tr '\n' ' ')" \
-   "people_fragility.csv people_stripes.csv people_typology.csv people_walls.csv "
+   "people_fragility.csv people_run.json people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
    "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
@@ -264,7 +272,7 @@ rm -rf people[123]
 { good_case | sed "s/'stripes'/'history'/; s/'both'/'reversed'/"; echo "&history record = 'r3', im_level = 0.15 /"; } >history.nml
 run history.nml
 check "history: exit code" equal "$rc" 0
-check "history: files" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+check "history: files" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_run.json wall_walls.csv "
 check "history: header" equal "$(header out/deep/wall_history.csv)" \
    "time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact"
 check "history: marks of impacts" equal \
@@ -301,15 +309,15 @@ sed "s/'history'/'stripes'/" history.nml >both.nml
 run both.nml
 check "history group in a stripes case" equal "$rc" 0
 run history.nml
-check "results of another task are not left" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_walls.csv "
+check "results of another task are not left" equal "$(ls out/deep | tr '\n' ' ')" "wall_history.csv wall_run.json wall_walls.csv "
 echo 'my own notes' >out/deep/wall_stripes.csv
 cp history.nml out/deep/wall_typology.csv
 run history.nml
 check "a file that is no result is left" equal "$(ls out/deep | tr '\n' ' ')" \
-   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
+   "wall_history.csv wall_run.json wall_stripes.csv wall_typology.csv wall_walls.csv "
 run --check both.nml
 check "--check removes nothing" equal "$(ls out/deep | tr '\n' ' ')" \
-   "wall_history.csv wall_stripes.csv wall_typology.csv wall_walls.csv "
+   "wall_history.csv wall_run.json wall_stripes.csv wall_typology.csv wall_walls.csv "
 rm -rf out
 
 printf '\xef\xbb\xbf%s' "$(sed 's/$/\r/' good.nml)" >dos.nml

@@ -91,7 +91,7 @@ EDITS = [
     ),
     Edit(
         "the bootstrap ignores probabilities of occurrence in the saturation",
-        "occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))",
+        "occurring += own @ in_series(rows.share[part], starts)",
         "occurring += own.sum(axis=1)",
         "test_typology_bootstrap.py::test_brute_force",
     ),

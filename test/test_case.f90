@@ -12,6 +12,7 @@ program test_case
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
+   use dondolo_echo, only : echo_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_warnings, only : scale_warning_type
@@ -217,6 +218,7 @@ contains
    subroutine check_echo(content, what)
       character(len=*), intent(in) :: content, what
       type(case_type) :: case
+      type(echo_type) :: echo
       type(lines_type) :: first, second
       type(error_type), allocatable :: error
       character(len=:), allocatable :: text
@@ -226,7 +228,8 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_ok(error, what)
       if (allocated(error)) return
-      call case%echo(first)
+      call case%echo(echo)
+      call echo%to_namelist(first)
       text = ''
       do i = 1, first%count
          text = text//first%line(i)%text//lf
@@ -235,7 +238,8 @@ contains
       call read_case(scratch//'/b.nml', case, error)
       call check_ok(error, what//': the echo')
       if (allocated(error)) return
-      call case%echo(second)
+      call case%echo(echo)
+      call echo%to_namelist(second)
       call check(first%count == second%count, what//': lines of the echo')
       do i = 1, min(first%count, second%count)
          call check_text(second%line(i)%text, first%line(i)%text, what//': line '//to_text(i))
@@ -353,7 +357,7 @@ contains
       call run_case(case, results, error, threads=1)
       call write_reports(case, results, paths, error)
       call check_ok(error, 'reports')
-      call check(paths%count == 4, 'four files')
+      call check(paths%count == 5, 'five files')
       inquire (file=scratch//'/out/x_fragility.csv', exist=exists)
       call check(exists, 'the last one is there')
       inquire (file=scratch//'/out/x_fragility.csv.part', exist=exists)

@@ -8,6 +8,8 @@ program test_fragility
    use dondolo_lines, only : lines_type
    use dondolo_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : warn_of_fit
    implicit none
 
@@ -57,7 +59,8 @@ contains
       real(wp), parameter :: collapses(16) = [0, 0, 0, 0, 0, 4, 13, 23, 38, 41, 44, 45, 45, 45, 45, 45]
       type(fragility_type) :: curve
       type(stripes_type) :: stripes
-      type(lines_type) :: warnings
+      type(warnings_type) :: warnings
+      type(lines_type) :: sentences
 
       call suite('published data')
       curve = fitted(levels, collapses, spread(45.0_wp, 1, 16), 'sixteen stripes of 45')
@@ -76,7 +79,8 @@ contains
       allocate(stripes%response(59, 3))
       call warn_of_fit(wall_type(), stripes, curve, warnings)
       call check(warnings%count == 1, 'one warning')
-      call check_text(warnings%line(1)%text, &
+      call warning_sentences(warnings, sentences)
+      call check_text(sentences%line(1)%text, &
          & 'theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates', 'warning')
    end subroutine test_published
 

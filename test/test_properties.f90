@@ -54,7 +54,7 @@ contains
          associate (property => table(i))
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
-            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'm/s2']), what//': its unit')
+            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'N/m2', 'm/s2']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) &
                & call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
@@ -286,7 +286,7 @@ contains
       type(error_type), allocatable :: error
       type(group_type) :: group
       character(len=:), allocatable :: text, what
-      integer :: i, m
+      integer :: i, j, m
 
       call suite('walls')
       table = property_table('wall')
@@ -302,8 +302,10 @@ contains
             call read_values(group, input, error)
             call check_ok(error, what)
             call input%set('mechanism', trim(mechanism_names(m)))
-            if (what /= 'height') call input%set('height', 3.0_wp)
-            if (what /= 'thickness') call input%set('thickness', 0.5_wp)
+            do j = 1, size(table)
+               if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
+                  & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
+            end do
             if (what == 'restitution_value') call input%set('restitution', 'constant')
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')

@@ -19,6 +19,7 @@ program test_run_population
    use dondolo_study, only : study_type
    use dondolo_system, only : remove_file
    use dondolo_text, only : to_text
+   use dondolo_warning_sentence, only : make_sentence
    use dondolo_warnings, only : scale_warning_type
    use dondolo_work, only : work_type
    implicit none
@@ -231,6 +232,7 @@ contains
       type(case_type) :: case
       type(results_type) :: alone, several
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: found, expected
       integer :: threads, i
 
       call suite('threads')
@@ -253,7 +255,9 @@ contains
          call check(all(several%work%counts() == alone%work%counts()), 'counts of work')
          call check(several%warnings%count == alone%warnings%count .and. alone%warnings%count > 0, 'warnings')
          do i = 1, alone%warnings%count
-            call check_text(several%warnings%line(i)%text, alone%warnings%line(i)%text, 'warning '//to_text(i))
+            call make_sentence(several%warnings%item(i), found)
+            call make_sentence(alone%warnings%item(i), expected)
+            call check_text(found, expected, 'warning '//to_text(i))
          end do
          call write_tables(case, several, 'threads')
          call compare_tables('threads', to_text(threads)//' threads')

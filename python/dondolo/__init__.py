@@ -39,13 +39,14 @@ from dondolo.records.processing import RotD, band_pass, correct_baseline, resamp
 from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
 from dondolo.records.record import Record, read_catalogue, read_record, read_records
 from dondolo.records.synthetic import synthetic_records
-from dondolo.report import report
+from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
-from dondolo.walls.wall import FreeStandingWall, OneSidedWall, Terms, TwoBlockWall, Wall
+from dondolo.walls.wall import *  # noqa: F403
+from dondolo.walls.wall import __all__ as _walls
 
 __version__ = _constants().version
 
@@ -61,7 +62,6 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
-    "FreeStandingWall",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -72,7 +72,6 @@ __all__ = [
     "Lognormal",
     "MissingFileError",
     "Normal",
-    "OneSidedWall",
     "OverturningSpectrum",
     "Population",
     "PopulationCurve",
@@ -87,13 +86,10 @@ __all__ = [
     "State",
     "StoredResults",
     "Stripes",
-    "Terms",
     "Triangular",
-    "TwoBlockWall",
     "Typology",
     "TypologyBootstrap",
     "Uniform",
-    "Wall",
     "Window",
     "Work",
     "__version__",
@@ -134,3 +130,5 @@ __all__ = [
     "typology",
     "write_nrml",
 ]
+# Names of walls stand where the walls do
+__all__ += _walls

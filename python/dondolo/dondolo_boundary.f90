@@ -19,12 +19,14 @@ module dondolo_boundary
    use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
    implicit none
    private
 
    public :: parcel_type, send, take
-   public :: report, split_lines, pack_lines, as_solver, check_rotations, check_spectrum, check_room, &
-      & check_parcel, check_trace, check_interrupt
+   public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_rotations, &
+      & check_spectrum, check_room, check_parcel, check_trace, check_interrupt
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
@@ -169,6 +171,20 @@ contains
          at = at + length
       end do
    end function pack_lines
+
+   !> Append warnings to the text of a parcel: JSON objects, each on its line
+   subroutine pack_warnings(warnings, parcel)
+      !> Warnings
+      type(warnings_type), intent(in) :: warnings
+      !> The parcel
+      type(parcel_type), intent(inout) :: parcel
+
+      type(lines_type) :: lines
+
+      call warning_objects(warnings, lines)
+      if (.not. allocated(parcel%text)) parcel%text = ''
+      parcel%text = parcel%text//pack_lines(lines)
+   end subroutine pack_warnings
 
    !> Append a note to the text of a parcel
    subroutine pack_note(note, parcel)

@@ -664,13 +664,13 @@ end subroutine read_walls
 ! What the executable would warn of, of a wall and a record, before it runs one motion
 subroutine warn_of_motion(walls, record, pga, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_walls
-   use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_records
    implicit none
    integer(c_int64_t), intent(in) :: walls
@@ -682,7 +682,7 @@ subroutine warn_of_motion(walls, record, pga, handle, sizes, stat, message)
    type(wall_type), pointer :: people(:)
    type(record_type) :: records(1)
    type(wall_warning_type) :: oddities
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -697,7 +697,7 @@ subroutine warn_of_motion(walls, record, pga, handle, sizes, stat, message)
       records(1)%acceleration = [pga]
       call warn_of_records(records, people(1)%gravity, warnings)
       if (warnings%count > 0) then
-         parcel%text = pack_lines(warnings)
+         call pack_warnings(warnings, parcel)
          call send(parcel, handle, sizes)
       end if
    end if
@@ -774,15 +774,15 @@ end subroutine simulate
 ! Check what stripes of walls would be, without running them: histories of a stripe of each, and the parcel of the warnings
 subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : add_place, error_type
    use dondolo_handles, only : find_study, find_walls
-   use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : scale_warning_type, warn_of_records
    implicit none
    integer(c_int64_t), intent(in) :: study, walls
@@ -796,7 +796,7 @@ subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
    type(stripes_type) :: stripes
    type(scale_warning_type) :: scales
    type(wall_warning_type) :: oddities
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
    integer :: i
@@ -831,7 +831,7 @@ subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
       call warn_of_records(chosen%suite%records, people(1)%gravity, warnings)
       call scales%warn(warnings)
       if (warnings%count > 0) then
-         parcel%text = pack_lines(warnings)
+         call pack_warnings(warnings, parcel)
          call send(parcel, handle, sizes)
       end if
    end if
@@ -1089,13 +1089,15 @@ end subroutine fit_curves
 ! curves, then warnings
 subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_room, pack_curve, pack_lines, parcel_type, report, send, split_lines, status_code
+   use dondolo_boundary, only : check_room, pack_curve, pack_lines, pack_warnings, parcel_type, report, send, split_lines, &
+      & status_code
    use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
    use dondolo_population_boundary, only : new_population
    use dondolo_population_counts, only : population_counts_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : fit_warning_type
    implicit none
    character(len=*), intent(in) :: texts, names
@@ -1109,6 +1111,7 @@ subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, r
    type(typology_type), allocatable :: groups(:)
    type(fit_warning_type) :: fits
    type(lines_type) :: words, lines
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
    real(c_double), allocatable :: parts(:, :), whole(:, :)
@@ -1142,8 +1145,9 @@ subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, r
          call lines%add(groups(i)%group)
          call lines%add(groups(i)%mechanism)
       end do
-      call fits%warn(groups, lines)
+      call fits%warn(groups, warnings)
       parcel%text = pack_lines(lines)
+      call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1446,13 +1450,13 @@ end subroutine close_store
 subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, handle, sizes, stat, &
       & message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
-   use dondolo_boundary, only : pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_walls
    use dondolo_fragility, only : fragility_type, status_names
-   use dondolo_lines, only : lines_type
    use dondolo_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : warn_of_fit
    implicit none
    integer(c_int64_t), intent(in) :: walls
@@ -1464,7 +1468,7 @@ subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, handle, s
    type(wall_type), pointer :: people(:)
    type(stripes_type) :: stripes
    type(fragility_type) :: fragility
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -1480,7 +1484,7 @@ subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, handle, s
       allocate (stripes%response(1, 1))
       stripes%response%edp = largest_edp
       call warn_of_fit(people(1), stripes, fragility, warnings)
-      parcel%text = pack_lines(warnings)
+      call pack_warnings(warnings, parcel)
       call send(parcel, handle, sizes)
    end if
    call report(error, stat, message)
@@ -1490,11 +1494,11 @@ end subroutine warn_of_curve
 ! it is one history
 subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
-   use dondolo_boundary, only : check_room, pack_lines, parcel_type, report, send
+   use dondolo_boundary, only : check_room, pack_warnings, parcel_type, report, send
    use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
    use dondolo_record, only : record_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_warning, only : warnings_type
    use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    implicit none
    integer(c_int), intent(in) :: n
@@ -1505,7 +1509,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    character(len=2048), intent(out) :: message
    type(record_type) :: records(1)
    type(stripes_type) :: stripes
-   type(lines_type) :: warnings
+   type(warnings_type) :: warnings
    type(parcel_type) :: parcel
    type(error_type), allocatable :: error
 
@@ -1525,7 +1529,7 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    else
       call sentences(stripes, records, edp_limit, warnings)
    end if
-   parcel%text = pack_lines(warnings)
+   call pack_warnings(warnings, parcel)
    call send(parcel, handle, sizes)
    call report(error, stat, message)
 end subroutine warn_of_errors

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
@@ -21,7 +21,43 @@ class MissingFileError(FileNotFoundError, InputError):
 
 
 class DondoloWarning(UserWarning):
-    """Results that are correct but may mislead."""
+    """Results that are correct but may mislead.
+
+    Parameters
+    ----------
+    sentence : str
+        What `str` gives.
+    code : str
+        What it is, such as ``scale_factors_large``; docs/files.md lists the codes. Empty if it has none.
+    subject : mapping
+        What it is about: kind -> name, such as ``{"record": "tolmezzo"}``.
+    numbers : mapping
+        Name -> number.
+    """
+
+    def __init__(
+        self,
+        sentence: str,
+        code: str = "",
+        subject: Mapping[str, str] | None = None,
+        numbers: Mapping[str, float] | None = None,
+    ) -> None:
+        super().__init__(sentence)
+        self.code, self.subject, self.numbers = code, dict(subject or {}), dict(numbers or {})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, DondoloWarning) and self.as_data() == other.as_data()
+
+    def __hash__(self) -> int:
+        return hash((str(self), self.code))
+
+    def placed(self, place: str) -> DondoloWarning:
+        """The same, its sentence preceded by a place."""
+        return DondoloWarning(place + str(self), self.code, self.subject, self.numbers)
+
+    def as_data(self) -> dict[str, Any]:
+        """Code, subject, numbers and sentence."""
+        return {"code": self.code, "subject": self.subject, "numbers": self.numbers, "sentence": str(self)}
 
 
 @contextmanager

@@ -258,7 +258,7 @@ def test_walls_without_a_fit():
     complete = np.ones(2, dtype=bool)
     arguments = (people.population, "pga", LEVELS, np.ones(1), counts, np.full(2, 44), complete, Work())
     stepped = combine(*arguments)
-    assert list(stepped.warnings) == [
+    assert [str(warning) for warning in stepped.warnings] == [
         "1 of 2 mechanisms of walls has no fit and takes part with its fractions of collapse "
         "(separated; the first is 'a')",
         "the population has no fit (mechanism one_sided, status separated)",

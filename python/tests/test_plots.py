@@ -326,8 +326,8 @@ def test_results_read_back_are_those_of_a_run(executable, root, tmp_path):
 def test_command_says_what_is_wrong(tmp_path):
     done = command("plot", "nothing", folder=tmp_path)
     assert done.returncode == 2
-    assert done.stderr == "dondolo: nothing_walls.csv: cannot be read: No such file or directory\n"
-    (tmp_path / "bad_walls.csv").write_text("a,b\n1,2\n")
+    assert done.stderr == "dondolo: nothing_run.json: cannot be read: No such file or directory\n"
+    (tmp_path / "bad_run.json").write_text("[1, 2]\n")
     done = command("plot", "bad", folder=tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1

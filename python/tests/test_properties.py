@@ -69,7 +69,8 @@ def test_walls(kind):
 
 @pytest.mark.parametrize("kind", MECHANISMS.values(), ids=MECHANISMS)
 def test_defaults_of_walls(kind):
-    wall = kind(3.0, 0.25)
+    needed = {name for name, one in inspect.signature(kind).parameters.items() if one.default is one.empty}
+    wall = kind(3.0, 0.25, **dict.fromkeys(needed - {"height", "thickness"}, 1.0))
     for field in dataclasses.fields(wall):
         (row,) = (row for row in (*WALL, GRAVITY) if row.name == field.name)
         value = getattr(wall, row.name)

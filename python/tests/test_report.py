@@ -2,6 +2,7 @@
 
 import dataclasses
 import functools
+import html
 import html.parser
 import http.server
 import os
@@ -16,9 +17,10 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pytest
+from dondolo.reporting import content, numerals
+from dondolo.reporting.page import _environment
 
 import dondolo as dd
-from dondolo import _page
 
 pytestmark = pytest.mark.slow
 
@@ -99,9 +101,7 @@ def four(values):
 
 
 def chances(values):
-    return [
-        re.sub("<.*?>", "", str(_page.probability(value))).replace("&lt;", "<").replace("&gt;", ">") for value in values
-    ]
+    return [numerals.probability(value).text for value in values]
 
 
 @pytest.fixture(scope="module")
@@ -276,18 +276,24 @@ def test_files_tell_the_run(case, runs, tmp_path):
     dd.report(stored, tmp_path / "report.html")
     page = read(tmp_path / "report.html")
     assert page.errors == []
-    warned = [line.removeprefix("warning:").strip() for line in stored.comments if line.startswith("warning:")]
+    warned = [str(warning) for warning in stored.run.warnings]
     shown = re.search('<aside class="warnings.*?</aside>', page.source, re.S).group(0)
     assert [item.text for item in ElementTree.fromstring(shown).iter("li")] == warned
     assert bool(warned) == (case != "history")
-    title = next(line for line in stored.comments if line.startswith("title")).split("'")[1]
+    title = stored.run.settings["job"]["title"]
     assert f"<title>{title}</title>" in page.source
-    assert f"{stored.written.day}\N{NO-BREAK SPACE}{stored.written:%B}" in page.source
-    for line in stored.comments[:3]:
-        assert line.partition(": ")[2] in page.text
-    for line in stored.comments:
-        if line.startswith("&"):
-            assert " ".join(line.split()) in page.text
+    assert f"{stored.run.written.day}\N{NO-BREAK SPACE}{stored.run.written:%B}" in page.source
+    assert stored.run.compiler in page.text
+    assert stored.run.engine in page.text
+    for one in stored.run.inputs:
+        assert f"{one['path']}{one['role']}" in page.text.replace(" ", "")
+        assert one["crc32"] in page.text
+    # The case is shown as it may be given again.
+    with open(f"{runs / case}_walls.csv", encoding="utf-8") as file:
+        head = [line[1:].strip() for line in file if line.startswith("#")]
+    echo = " ".join(head[3 : max(i for i, line in enumerate(head) if line.endswith("/")) + 1])
+    shown = re.search("<pre>(.*?)</pre>", page.source, re.S).group(1)
+    assert " ".join(html.unescape(shown).split()) == echo.replace(", atol", " atol")
 
 
 def test_a_case_run_in_python_knows_its_records(root, tmp_path):
@@ -317,28 +323,29 @@ def test_texts_are_escaped(few, tmp_path):
 
 
 def test_long_tables_are_cut_and_say_so():
-    page = Page(_page.table("Much", {"number": [str(i) for i in range(_page.ROWS + 7)]}))
+    table = content.Table.of({"number": [str(i) for i in range(content.ROWS + 7)]})
+    page = Page(_environment().get_template("macros.html.j2").module.table(table, "Much"))
     (rows,) = page.tables.values()
-    assert len(rows) == _page.ROWS + 1
-    assert f"First {_page.ROWS} of {_page.ROWS + 7} rows" in page.text
+    assert len(rows) == content.ROWS + 1
+    assert f"First {content.ROWS} of {content.ROWS + 7} rows" in page.text
 
 
 def test_numbers_are_shown_as_people_write_them():
-    def plain(piece):
-        return re.sub("<.*?>", "", str(piece))
+    def plain(numeral):
+        return numeral.text + (f" \N{MULTIPLICATION SIGN} 10{numeral.power}" if numeral.power else "") + numeral.unit
 
-    assert plain(_page.number(4.5e-7)) == "4.5 \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}7"
-    assert plain(_page.number(-0.25)) == "\N{MINUS SIGN}0.25"
-    assert plain(_page.number(5725.29, 3)) == "5\u202f730"
-    assert plain(_page.number(np.inf)) == "∞"
-    assert plain(_page.parameter(0.373)) == "0.3730"
-    assert [str(_page.probability(p)) for p in (0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0)] == [
-        "0",
-        "&lt;0.0001",
-        "0.5000",
-        "&gt;0.9999",
-        "1",
-    ]
+    assert plain(numerals.number(4.5e-7)) == "4.5 \N{MULTIPLICATION SIGN} 10\N{MINUS SIGN}7"
+    assert plain(numerals.number(-0.25)) == "\N{MINUS SIGN}0.25"
+    assert plain(numerals.number(5725.29, 3)) == "5\u202f730"
+    assert plain(numerals.number(np.inf)) == "∞"
+    assert plain(numerals.number(None, unit=" s")) == "\N{EN DASH} s"
+    assert plain(numerals.percent(1e-5)) == "<0.1 %"
+    assert plain(numerals.parameter(0.373)) == "0.3730"
+    assert chances([0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]) == ["0", "<0.0001", "0.5000", ">0.9999", "1"]
+    # The templates set the power of ten, and say that there is none.
+    module = _environment().get_template("macros.html.j2").module
+    assert str(module.numeral(numerals.number(4.5e-7))) == "4.5 \N{MULTIPLICATION SIGN} 10<sup>\N{MINUS SIGN}7</sup>"
+    assert str(module.numeral(numerals.NONE)) == '<span title="none">\N{EN DASH}</span>'
 
 
 def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
@@ -462,7 +469,7 @@ def test_scale_factors_of_a_population_are_known(people, records, tmp_path):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a")]
     with pytest.warns(dd.DondoloWarning) as caught:
         large = dd.typology(walls, records, [0.4, 0.8, 1.2, 1.6], progress=False)
-    assert list(large.warnings) == [str(one.message) for one in caught]
+    assert list(large.warnings) == [one.message for one in caught]
     dd.report(large, tmp_path / "report.html")
     page = read(tmp_path / "report.html")
     many, histories, most = re.search(r"above 10 in (\d+) of (\d+) histories, the largest (\S+)", page.text).groups()

@@ -63,15 +63,37 @@ DISTRIBUTIONS = [
 def test_quantiles(distribution, function):
     """Also where a distribution is cut off: no samples gather at the ends."""
     p = np.linspace(0.0005, 0.9995, 1000)
-    assert function(distribution.quantile(p)) == pytest.approx(p, abs=1e-11)
+    assert function(distribution.ppf(p)) == pytest.approx(p, abs=1e-11)
 
 
 def test_choice():
     p = np.array([1e-9, 0.2, 0.2000001, 0.7, 0.7000001, 1.0])
-    assert BRICKS.quantile(p).tolist() == [0.25, 0.25, 0.38, 0.38, 0.51, 0.51]
-    assert dd.Choice((1.0, 2.0), (0.0, 1.0)).quantile(np.array([1e-300, 1.0])).tolist() == [2.0, 2.0]
+    assert BRICKS.ppf(p).tolist() == [0.25, 0.25, 0.38, 0.38, 0.51, 0.51]
+    assert dd.Choice((1.0, 2.0), (0.0, 1.0)).ppf(np.array([1e-300, 1.0])).tolist() == [2.0, 2.0]
     assert dd.Choice([1, 2, 4]).probabilities == pytest.approx((1 / 3,) * 3)
-    assert dd.Choice((5.0,)).quantile(p).tolist() == [5.0] * 6
+    assert dd.Choice((5.0,)).ppf(p).tolist() == [5.0] * 6
+
+
+class Stuck:
+    """An object of one's own that has quantiles, of whatever shape."""
+
+    def __init__(self, answer):
+        self.answer = answer
+
+    def ppf(self, q):
+        return self.answer if self.answer is not None else 2.0 + q
+
+
+def test_anything_with_quantiles_is_a_distribution():
+    mine = dd.sample_population("one_sided", 20, 1, height=dd.Normal(3.0, 0.2), thickness=0.3)
+    scipys = dd.sample_population("one_sided", 20, 1, height=stats.norm(3.0, 0.2), thickness=0.3)
+    assert [wall.height for wall in scipys.walls] == pytest.approx([wall.height for wall in mine.walls], rel=1e-14)
+    assert "height = norm(3.0, 0.2)" in scipys.origin[0]
+    own = dd.sample_population("one_sided", 20, 1, height=Stuck(None), thickness=0.3)
+    assert all(2.0 < wall.height < 3.0 for wall in own.walls)
+    for wrong in (1.0, np.full(20, np.nan), np.ones(19)):
+        with pytest.raises(dd.InputError, match="height: its ppf must return 20 finite numbers"):
+            dd.sample_population("one_sided", 20, 1, height=Stuck(wrong), thickness=0.3)
 
 
 @pytest.mark.parametrize(
@@ -423,4 +445,4 @@ def test_the_historic_centre_is_sensible(root, few):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         both = dd.typology(people, few, [0.3, 0.6, 0.9, 1.2, 1.6, 2.0], progress=False)
-    assert both.fit("one_sided").theta < 0.6 * both.fit("two_block").theta
+    assert both["one_sided"].fit.theta < 0.6 * both["two_block"].fit.theta

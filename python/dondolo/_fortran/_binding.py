@@ -7,6 +7,7 @@ float64 before they cross.
 from __future__ import annotations
 
 import functools
+import json
 import os
 import sys
 import threading
@@ -197,7 +198,7 @@ class PopulationData(NamedTuple):
     walls: list[CurveData]
     fractions: FloatArray
     groups: list[GroupData]
-    warnings: list[str]
+    warnings: list[DondoloWarning]
 
 
 @functools.cache
@@ -289,13 +290,23 @@ def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Par
     return Parcel(integers, reals, text.split("\n")[:-1])
 
 
-def warn(sentences: Iterable[str]) -> None:
-    """Warn of each sentence, where the user's own line is."""
+def unpack_warning(data: dict[str, Any]) -> DondoloWarning:
+    """A warning of Fortran, from its JSON object."""
+    return DondoloWarning(str(data["sentence"]), str(data["code"]), data["subject"], data["numbers"])
+
+
+def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
+    """Warnings of Fortran, a JSON object on each line."""
+    return [unpack_warning(json.loads(line)) for line in lines]
+
+
+def warn(found: Iterable[str | DondoloWarning]) -> None:
+    """Warn of each, where the user's own line is."""
     frame, depth = sys._getframe(), 1
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, depth = frame.f_back, depth + 1
-    for sentence in sentences:
-        warnings.warn(sentence, DondoloWarning, stacklevel=depth)
+    for one in found:
+        warnings.warn(one if isinstance(one, DondoloWarning) else DondoloWarning(one), stacklevel=depth)
 
 
 def settings(
@@ -544,7 +555,8 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
                 CurveData(status[r + w + i], curve),
             )
         )
-    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, parcel.lines[2 * number :])
+    found = unpack_warnings(parcel.lines[2 * number :])
+    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 
 
 def curve_of_population(
@@ -574,26 +586,28 @@ def curve_of_population(
     return mean, fractiles, found
 
 
-def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[str]:
+def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
-    return receive(*_core.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code)).lines
+    parcel = receive(*_core.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
+    return unpack_warnings(parcel.lines)
 
 
-def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[str]:
+def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[DondoloWarning]:
     """What the executable would warn of, of a wall and a record, before it runs one motion."""
     handle, *rest = _core.warn_of_motion(wall.number, record.encode(), pga)
-    return receive(handle, *rest).lines if handle else []
+    return unpack_warnings(receive(handle, *rest).lines) if handle else []
 
 
 def warnings_of_errors(
     edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
-) -> list[str]:
+) -> list[DondoloWarning]:
     """What the executable would warn of, of estimated errors; record and level are those of the largest.
 
     Without a record it is one history.
     """
-    return receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level)).lines
+    parcel = receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    return unpack_warnings(parcel.lines)
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

@@ -287,6 +287,7 @@ def _censored(x: FloatArray, counts: np.ndarray[Any, np.dtype[np.int64]]) -> tup
 
     Between the values x, which increase, below and above them lie so many of the sample. In c = 1/deviation and
     a = mean/deviation the logarithm of the likelihood, sum(n ln(Phi(z_j) - Phi(z_(j-1)))) with z = c x - a, is concave.
+    By hand, since SciPy's fit to censored data stops after some four digits and gives no covariance.
     """
     from scipy.special import log_ndtr
 

@@ -21,6 +21,7 @@ from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
+from dondolo.errors import DondoloWarning
 from dondolo.records.record import Record
 from dondolo.records.record import upload as upload_records
 from dondolo.walls.wall import Wall
@@ -44,7 +45,7 @@ class Plan(NamedTuple):
         Of the last wall: index of each history's record, and +1 or -1.
     scale : ndarray, shape (levels, histories)
         Of the last wall: factors on the records, without the sign of the polarity.
-    warnings : list of str
+    warnings : list of DondoloWarning
         What the user should know.
     """
 
@@ -52,7 +53,7 @@ class Plan(NamedTuple):
     record: Any
     polarity: Any
     scale: FloatArray
-    warnings: list[str]
+    warnings: list[DondoloWarning]
 
 
 class Outcome(NamedTuple):
@@ -113,12 +114,12 @@ class Request:
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
-        histories, *sent, stat, message = _core.plan(study, people, walls)
+        histories, handle, sizes, stat, message = _core.plan(study, people, walls)
         _binding.check(stat, message)
-        sentences = _binding.receive(*sent, stat, message).lines if sent[0] else []
+        found = _binding.unpack_warnings(_binding.receive(handle, sizes, stat, message).lines) if handle else []
         record, polarity, scale, stat, message = _core.scales(study, people, walls, histories[-1], len(self.levels))
         _binding.check(stat, message)
-        return Plan(histories, record - 1, polarity, scale.T, sentences)
+        return Plan(histories, record - 1, polarity, scale.T, found)
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""

@@ -15,7 +15,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.records.record import Record, place_of
 from dondolo.walls.wall import Wall, upload
@@ -276,7 +276,7 @@ def simulate(
 
 
 @functools.lru_cache
-def _warnings(wall: Wall, record: str, pga: float) -> list[str]:
+def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
     return _binding.warnings_of_motion(upload((wall,)), record, pga)
 

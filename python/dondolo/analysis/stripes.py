@@ -20,7 +20,7 @@ from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall, upload, walls_table
 
@@ -161,7 +161,7 @@ class Stripes(Shown):
         data = _binding.CurveData(curve.status, numbers)
         sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
         where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
-        _binding.warn(where + sentence for sentence in sentences)
+        _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -361,7 +361,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     )
 
 
-def _warnings(stripes: Stripes) -> list[str]:
+def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     """What the executable would warn of, of estimated errors."""
     if stripes.edp_error is None:
         return []

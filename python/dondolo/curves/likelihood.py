@@ -19,7 +19,6 @@ from dondolo._base.arguments import FloatArray
 
 _MOST_STEPS = 100
 _SEARCHES = 60
-_BISECTIONS = 60
 
 
 class Likelihood:
@@ -88,18 +87,21 @@ class Likelihood:
 
     def probit_interval(self, at: FloatArray, step: FloatArray, drop: float) -> tuple[FloatArray, FloatArray]:
         """Interval of the probit at levels; `step` is about its half width, `drop` how far the profile may fall."""
-        centre = self.slope * at
-        return tuple(  # type: ignore[return-value]
-            _root(lambda h: self.top - drop - self.at_probit(at, h), centre, sign * step) for sign in (-1.0, 1.0)
-        )
+
+        def short(h: FloatArray, at: FloatArray) -> FloatArray:
+            return self.top - drop - self.at_probit(at, h)
+
+        low, high = (_root(short, self.slope * at, sign * step, at) for sign in (-1.0, 1.0))
+        return low, high
 
     def median_interval(self, step: float, drop: float) -> tuple[float, float]:
         """Interval of ln theta, relative to the fitted one; infinite where the data leave it open."""
-        ends = [
-            _root(lambda at: self.top - drop - self.at_probit(at, np.zeros(1)), np.zeros(1), np.array([sign * step]))
-            for sign in (-1.0, 1.0)
-        ]
-        return float(ends[0][0]), float(ends[1][0])
+
+        def short(at: FloatArray) -> FloatArray:
+            return self.top - drop - self.at_probit(at, np.zeros(len(at)))
+
+        low, high = (float(_root(short, np.zeros(1), np.array([sign * step]))[0]) for sign in (-1.0, 1.0))
+        return low, high
 
     def slope_interval(self, step: float, drop: float) -> tuple[float, float]:
         """Interval of the slope b1, from 0 where the data leave it open."""
@@ -111,30 +113,30 @@ class Likelihood:
         upper = float(_root(short, centre, np.array([step]))[0])
         if short(np.zeros(1))[0] <= 0.0:
             return 0.0, upper
-        return float(_bisect(short, centre, np.zeros(1))[0]), upper
+        return float(_between(short, np.zeros(1), centre)[0]), upper
 
 
-def _root(short: Callable[[FloatArray], FloatArray], inside: FloatArray, step: FloatArray) -> FloatArray:
+def _root(short: Callable[..., FloatArray], inside: FloatArray, step: FloatArray, *arguments: FloatArray) -> FloatArray:
     """Where a function that is negative at `inside` becomes positive in the direction of `step`, element by element."""
     outside = inside + step
     for _ in range(_SEARCHES):
-        still = short(outside) <= 0.0
+        still = short(outside, *arguments) <= 0.0
         if not still.any():
             break
         outside = np.where(still, inside + 2.0 * (outside - inside), outside)
     else:
         outside = np.where(still, np.copysign(np.inf, step), outside)
-    open_end = ~np.isfinite(outside)
-    root = _bisect(short, inside, np.where(open_end, inside, outside))
-    return np.where(open_end, outside, root)
+    shut = np.isfinite(outside)
+    outside[shut] = _between(short, inside[shut], outside[shut], *(one[shut] for one in arguments))
+    return outside
 
 
-def _bisect(short: Callable[[FloatArray], FloatArray], inside: FloatArray, outside: FloatArray) -> FloatArray:
-    """Halve the distance between a point inside and one outside until nothing is left of it."""
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (inside + outside)
-        out = short(middle) > 0.0
-        inside, outside = np.where(out, inside, middle), np.where(out, middle, outside)
-        if np.all(np.abs(outside - inside) <= 1e-13 * (np.abs(inside) + np.abs(outside))):
-            break
-    return 0.5 * (inside + outside)
+def _between(
+    short: Callable[..., FloatArray], one: FloatArray, other: FloatArray, *arguments: FloatArray
+) -> FloatArray:
+    """Zeros of a function between points where its signs differ, element by element."""
+    from scipy.optimize import elementwise
+
+    ends = np.minimum(one, other), np.maximum(one, other)
+    root: FloatArray = elementwise.find_root(short, ends, args=arguments, tolerances={"xatol": 0.0, "xrtol": 1e-13}).x
+    return root

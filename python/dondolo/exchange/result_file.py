@@ -1,10 +1,9 @@
-"""One result file as text: comments at its head, columns, and the place of whatever is wrong with it."""
+"""One table of a run: columns, and the place of whatever is wrong with it."""
 
 from __future__ import annotations
 
 import csv
 import math
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -43,7 +42,6 @@ class ResultFile:
             raise InputError(f"{path}: cannot be read: {reason}") from error
         # Comments stand at the head: a # or a line end in a cell begins none.
         head = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
-        self.comments = [line[1:].strip() for line in lines[:head]]
         self._lines: list[int] = []
         with self.reading():
             self._columns = self._read(lines[head:], head)
@@ -120,24 +118,3 @@ class ResultFile:
             i = int(np.argmax(wrong))
             raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: must be a whole number, at least {least}")
         return values.astype(np.int32)
-
-    def word(self, pattern: str, default: str | None = None) -> str:
-        """What the first comment says that begins with a pattern: its group; the default where there is none."""
-        for comment in self.comments:
-            if found := re.match(pattern, comment):
-                return found.group(1)
-        if default is None:
-            raise ValueError(f"no comment '# {pattern.partition('(')[0]}'")
-        return default
-
-    def setting(self, name: str, default: float) -> float:
-        """A number of the case that stands in the comments; what stands in quotes, such as a title, is no setting."""
-        for i, comment in enumerate(self.comments, 1):
-            bare = re.sub(r"'(?:[^']|'')*'", "''", comment)
-            found = re.search(rf"(?:^|^&\w+ +|, ){name}\s*[=:]\s*([-+0-9.eEdD]+)", bare)
-            if found and not comment.startswith(("record:", "warning:")):
-                try:
-                    return float(found.group(1).lower().replace("d", "e"))
-                except ValueError:
-                    raise ValueError(f"line {i}: {name} = {found.group(1)}: must be a number") from None
-        return default

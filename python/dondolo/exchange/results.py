@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
-from datetime import datetime
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from dondolo._base.arguments import as_array
 from dondolo._base.files import as_file
 from dondolo._fortran import _binding
+from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.result_file import ResultFile
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
@@ -43,26 +42,22 @@ class StoredResults:
         Task 'stripes'.
     typology : Typology or None
         Task 'typology'.
-    comments : tuple of str
-        Head of the files: versions, the case with all its variables, counts of the work, warnings of the run.
-    written : datetime or None
-        When the file of the walls was last written.
+    run : RunFile
+        What ran: version, settings, inputs with checksums, counts of the work, warnings.
     """
 
     population: Population
+    run: RunFile
     response: Response | None = None
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
-    comments: tuple[str, ...] = ()
-    written: datetime | None = None
 
     @property
     def edp_thresholds(self) -> list[float]:
-        """Damage states that the case of a wall names [rotation / capacity], if there are several."""
-        line = next((line for line in self.comments if line.startswith("edp_thresholds = ")), "")
-        values = [float(value) for value in re.findall(r"[0-9][-+0-9.eE]*", line)]
-        return values if len(values) > 1 else []
+        """Damage states that the case names [rotation / capacity], if there are several."""
+        thresholds = self.run.setting("stripes", "edp_thresholds", [])
+        return as_array("edp_thresholds", thresholds).tolist() if len(thresholds) > 1 else []
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
@@ -87,46 +82,39 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     """
     as_file("prefix", prefix)
     prefix = os.fspath(prefix)
+    # The tables of another task may lie there from a run before: the file of the run names the task of the last.
+    run = read_run_file(prefix + "_run.json")
+    task = run.setting("job", "task", "")
+    names = {"history": "history", "stripes": "histories", "typology": "stripes"}
+    if task not in names:
+        raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, names))}")
+    gravity = run.setting("solver", "gravity", 9.81)
+    result = run.history if task == "history" else None
+    if task == "history" and result is None:
+        raise InputError(f"{run.path}: no 'history'")
+    try:
+        work = Work(**run.work)
+    except TypeError as error:
+        raise InputError(f"{run.path}: work: {error}") from error
+    limit = run.setting("solver", "edp_limit", 1.0)
+    tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
+    engine = run.setting("solver", "engine", "auto")
     walls = ResultFile(prefix + "_walls.csv")
-    written = datetime.fromtimestamp(os.path.getmtime(walls.path)).astimezone()
     with walls.reading():
-        population = _population(walls)
-        # The files of another task may lie there from a run before: the walls' file tells the task of the last.
-        task = walls.word(r"&job task = '(\w+)'", "")
-        edp_limit = walls.setting("edp_limit", 1.0)
-    stored = StoredResults(population, comments=tuple(walls.comments), written=written)
-    if task == "history":
-        history = ResultFile(prefix + "_history.csv")
-        with history.reading():
-            return replace(stored, response=_response(history, population.walls[0], edp_limit))
-    if task == "stripes":
-        histories = ResultFile(prefix + "_histories.csv")
-        with histories.reading():
-            stripes = _stripes(histories, population.walls[0])
-        return replace(stored, stripes=stripes, fragility=stripes.fit())
-    counts = ResultFile(prefix + "_stripes.csv")
-    with counts.reading():
-        return replace(stored, typology=_typology(counts, population))
+        population = _population(walls, gravity)
+    stored = StoredResults(population, run)
+    table = ResultFile(f"{prefix}_{names[task]}.csv")
+    with table.reading():
+        if result is not None:
+            return replace(stored, response=_response(table, population.walls[0], result, limit))
+        if task == "stripes":
+            stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
+            return replace(stored, stripes=stripes, fragility=stripes.fit())
+        return replace(stored, typology=_typology(table, population, work, run.warnings))
 
 
-def heads(start: str, comments: Sequence[str]) -> list[str]:
-    """What stands in the comments after a word."""
-    return [line[len(start) :].strip() for line in comments if line.startswith(start)]
-
-
-def _work(comments: list[str]) -> Work:
-    """What was computed, out of the comments."""
-    for comment in comments:
-        if comment.startswith("work:"):
-            counts = {name: int(count) for name, count in re.findall(r"(\w+) = (\d+)", comment)}
-            if counts.keys() <= {field.name for field in fields(Work)}:
-                return Work(**counts)
-    raise ValueError("no comment '# work:' with its counts")
-
-
-def _population(table: ResultFile) -> Population:
+def _population(table: ResultFile, gravity: float) -> Population:
     """Walls as they were given."""
-    gravity = table.setting("gravity", 9.81)
     walls: list[Wall] = []
     for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
@@ -143,11 +131,11 @@ def _population(table: ResultFile) -> Population:
     return Population(tuple(walls), weights, tuple(table.texts("group")), p_occ)
 
 
-def _response(table: ResultFile, wall: Wall, edp_limit: float) -> Response:
+def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:
     """A motion; its record is what the history shows of it."""
     time, acceleration = table.numbers("time_s"), table.numbers("ground_acceleration_m_s2")
     rotation, velocity = table.numbers("rotation_rad"), table.numbers("velocity_rad_s")
-    scale = table.setting("scale", 1.0)
+    scale = result.scale
     # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
     with np.errstate(over="ignore"):
         steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
@@ -156,15 +144,15 @@ def _response(table: ResultFile, wall: Wall, edp_limit: float) -> Response:
     dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
     at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
     _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
-    record = Record(acceleration[at_sample][first] / scale, dt, name=table.word("record:(.*)").strip())
+    record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
     return Response(
         wall,
         record,
         scale,
-        table.setting("edp", 0.0),
-        table.setting("collapsed", 0.0) == 1.0,
-        int(table.setting("impacts", 0.0)),
-        table.setting("time_of_peak_s", 0.0),
+        result.edp,
+        result.collapsed,
+        result.impacts,
+        result.time_of_peak_s,
         edp_limit,
         time,
         acceleration,
@@ -172,11 +160,13 @@ def _response(table: ResultFile, wall: Wall, edp_limit: float) -> Response:
         velocity,
         table.numbers("side").astype(np.int8),
         table.numbers("after_impact") == 1.0,
-        table.setting("edp_error", 0.0) if any(line.startswith("edp_error:") for line in table.comments) else None,
+        result.edp_error,
     )
 
 
-def _stripes(table: ResultFile, wall: Wall) -> Stripes:
+def _stripes(
+    table: ResultFile, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
+) -> Stripes:
     """All histories of a wall."""
     levels = np.unique(table.numbers("im_level"))
     if len(table) % len(levels):
@@ -195,16 +185,16 @@ def _stripes(table: ResultFile, wall: Wall) -> Stripes:
         scale=table.numbers("scale").reshape(shape),
         record_names=tuple(table.texts("record")[first]),
         polarity=np.asarray(polarity, dtype=np.int32),
-        engine=table.word(r"&solver engine = '(\w+)'", "auto"),
-        rtol=table.setting("rtol", np.nan),
-        atol=table.setting("atol", np.nan),
-        edp_limit=table.setting("edp_limit", 1.0),
-        work=_work(table.comments),
+        engine=engine,
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        work=work,
         edp_error=table.numbers("edp_error").reshape(shape) if "edp_error" in table else None,
     )
 
 
-def _typology(table: ResultFile, population: Population) -> Typology:
+def _typology(table: ResultFile, population: Population, work: Work, warnings: tuple[DondoloWarning, ...]) -> Typology:
     """Counts of all walls of a population."""
     thresholds = np.unique(table.numbers("edp_threshold"))
     levels = np.unique(table.numbers("im_level"))
@@ -216,5 +206,5 @@ def _typology(table: ResultFile, population: Population) -> Typology:
     histories = table.counts("histories", 1).reshape(shape)[:, 0, 0]
     everyone = np.ones(len(population), dtype=bool)
     im = table.texts("im")[0]
-    result = combine(population, im, levels, thresholds, counts, histories, everyone, _work(table.comments))
-    return replace(result, warnings=tuple(dict.fromkeys([*heads("warning:", table.comments), *result.warnings])))
+    result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
+    return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))

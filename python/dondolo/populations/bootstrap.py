@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.curves.series import in_series
 from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
@@ -194,16 +195,15 @@ def _mean_fractions(
         records = records[:1]
     total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        survival = 1.0 - rows.share[part, None] * _fractions(flags, rows.row[part], records)
-        if len(starts) < survival.shape[1]:
-            survival = np.multiply.reduceat(survival, starts, axis=1)
+        fractions = np.moveaxis(_fractions(flags, rows.row[part], records), 1, 0)
+        collapse = in_series(rows.share[part, None, None] * fractions, starts)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
-        occurring += own @ (1.0 - np.multiply.reduceat(1.0 - rows.share[part], starts))
+        occurring += own @ in_series(rows.share[part], starts)
         if resampled:
-            total += (own[:, None, :] @ (1.0 - survival))[:, 0, :]
+            total += np.einsum("sw,wsl->sl", own, collapse)
         else:
-            total += own @ (1.0 - survival[0])
+            total += own @ collapse[:, 0]
     with np.errstate(invalid="ignore"):
         return np.clip(total / weight[:, None], 0.0, 1.0), occurring / weight
 

@@ -11,6 +11,7 @@ from dondolo._base.arguments import FloatArray, as_text
 from dondolo._fortran import _binding
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
+from dondolo.curves.series import in_series
 from dondolo.errors import Interrupted
 from dondolo.populations.curve import Group, IntArray, flat_population
 from dondolo.populations.typology import Typology
@@ -72,7 +73,7 @@ def combine_rows(
             combined[walls[i].name] = own[i]
             continue
         n = np.full(len(levels), float(histories[i : i + number].min()))
-        occurrence = float(1.0 - np.prod(1.0 - people.p_occ[i : i + number]))
+        occurrence = float(in_series(people.p_occ[i : i + number], np.zeros(1, dtype=np.intp))[0])
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
         combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin, saturation=occurrence)
     together = []

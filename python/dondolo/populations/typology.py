@@ -16,10 +16,11 @@ from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.run_file import RunFile
 from dondolo.analysis.stripes import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fragility_table
-from dondolo.errors import InputError
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, Source
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
@@ -62,7 +63,7 @@ class Typology(Shown):
     flags : Flags
         The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
         read back.
-    warnings : tuple of str
+    warnings : tuple of DondoloWarning
         What was warned of: by the run, and of the curves of this state.
     """
 
@@ -77,7 +78,7 @@ class Typology(Shown):
     groups: tuple[Group, ...]
     work: Work
     flags: Flags | None = None
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[DondoloWarning, ...] = ()
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -169,7 +170,7 @@ class Typology(Shown):
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             flags = None if self.flags is None else self.flags.at(int(place[0]))
             self._states[value] = dataclasses.replace(state, flags=flags)
-            _binding.warn(f"damage state {value:g}: {sentence}" for sentence in state.warnings)
+            _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -331,11 +332,21 @@ class Typology(Shown):
             )
         start = as_file("prefix", prefix)
         with ExitStack() as files:
+            # The last to get its name, which makes the others a run
+            part = files.enter_context(whole_file(start.with_name(f"{start.name}_run.json")))
+            part.write_text(self._run_file(pulls.pop()).to_json() + "\n", encoding="utf-8")
             for table in self._tables():
                 part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
                 self.to_csv(part, table)
         for table in ("histories", "history"):
             remove_old(start.with_name(f"{start.name}_{table}.csv"), "# dondolo ")
+
+    def _run_file(self, gravity: float) -> RunFile:
+        stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
+        solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
+        settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
+        version, work = _binding.constants().version, dataclasses.asdict(self.work)
+        return RunFile(version, settings=settings, work=work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())

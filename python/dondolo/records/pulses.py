@@ -94,11 +94,11 @@ def ricker(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
     -----
     Ricker (1943); as a pulse for rocking blocks: Vassiliou and Makris (2011). max |a''| = 6 (pi frequency)^2 amplitude.
     """
+    from scipy.special import lambertw
+
     amplitude, frequency, error = _numbers(amplitude=amplitude, frequency=frequency, error=error)
-    end = 2.0
-    for _ in range(60):
-        # Where (2 x^2 - 1) exp(-x^2) = error; the iteration contracts beyond x = 2
-        end = np.sqrt(max(4.0, np.log((2.0 * end**2 - 1.0) / error)))
+    # Where (2 x^2 - 1) exp(-x^2) = error, at least 2: x^2 - 1/2 = y with y exp(-y) = exp(1/2) error / 2
+    end = np.sqrt(max(4.0, 0.5 - lambertw(-0.5 * np.exp(0.5) * error, -1).real))
     count = int(np.ceil(end / np.sqrt(8.0 * error / 6.0)))
     x = end * np.arange(-count, count + 1) / count
     values = amplitude * (1.0 - 2.0 * x**2) * np.exp(-(x**2))

@@ -297,7 +297,7 @@ def upload(records: tuple[Record, ...]) -> Handle:
     records does, and has not come into another.
     """
     homes = [record.__dict__.get("_home", (None, 0, 0)) for record in records]
-    suite = homes[0][0]
+    suite: Handle | None = homes[0][0]
     if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
         return suite
     handle, stat, message = _core.new_suite(*flatten(records))

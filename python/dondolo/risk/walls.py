@@ -19,6 +19,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.members import Members
+from dondolo.curves.series import in_series
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import Contributions, of_function, of_lognormal
 
@@ -94,10 +95,7 @@ def wall_frequencies(members: Members, hazard: HazardCurve) -> WallFrequencies:
 
 def _in_series(members: Members, rows: np.ndarray, x: FloatArray) -> FloatArray:
     """Probabilities (walls, x) of walls in which these rows (mechanisms, walls) can occur."""
-    whole = np.zeros((rows.shape[1], len(x)))
-    for row in rows:
-        whole += (1.0 - whole) * members.rows_at(row, x)
-    return whole
+    return in_series(members.rows_at(rows.T.ravel(), x), np.arange(0, rows.size, len(rows)))
 
 
 def _ends_of(members: Members, rows: np.ndarray, hazard: HazardCurve) -> tuple[float, float]:

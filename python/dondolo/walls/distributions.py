@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -13,27 +13,28 @@ from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo.errors import InputError
 
 
-class Distribution:
-    """What the distributions share: quantiles."""
+@runtime_checkable
+class Distribution(Protocol):
+    """Anything with quantiles: the distributions of dondolo, frozen distributions of SciPy, objects of one's own."""
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p.
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q.
 
         Parameters
         ----------
-        probability : ndarray
-            p, between 0 and 1.
+        q : ndarray
+            Probabilities, between 0 and 1.
 
         Returns
         -------
-        ndarray, shape of probability
+        ndarray, shape of q
             In the unit of the parameters.
         """
-        raise NotImplementedError
+        ...
 
 
 @dataclass(frozen=True)
-class Uniform(Distribution):
+class Uniform:
     """All values between two alike.
 
     Parameters
@@ -54,13 +55,13 @@ class Uniform(Distribution):
         _check_numbers(self)
         _check_ends(self.low, self.high)
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, see `Distribution`."""
-        return self.low + (self.high - self.low) * probability
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q, see `Distribution`."""
+        return self.low + (self.high - self.low) * q
 
 
 @dataclass(frozen=True)
-class Triangular(Distribution):
+class Triangular:
     """What is known where an expert gives the smallest, the most likely and the largest value.
 
     Parameters
@@ -84,17 +85,17 @@ class Triangular(Distribution):
         if not self.low <= self.mode <= self.high:
             raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q, see `Distribution`."""
         from scipy import stats
 
         width = self.high - self.low
-        quantiles: FloatArray = stats.triang((self.mode - self.low) / width, self.low, width).ppf(probability)
+        quantiles: FloatArray = stats.triang((self.mode - self.low) / width, self.low, width).ppf(q)
         return quantiles
 
 
 @dataclass(frozen=True)
-class Normal(Distribution):
+class Normal:
     """The normal distribution, whole or cut off.
 
     Parameters
@@ -122,14 +123,14 @@ class Normal(Distribution):
             raise InputError(f"sd = {self.sd:g}: must be positive")
         _check_ends(self.low, self.high)
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q, see `Distribution`."""
         ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
-        return self.mean + self.sd * _cut_normal(probability, *ends)
+        return self.mean + self.sd * _cut_normal(q, *ends)
 
 
 @dataclass(frozen=True)
-class Lognormal(Distribution):
+class Lognormal:
     """The lognormal distribution, whole or cut off.
 
     Parameters
@@ -160,14 +161,14 @@ class Lognormal(Distribution):
                 raise InputError(f"{what} = {value:g}: must be positive")
         _check_ends(self.low, self.high)
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q, see `Distribution`."""
         ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
-        return self.median * np.exp(self.beta * _cut_normal(probability, *ends))
+        return self.median * np.exp(self.beta * _cut_normal(q, *ends))
 
 
 @dataclass(frozen=True)
-class Choice(Distribution):
+class Choice:
     """One of some values.
 
     Parameters
@@ -200,19 +201,18 @@ class Choice(Distribution):
         object.__setattr__(self, "values", tuple(values.tolist()))
         object.__setattr__(self, "probabilities", tuple(shares.tolist()))
 
-    def quantile(self, probability: FloatArray) -> FloatArray:
-        """Values that are exceeded with probability 1 - p, see `Distribution`."""
+    def ppf(self, q: FloatArray, /) -> FloatArray:
+        """Values that are exceeded with probability 1 - q, see `Distribution`."""
         ends = np.cumsum(self.probabilities)[:-1]
-        return np.asarray(self.values)[np.searchsorted(ends, probability)]
+        return np.asarray(self.values)[np.searchsorted(ends, q)]
 
 
-def _cut_normal(probability: FloatArray, low: float | None, high: float | None) -> FloatArray:
+def _cut_normal(q: FloatArray, low: float | None, high: float | None) -> FloatArray:
     """Quantiles of the standard normal distribution between two ends."""
     from scipy import stats
 
-    quantiles: FloatArray = stats.truncnorm(-np.inf if low is None else low, np.inf if high is None else high).ppf(
-        probability
-    )
+    ends = -np.inf if low is None else low, np.inf if high is None else high
+    quantiles: FloatArray = stats.truncnorm(*ends).ppf(q)
     return quantiles
 
 

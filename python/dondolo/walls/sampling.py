@@ -44,6 +44,7 @@ def sample_population(
 
     A property is a number (or a text, for `restitution` and `bearing`), a distribution, or a function of what was
     sampled, which gets the samples by name, one array of n numbers each, and returns an array of n numbers or a number.
+    A distribution is anything with a method `ppf`, such as `Lognormal` or a frozen distribution of `scipy.stats`.
 
     Parameters
     ----------
@@ -222,10 +223,16 @@ def _draw(
         raise InputError(
             f"n = {n}: must be at least {len(names) + 1} for correlations, more than are sampled: {', '.join(names)}"
         )
-    samples = {what: distributions[what].quantile(probabilities[:, i]) for i, what in enumerate(names)}
-    for values in samples.values():
-        values.flags.writeable = False
-    return samples
+    return {what: _quantiles(what, distributions[what], probabilities[:, i]) for i, what in enumerate(names)}
+
+
+def _quantiles(what: str, distribution: Distribution, probabilities: FloatArray) -> FloatArray:
+    """Samples of one property or variable."""
+    values = np.array(distribution.ppf(probabilities), dtype=np.float64)
+    if values.shape != probabilities.shape or not np.isfinite(values).all():
+        raise InputError(f"{what}: its ppf must return {len(probabilities)} finite numbers")
+    values.flags.writeable = False
+    return values
 
 
 def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) -> FloatArray:
@@ -263,6 +270,7 @@ def _reorder(probabilities: FloatArray, matrix: FloatArray) -> FloatArray:
 
     Scores without correlation, L^-1 z with the Cholesky factor L of their own correlation, get the one wanted; their
     ranks are taken over (Iman and Conover 1982). The scores of these ranks are not quite those: again from there.
+    By hand, since SciPy's copulas and samplers give no correlation to a Latin hypercube.
     """
     from scipy import linalg
 
@@ -338,6 +346,15 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     return [wall_from(one) for one in data]
 
 
+def _in_words(value: Property) -> str:
+    """A property; a frozen distribution of SciPy by its name and arguments, since its repr is an address."""
+    dist = getattr(value, "dist", None)
+    if dist is None:
+        return repr(value)
+    named = (f"{name}={one!r}" for name, one in getattr(value, "kwds", {}).items())
+    return f"{dist.name}({', '.join([*map(repr, getattr(value, 'args', ())), *named])})"
+
+
 def _origin(
     title: str,
     own: Mapping[str, Mapping[str, Property]],
@@ -354,6 +371,6 @@ def _origin(
             name = getattr(value, "__name__", "<lambda>")
             said.append(f"{what} computed" if name == "<lambda>" else f"{what} computed by {name}")
         else:
-            said.append(f"{what} = {value!r}")
+            said.append(f"{what} = {_in_words(value)}")
     said += [f"correlation of {pair[0]} and {pair[1]} = {value!r}" for pair, value in correlation.items()]
     return tuple(textwrap.wrap("; ".join(said), 110, break_long_words=False, break_on_hyphens=False))

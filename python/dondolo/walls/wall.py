@@ -20,6 +20,9 @@ from dondolo.errors import InputError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+# What the package exports of the walls: a new mechanism is added here alone
+__all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
+
 # What is left out gets its value from Fortran; from then on it is there.
 _DEFAULT: Any = None
 

@@ -1,6 +1,7 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue
+   use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, history_input_type, read_history_group
    use dondolo_job_group, only : job_type, read_job
@@ -408,33 +409,33 @@ contains
    end function population_path
 
    !> The case as namelist text: every value in force, and no group that the task does not use
-   subroutine echo(self, lines)
+   subroutine echo(self, echoed)
       !> The case
       class(case_type), intent(in) :: self
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> The echo
+      type(echo_type), intent(out) :: echoed
 
       type(group_settings_type) :: settings
 
       call self%job%put(settings)
-      call echo_settings('job', settings, lines, owner=self%job%task)
+      call echo_settings('job', settings, echoed, owner=self%job%task)
       if (allocated(self%population_file)) then
          call put_population(self%population_file, settings)
-         call echo_settings('population', settings, lines)
+         call echo_settings('population', settings, echoed)
       else
-         call echo_settings('wall', self%wall%input, lines, last='restitution_factor')
+         call echo_settings('wall', self%wall%input, echoed, last='restitution_factor')
       end if
       call self%records_input%put(settings)
-      call echo_settings('records', settings, lines)
+      call echo_settings('records', settings, echoed)
       if (self%is_scaled()) then
          call self%stripes%put(settings)
-         call echo_settings('stripes', settings, lines)
+         call echo_settings('stripes', settings, echoed)
       end if
       call self%solver%put(settings)
-      call echo_settings('solver', settings, lines, beside='atol')
+      call echo_settings('solver', settings, echoed, beside='atol')
       if (self%job%task /= 'history') return
       call self%history%put(settings)
-      call echo_settings('history', settings, lines)
+      call echo_settings('history', settings, echoed)
    end subroutine echo
 
    !> Paths of the files it is made of

@@ -1,10 +1,10 @@
 !> Values of walls that no masonry has: correct input, but most likely typed in another unit.
 module dondolo_plausibility
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type, lines_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_lines, only : line_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
+   use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
@@ -18,6 +18,7 @@ module dondolo_plausibility
       integer :: number(2, size(wall_properties)) = 0
       !> Name and value of the first of them
       type(line_type) :: first(2, size(wall_properties))
+      real(wp) :: value(2, size(wall_properties)) = 0.0_wp
    contains
       !> Look at a wall
       procedure :: look
@@ -47,8 +48,9 @@ contains
             do k = 1, 2
                if (.not. outside(k)) cycle
                self%number(k, i) = self%number(k, i) + 1
-               if (self%number(k, i) == 1) self%first(k, i)%text = 'wall '''//wall%name()//''': '// &
-                  & trim(property%name)//' = '//rounded(value)//' '//trim(property%unit)
+               if (self%number(k, i) > 1) cycle
+               self%first(k, i)%text = wall%name()
+               self%value(k, i) = value
             end do
          end associate
       end do
@@ -59,24 +61,25 @@ contains
       !> What there is to say
       class(wall_warning_type), intent(in) :: self
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: limit, which
+      type(warning_type) :: warning
       integer :: i, k
 
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
             do k = 1, 2
                if (self%number(k, i) == 0) cycle
-               if (k == 1) then
-                  limit = ' is less than '//to_text(property%usual_least)
-               else
-                  limit = ' is more than '//to_text(property%usual_most)
-               end if
-               which = ''
-               if (self%walls > 1) which = ' ('//to_text(self%number(k, i))//' of '//to_text(self%walls)//' in all)'
-               call warnings%add(self%first(k, i)%text//limit//' '//trim(property%unit)//': '// &
-                  & trim(merge(property%if_less, property%if_more, k == 1))//which)
+               warning = warning_type('value_below_usual')
+               if (k == 2) warning%code = 'value_above_usual'
+               call warning%about('wall', self%first(k, i)%text)
+               call warning%about('variable', trim(property%name))
+               call warning%about('unit', trim(property%unit))
+               call warning%with('value', self%value(k, i))
+               call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
+               call warning%with('walls_beyond', self%number(k, i))
+               call warning%with('walls', self%walls)
+               call warnings%add(warning)
             end do
          end associate
       end do

@@ -1,4 +1,4 @@
-!> The result files of a case: CSV tables with a head of comment lines, whole or not at all.
+!> The result files of a case: CSV tables with a head of comment lines, and the run as JSON; whole or not at all.
 module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version
    use dondolo_case, only : case_type
@@ -10,8 +10,11 @@ module dondolo_reports
    use dondolo_result_files, only : check_output, result_files_type
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
+   use dondolo_run_file, only : write_run
+   use dondolo_echo, only : echo_type
    use dondolo_text, only : to_table, to_text
    use dondolo_version, only : dondolo_version_text
+   use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names, work_type
    implicit none
    private
@@ -51,11 +54,13 @@ contains
 
       select case (job%task)
       case ('history')
-         names = [character(len=15) :: '_walls.csv', '_history.csv']
+         names = [character(len=15) :: '_walls.csv', '_history.csv', '_run.json']
       case ('stripes')
-         names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv']
+         names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
+            & '_run.json']
       case default
-         names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv']
+         names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
+            & '_run.json']
          if (job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
       end select
    end function suffixes
@@ -81,8 +86,12 @@ contains
       do i = 1, size(names)
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
-         call write_head(case, results, files)
-         call write_table(case, results, trim(names(i)), files, error)
+         if (names(i) == '_run.json') then
+            call write_run(case, results, files)
+         else
+            call write_head(case, results, files)
+            call write_table(case, results, trim(names(i)), files, error)
+         end if
          if (allocated(error)) then
             call files%abandon()
             return
@@ -132,7 +141,8 @@ contains
       !> Files
       type(result_files_type), intent(inout) :: files
 
-      type(lines_type) :: echo
+      type(echo_type) :: echo
+      type(lines_type) :: lines, warnings
       character(len=:), allocatable :: engines, unit, counts
       integer :: i
 
@@ -141,8 +151,9 @@ contains
       call results%name_engines(engines)
       call files%line('# engine and build variant: '//engines)
       call case%echo(echo)
-      do i = 1, echo%count
-         call files%line('# '//echo%line(i)%text)
+      call echo%to_namelist(lines)
+      do i = 1, lines%count
+         call files%line('# '//lines%line(i)%text)
       end do
       if (case%job%task /= 'history') then
          unit = case%stripes%scaling%unit()
@@ -154,8 +165,9 @@ contains
       do i = 1, case%notes%count
          call files%line('# note: '//case%notes%line(i)%text)
       end do
-      do i = 1, results%warnings%count
-         call files%line('# warning: '//results%warnings%line(i)%text)
+      call warning_sentences(results%warnings, warnings)
+      do i = 1, warnings%count
+         call files%line('# warning: '//warnings%line(i)%text)
       end do
    end subroutine write_head
 

@@ -2,12 +2,12 @@
 module dondolo_results
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
-   use dondolo_lines, only : lines_type
    use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_store, only : store_type
    use dondolo_stripe_counts, only : stripe_counts_type
    use dondolo_typology, only : typology_type
+   use dondolo_warning, only : warnings_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -56,7 +56,7 @@ module dondolo_results
       !> What was computed, of all walls: tasks 'stripes' and 'typology'
       type(work_type) :: work
       !> What the user should know
-      type(lines_type) :: warnings
+      type(warnings_type) :: warnings
    contains
       !> The engines that have run, with the build variant
       procedure :: name_engines => name_engines_that_ran

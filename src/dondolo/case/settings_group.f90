@@ -1,9 +1,8 @@
 !> Settings out of the group of a namelist, and back: the table of their properties says what there is.
 module dondolo_settings_group
-   use dondolo_assignment, only : assignment_text
+   use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_namelist_group, only : group_type
    use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, name_length, &
       & property_type
@@ -98,95 +97,67 @@ contains
       call group%locate(error)
    end subroutine read_settings
 
-   !> Write settings as a group of a namelist, with every value in force, one a line
-   subroutine echo_settings(name, settings, lines, owner, beside, last)
+   !> Add settings to the echo of a case as a group, with every value in force
+   subroutine echo_settings(name, settings, echo, owner, beside, last)
       !> Name of the group
       character(len=*), intent(in) :: name
       !> Settings
       class(settings_type), intent(in) :: settings
-      !> Lines to add to
-      type(lines_type), intent(inout) :: lines
+      !> Echo to add to
+      type(echo_type), intent(inout) :: echo
       !> Task: only properties that it has; all if absent
       character(len=*), intent(in), optional :: owner
-      !> A property that stands in the line of the one before
+      !> A property, a number, that stands in the line of the one before
       character(len=*), intent(in), optional :: beside
       !> A property that stands after all others
       character(len=*), intent(in), optional :: last
 
       type(property_type), pointer :: table(:)
-      type(lines_type) :: assignments
-      character(len=:), allocatable :: start, text
-      integer :: i, at
+      integer :: i
 
       call settings%get_table(table)
       do i = 1, size(table)
          if (present(last)) then
             if (table(i)%name == last) cycle
          end if
-         call add(i)
+         call add(table(i))
       end do
-      if (present(last)) call add(settings%find(last))
-      start = '&'//name//' '
-      do i = 1, assignments%count
-         if (i > 1) start = repeat(' ', len(name) + 2)
-         text = assignments%line(i)%text
-         if (i == assignments%count) text = text//' /'
-         call lines%add(start//text)
-      end do
+      if (present(last)) call add(table(settings%find(last)))
 
    contains
 
       !> Add a property that has a value
-      subroutine add(k)
-         !> Its place in the table
-         integer, intent(in) :: k
+      subroutine add(property)
+         !> The property
+         type(property_type), intent(in) :: property
 
-         associate (property => table(k))
-            if (.not. settings%has(property%name)) return
-            if (present(owner)) then
-               if (.not. has_owner(property, owner)) return
-            end if
-            call make_assignment(property, settings, text)
-            if (present(beside)) then
-               at = assignments%count
-               if (property%name == beside .and. at > 0) then
-                  assignments%line(at)%text = assignments%line(at)%text//', '//text
-                  return
-               end if
-            end if
-            call assignments%add(text)
-         end associate
+         character(len=:), allocatable :: variable
+         logical :: joins
+         integer :: kind
+
+         if (.not. settings%has(property%name)) return
+         if (present(owner)) then
+            if (.not. has_owner(property, owner)) return
+         end if
+         joins = .false.
+         if (present(beside)) joins = property%name == beside
+         kind = property%kind
+         if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(property%name))
+         variable = trim(property%name)
+         select case (kind)
+         case (is_text)
+            call echo%add(name, variable, settings%word(variable))
+         case (is_integer)
+            call echo%add(name, variable, nint(settings%number(variable)))
+         case (is_logical)
+            call echo%add(name, variable, settings%holds(variable))
+         case (is_list)
+            call echo%add(name, variable, settings%list(variable))
+         case default
+            call echo%add(name, variable, settings%number(variable), joins)
+         end select
       end subroutine add
 
    end subroutine echo_settings
-
-   !> A value as namelist text
-   subroutine make_assignment(property, settings, text)
-      !> Property
-      type(property_type), intent(in) :: property
-      !> Settings that have it
-      class(settings_type), intent(in) :: settings
-      !> `name = value`
-      character(len=:), allocatable, intent(out) :: text
-
-      character(len=:), allocatable :: name
-      integer :: kind
-
-      name = trim(property%name)
-      kind = property%kind
-      if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(name))
-      select case (kind)
-      case (is_text)
-         text = assignment_text(name, settings%word(name))
-      case (is_integer)
-         text = assignment_text(name, nint(settings%number(name)))
-      case (is_logical)
-         text = assignment_text(name, settings%holds(name))
-      case (is_list)
-         text = assignment_text(name, settings%list(name))
-      case default
-         text = assignment_text(name, settings%number(name))
-      end select
-   end subroutine make_assignment
 
 end module dondolo_settings_group

@@ -3,14 +3,14 @@ module dondolo_warnings
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_fragility, only : fragility_type, status_names
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type, lines_type
+   use dondolo_lines, only : line_type
    use dondolo_record, only : record_type
-   use dondolo_record_table, only : pga_problem
+   use dondolo_record_table, only : pga_limit
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
-   use dondolo_text, only : rounded, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
@@ -88,11 +88,19 @@ contains
       !> What there is to say
       class(scale_warning_type), intent(in) :: self
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      if (self%large > 0) call warnings%add('scale factors above '//to_text(large_scale)//' in '// &
-         & to_text(self%large)//' of '//to_text(self%histories)//' histories, the largest '//rounded(self%largest)// &
-         & ' (record '''//self%record//''' at level '//rounded(self%level)//')')
+      type(warning_type) :: warning
+
+      if (self%large == 0) return
+      warning%code = 'scale_factors_large'
+      call warning%about('record', self%record)
+      call warning%with('limit', large_scale)
+      call warning%with('histories_beyond', self%large)
+      call warning%with('histories', self%histories)
+      call warning%with('largest', self%largest)
+      call warning%with('level', self%level)
+      call warnings%add(warning)
    end subroutine warn
 
    !> Warn of records without motion, and of those whose PGA no accelerograph has measured
@@ -102,26 +110,33 @@ contains
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: problem, first, which
+      type(warning_type) :: warning, strange
+      real(wp) :: pga
       integer :: i, number
 
       number = 0
       do i = 1, size(records)
-         if (.not. records(i)%pga() > 0.0_wp) then
-            call warnings%add('record '''//records(i)%name//''' has a PGA of 0: it cannot be scaled and moves no wall')
+         pga = records(i)%pga()/gravity
+         if (.not. pga > 0.0_wp) then
+            warning = warning_type('record_without_motion')
+            call warning%about('record', records(i)%name)
+            call warnings%add(warning)
             cycle
          end if
-         problem = pga_problem(records(i), gravity)
-         if (len(problem) == 0) cycle
+         if (.not. pga_limit(pga) > 0.0_wp) cycle
          number = number + 1
-         if (number == 1) first = 'record '''//records(i)%name//''': '//problem
+         if (number > 1) cycle
+         strange%code = 'record_pga'
+         call strange%about('record', records(i)%name)
+         call strange%with('pga_g', pga)
+         call strange%with('limit_g', pga_limit(pga))
       end do
       if (number == 0) return
-      which = ''
-      if (size(records) > 1) which = ' ('//to_text(number)//' of '//to_text(size(records))//' records)'
-      call warnings%add(first//which)
+      call strange%with('records_beyond', number)
+      call strange%with('records', size(records))
+      call warnings%add(strange)
    end subroutine warn_of_records
 
    !> Warn of the curve of one wall
@@ -133,41 +148,32 @@ contains
       !> Its curve
       type(fragility_type), intent(in) :: fragility
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: levels, none
+      type(warning_type) :: warning
       real(wp) :: largest
 
-      levels = to_text(stripes%levels(1))//' to '//to_text(stripes%levels(size(stripes%levels)))
-      if (size(stripes%levels) == 1) levels = to_text(stripes%levels(1))
-      none = ', no curve is fitted: '
-      largest = maxval(stripes%response%edp)
+      if (fragility%status == 'ok') return
+      warning%code = fragility%status
+      call warning%about('wall', wall%name())
+      call warning%with('levels', size(stripes%levels))
+      call warning%with('first_level', stripes%levels(1))
+      call warning%with('last_level', stripes%levels(size(stripes%levels)))
       select case (fragility%status)
       case ('no_collapse')
-         if (largest > 0.0_wp) then
-            call warnings%add('no collapse at levels '//levels//none//'the largest EDP is '//rounded(largest)// &
-               & ', higher levels are needed')
-         else
-            call warnings%add('no motion at levels '//levels//none//'the wall begins to rock at '// &
-               & rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g, higher levels are needed')
+         largest = maxval(stripes%response%edp)
+         call warning%with('largest_edp', largest)
+         if (.not. largest > 0.0_wp) then
+            warning%code = 'no_motion'
+            call warning%with('trigger_g', wall%mechanism%trigger_acceleration()/wall%gravity)
          end if
-      case ('all_collapse')
-         call warnings%add('every history collapses at levels '//levels//none//'lower levels are needed')
-      case ('single_level')
-         call warnings%add('only one level, '//levels//none//'two at least are needed')
-      case ('decreasing')
-         call warnings%add('collapses do not become more frequent with the level'//none// &
-            & 'their trend is flat or falling')
-      case ('not_converged')
-         call warnings%add('the fit does not converge at levels '//levels//', no curve is fitted')
       case ('separated')
-         call warnings%add('all collapses lie at levels above the survivals, or share one level with them'//none// &
-            & 'the median lies '//between(fragility%bracket)// &
-            & ', more levels there are needed')
+         call warning%with('bracket_low', fragility%bracket(1))
+         if (fragility%bracket(2) < huge(fragility%bracket)) call warning%with('bracket_high', fragility%bracket(2))
       case ('extrapolated')
-         call warnings%add('theta = '//rounded(fragility%theta)//' lies outside the levels '//levels// &
-            & ': the fit extrapolates')
+         call warning%with('theta', fragility%theta)
       end select
+      call warnings%add(warning)
    end subroutine warn_of_fit
 
    !> Look at the curve of a wall, or of its mechanisms one after the other
@@ -197,36 +203,36 @@ contains
       !> The curves of the population
       type(typology_type), intent(in) :: typologies(:)
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: consequence, whose, which, walls
+      type(warning_type) :: warning
       integer :: i
 
-      walls = ' walls '
-      if (self%several) walls = ' mechanisms of walls '
       do i = 1, size(telling)
          if (self%number(i) == 0) cycle
-         if (telling(i) == 'extrapolated') then
-            consequence = 'have a median outside the levels'
-            if (self%number(i) == 1) consequence = 'has a median outside the levels'
+         warning = warning_type('curves_without_fit')
+         if (telling(i) == 'extrapolated') warning%code = 'curves_extrapolated'
+         call warning%about('wall', self%first(i)%text)
+         call warning%about('status', trim(telling(i)))
+         if (self%several) then
+            call warning%about('of', 'mechanisms of walls')
          else
-            consequence = 'have no fit and take part with their fractions of collapse'
-            if (self%number(i) == 1) consequence = 'has no fit and takes part with its fractions of collapse'
+            call warning%about('of', 'walls')
          end if
-         call warnings%add(to_text(self%number(i))//' of '//to_text(self%curves)//walls//consequence//' ('// &
-            & trim(telling(i))//'; the first is '''//self%first(i)%text//''')')
+         call warning%with('curves', self%number(i))
+         call warning%with('of_curves', self%curves)
+         call warnings%add(warning)
       end do
       do i = 1, size(typologies)
-         associate (group => typologies(i)%group, fit => typologies(i)%fit)
-            whose = 'the population'
-            if (len(group) > 0) whose = 'group '''//group//''''
-            which = 'mechanism '//typologies(i)%mechanism
-            if (.not. fit%has_fit()) then
-               call warnings%add(whose//' has no fit ('//which//', status '//trim(fit%status)//')')
-            else if (fit%status == 'extrapolated') then
-               call warnings%add('the median of '//whose//', '//rounded(fit%theta)//' ('//which// &
-                  & '), lies outside the levels: the fit extrapolates')
-            end if
+         associate (curve => typologies(i))
+            if (curve%fit%status == 'ok') cycle
+            warning = warning_type('population_without_fit')
+            if (curve%fit%has_fit()) warning%code = 'population_extrapolated'
+            call warning%about('group', curve%group)
+            call warning%about('mechanism', trim(curve%mechanism))
+            call warning%about('status', trim(curve%fit%status))
+            if (curve%fit%has_fit()) call warning%with('theta', curve%fit%theta)
+            call warnings%add(warning)
          end associate
       end do
    end subroutine warn_of_fits
@@ -240,23 +246,29 @@ contains
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      character(len=:), allocatable :: of_all
+      type(warning_type) :: warning
       integer :: at(2), number
 
-      of_all = ' of '//to_text(size(stripes%response))//' histories'
       number = count(stripes%response%is_ill_conditioned())
       if (number > 0) then
          at = maxloc(stripes%response%edp_error)
-         call warnings%add('ill-conditioned: '//to_text(number)//of_all// &
-            & ' with an estimated error of the EDP above '//to_text(largest_sure_error)//'; the largest is '// &
-            & rounded(stripes%response(at(1), at(2))%edp_error)//' (record '''// &
-            & records(stripes%record(at(1)))%name//''' at level '//rounded(stripes%levels(at(2)))//')')
+         warning%code = 'ill_conditioned'
+         call warning%about('record', records(stripes%record(at(1)))%name)
+         call warning%with('limit', largest_sure_error)
+         call warning%with('histories_beyond', number)
+         call warning%with('histories', size(stripes%response))
+         call warning%with('largest', stripes%response(at(1), at(2))%edp_error)
+         call warning%with('level', stripes%levels(at(2)))
+         call warnings%add(warning)
       end if
       number = count(stripes%response%is_unsure(edp_limit))
-      if (number > 0) call warnings%add('collapse or not is in doubt, by the estimated error, in '// &
-         & to_text(number)//of_all)
+      if (number == 0) return
+      warning = warning_type('collapse_in_doubt')
+      call warning%with('histories_in_doubt', number)
+      call warning%with('histories', size(stripes%response))
+      call warnings%add(warning)
    end subroutine warn_of_errors
 
    !> Warn of one history in the same words
@@ -266,27 +278,17 @@ contains
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
       !> Warnings to add to
-      type(lines_type), intent(inout) :: warnings
+      type(warnings_type), intent(inout) :: warnings
 
-      if (response%is_ill_conditioned()) call warnings%add('ill-conditioned: the estimated error of the EDP is '// &
-         & rounded(response%edp_error)//', above '//to_text(largest_sure_error))
-      if (response%is_unsure(edp_limit)) call warnings%add('collapse or not is in doubt, by the estimated error')
-   end subroutine warn_of_error
+      type(warning_type) :: warning
 
-   !> Where a bracket lies: between two levels, or above or below one
-   pure function between(bracket) result(text)
-      !> Levels; 0 or huge where the side is open
-      real(wp), intent(in) :: bracket(2)
-      !> Its text
-      character(len=:), allocatable :: text
-
-      if (bracket(2) >= huge(bracket)) then
-         text = 'above '//to_text(bracket(1))
-      else if (.not. bracket(1) > 0.0_wp) then
-         text = 'below '//to_text(bracket(2))
-      else
-         text = 'between '//to_text(bracket(1))//' and '//to_text(bracket(2))
+      if (response%is_ill_conditioned()) then
+         warning%code = 'ill_conditioned'
+         call warning%with('limit', largest_sure_error)
+         call warning%with('largest', response%edp_error)
+         call warnings%add(warning)
       end if
-   end function between
+      if (response%is_unsure(edp_limit)) call warnings%add(warning_type('collapse_in_doubt'))
+   end subroutine warn_of_error
 
 end module dondolo_warnings

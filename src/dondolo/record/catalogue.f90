@@ -191,6 +191,7 @@ contains
       ! A dt that is not allocated is an argument that is not present
       if (.not. allocated(error)) call read_record(path, record, error, dt, units, &
          & table%get_text(table%column('channel')), table%get_text(table%column('format')))
+      record%file = path
       call add_place(error, table%place())
    end subroutine read_row
 

@@ -22,6 +22,8 @@ module dondolo_record
    type :: record_type
       !> Name: the stem of its file, unless given
       character(len=:), allocatable :: name
+      !> Path of its file; not allocated: it is of none
+      character(len=:), allocatable :: file
       !> Time between two samples [s]
       real(wp) :: dt = 0.0_wp
       !> Ground acceleration at times 0, dt, 2 dt, ... [m/s2]

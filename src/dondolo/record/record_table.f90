@@ -8,7 +8,7 @@ module dondolo_record_table
    implicit none
    private
 
-   public :: record_table, find_problems, pga_problem
+   public :: record_table, find_problems, pga_limit, describe_pga
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -90,7 +90,8 @@ contains
          problems = 'no motion'
          return
       end if
-      problems = pga_problem(record, gravity)
+      if (pga_limit(record%pga()/gravity) > 0.0_wp) &
+         & call describe_pga(record%pga()/gravity, pga_limit(record%pga()/gravity), problems)
       if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
          & to_text(nint(100.0_wp*(abs(record%acceleration(1))/record%pga())))//' % of its PGA')
       velocity = ground_velocity(record)
@@ -119,35 +120,29 @@ contains
 
    end subroutine find_problems
 
-   !> The sentence of pga_problem, filled up with blanks
-   pure function worded_pga_problem(record, gravity) result(problem)
-      !> The record
-      type(record_type), intent(in) :: record
-      !> What g is [m/s2]
-      real(wp), intent(in) :: gravity
-      !> The sentence
-      character(len=100) :: problem
+   !> The limit that the PGA of a record that moves is beyond; 0 if it is beyond none
+   pure real(wp) function pga_limit(pga)
+      !> PGA [g]
+      real(wp), intent(in) :: pga
 
-      real(wp) :: pga
+      pga_limit = 0.0_wp
+      if (pga > strongest) pga_limit = strongest
+      if (pga < weakest) pga_limit = weakest
+   end function pga_limit
 
-      problem = ''
-      pga = record%pga()/gravity
-      if (pga > strongest) problem = 'more than '//to_text(strongest)
-      if (pga < weakest) problem = 'less than '//to_text(weakest)
-      if (problem /= '') problem = 'a PGA of '//rounded(pga)//' g, '//trim(problem)//' g: wrong units?'
-   end function worded_pga_problem
+   !> What looks odd about a PGA
+   pure subroutine describe_pga(pga, limit, text)
+      !> PGA [g]
+      real(wp), intent(in) :: pga
+      !> The limit that it is beyond [g]
+      real(wp), intent(in) :: limit
+      !> A sentence
+      character(len=:), allocatable, intent(out) :: text
 
-   !> What looks odd about the PGA of a record that moves
-   pure function pga_problem(record, gravity) result(problem)
-      !> The record
-      type(record_type), intent(in) :: record
-      !> What g is [m/s2]
-      real(wp), intent(in) :: gravity
-      !> A sentence, empty if nothing does
-      character(len=len_trim(worded_pga_problem(record, gravity))) :: problem
-
-      problem = worded_pga_problem(record, gravity)
-   end function pga_problem
+      text = ' g, more than '
+      if (pga < limit) text = ' g, less than '
+      text = 'a PGA of '//rounded(pga)//text//to_text(limit)//' g: wrong units?'
+   end subroutine describe_pga
 
    !> Event and station of a record, as far as its file names them and they fit
    pure function origin(record)

@@ -1,0 +1,177 @@
+"""The file of a run: what ran, on which inputs, and what to beware of, as data beside the tables."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from datetime import datetime
+from typing import Any
+
+from dondolo._fortran import _binding
+from dondolo.errors import DondoloWarning, InputError, MissingFileError
+
+FORMAT = "dondolo run 1"
+
+
+@dataclass(frozen=True)
+class HistoryResult:
+    """Result of a time history: what its table of rows does not hold.
+
+    Attributes
+    ----------
+    record : str
+    scale, edp : float
+    collapsed : bool
+    impacts : int
+    time_of_peak_s : float
+    edp_error : float or None
+        None if it was not estimated.
+    """
+
+    record: str
+    scale: float
+    edp: float
+    collapsed: bool
+    impacts: int
+    time_of_peak_s: float
+    edp_error: float | None = None
+
+
+@dataclass(frozen=True)
+class RunFile:
+    """Contents of a file ``PREFIX_run.json``; docs/files.md describes its keys.
+
+    Attributes
+    ----------
+    version : str
+        Of the dondolo that ran.
+    compiler, engine : str
+        Compiler of the executable; engines that ran, with the build variant. Empty if unknown.
+    real_bits : int
+        Bits of a number.
+    settings : mapping
+        Group -> variable -> value, all in force.
+    inputs : tuple of mapping
+        Files of the case: role, path, bytes, crc32.
+    work : mapping
+        Counts of what was computed, by name; empty for a time history.
+    history : HistoryResult or None
+        None for other tasks.
+    notes : tuple of str
+        How tables were read.
+    warnings : tuple of DondoloWarning
+    written : datetime or None
+        When the file was written.
+    path : str
+        The file, for messages.
+    """
+
+    version: str
+    compiler: str = ""
+    engine: str = ""
+    real_bits: int = 64
+    settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    inputs: tuple[Mapping[str, Any], ...] = ()
+    work: Mapping[str, int] = field(default_factory=dict)
+    history: HistoryResult | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[DondoloWarning, ...] = ()
+    written: datetime | None = None
+    path: str = ""
+
+    def setting(self, group: str, name: str, default: Any) -> Any:
+        """A variable of a group; `default`, which has the type it must have, if it is not there."""
+        try:
+            return _member(self.settings.get(group, {}), name, type(default), default)
+        except ValueError as error:
+            raise InputError(f"{self.path}: settings: {group}: {error}") from error
+
+    def to_json(self) -> str:
+        """The text of the file."""
+        content: dict[str, Any] = {"format": FORMAT, "version": self.version}
+        content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
+        content |= {"settings": self.settings, "inputs": self.inputs}
+        if self.work:
+            content["work"] = self.work
+        content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
+        return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def read_run_file(path: str) -> RunFile:
+    """Read a file of a run.
+
+    Parameters
+    ----------
+    path : str
+        The file.
+
+    Returns
+    -------
+    RunFile
+
+    Raises
+    ------
+    InputError
+        It is no file of a run; the key that is wrong is named.
+    MissingFileError
+        There is none.
+    """
+    try:
+        with open(path, encoding="utf-8") as file:
+            content = json.load(file)
+            written = datetime.fromtimestamp(os.fstat(file.fileno()).st_mtime).astimezone()
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{path}: no JSON: {error}") from error
+    if not isinstance(content, dict) or content.get("format") != FORMAT:
+        raise InputError(f"{path}: no file of a run: format must be '{FORMAT}'")
+    try:
+        work, history = _member(content, "work", dict, {}), _member(content, "history", dict, {})
+        return RunFile(
+            _member(content, "version", str),
+            _member(content, "compiler", str, ""),
+            _member(content, "engine", str, ""),
+            _member(content, "real_bits", int, 64),
+            {group: _member(content["settings"], group, dict) for group in _member(content, "settings", dict)},
+            tuple(_all(content, "inputs", dict)),
+            {name: _member(work, name, int) for name in work},
+            _history(history) if history else None,
+            tuple(_all(content, "notes", str)),
+            tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
+            written,
+            path,
+        )
+    except (LookupError, TypeError, ValueError) as error:
+        raise InputError(f"{path}: {error}") from error
+
+
+def _history(content: Mapping[str, Any]) -> HistoryResult:
+    """Result of a time history."""
+    kinds = {"record": str, "collapsed": bool, "impacts": int}
+    values = {one.name: _member(content, one.name, kinds.get(one.name, float)) for one in fields(HistoryResult)[:-1]}
+    error = _member(content, "edp_error", float) if "edp_error" in content else None
+    return HistoryResult(**values, edp_error=error)
+
+
+def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = None) -> Any:
+    """A member of an object, which must be of a type."""
+    value = content.get(name, default)
+    if kind is float and type(value) is int:
+        value = float(value)
+    if type(value) is not kind:
+        raise ValueError(f"{name} = {value!r}: must be of type {kind.__name__}")
+    return value
+
+
+def _all(content: Mapping[str, Any], name: str, kind: type) -> list[Any]:
+    """A list whose elements must be of a type."""
+    values: list[Any] = _member(content, name, list, [])
+    for value in values:
+        if type(value) is not kind:
+            raise ValueError(f"{name}: {value!r}: must be of type {kind.__name__}")
+    return values

@@ -1,0 +1,151 @@
+"""What the templates of a report set: symbols, tables, figures. All are data; templates escape and lay out."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Any
+
+from dondolo._fortran import _binding
+from dondolo.reporting.numerals import Numeral, number
+
+# Rows of a table that are written; what is left out is said
+ROWS = 500
+# A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
+_SVG_BYTES = 600_000
+_DOTS_PER_INCH = 180
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """A quantity: an italic letter, and an upright index below."""
+
+    letter: str
+    index: str = ""
+
+
+THETA, BETA = Symbol("θ"), Symbol("β")
+
+# What a cell or a term holds: a text, a symbol, a numeral, or several of them in a row
+Piece = str | Symbol | Numeral | tuple[Any, ...]
+# Names and what they are
+Facts = list[tuple[Piece, Piece]]
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table: its head, its cells, and whether they are words, which are set flush left."""
+
+    head: Piece
+    cells: Sequence[Piece]
+    is_text: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns of equal length; the first heads the rows."""
+
+    columns: tuple[Column, ...]
+
+    @classmethod
+    def of(cls, columns: dict[Piece, Sequence[Piece]], texts: Iterable[str] = ()) -> Table:
+        """A table of heads and cells.
+
+        Parameters
+        ----------
+        columns : dict
+            Head -> cells.
+        texts : iterable of str
+            Heads of the columns that hold words, as the first one does.
+        """
+        words = {next(iter(columns)), *texts}
+        return cls(tuple(Column(head, cells, head in words) for head, cells in columns.items()))
+
+    @property
+    def total(self) -> int:
+        """How many rows there are."""
+        return len(self.columns[0].cells)
+
+    @property
+    def shown(self) -> int:
+        """How many of them are shown."""
+        return min(ROWS, self.total)
+
+    @property
+    def rows(self) -> Iterable[tuple[Piece, ...]]:
+        """The rows that are shown."""
+        return zip(*(column.cells[: self.shown] for column in self.columns), strict=True)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A drawing as a data URI, and what there is to see for those who cannot see it."""
+
+    source: str
+    alt: str
+
+
+def figure(draw: Callable[[], Any], alt: str) -> Figure:
+    """Draw a figure, embedded: as SVG, or as PNG where that would be large.
+
+    Parameters
+    ----------
+    draw : callable
+        Gives Matplotlib axes, or several of one figure.
+    alt : str
+        What there is to see.
+
+    Returns
+    -------
+    Figure
+    """
+    import matplotlib as mpl
+    import matplotlib.pyplot as plt
+
+    axes = draw()
+    drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
+    try:
+        # The same bytes every time: no date, and names in the drawing by a fixed salt.
+        with mpl.rc_context({"svg.hashsalt": "dondolo", "savefig.bbox": "tight"}):
+            stream = io.BytesIO()
+            drawing.savefig(stream, format="svg", metadata={"Date": None})
+            kind = "svg+xml"
+            if stream.tell() > _SVG_BYTES:
+                stream, kind = io.BytesIO(), "png"
+                drawing.savefig(stream, format="png", dpi=_DOTS_PER_INCH)
+    finally:
+        plt.close(drawing)
+    return Figure(f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode()}", alt)
+
+
+def state_name(edp: float, limit: float) -> str:
+    """A damage state in words."""
+    return "collapse" if edp == limit else f"EDP ≥ {edp:g}"
+
+
+def level_unit(im: str) -> str:
+    """Unit of a measure for the head of a column."""
+    return _binding.unit_of(im) or "-"
+
+
+def level_head(im: str) -> str:
+    """Head of a column of levels."""
+    return f"{im} [{level_unit(im)}]"
+
+
+def blank_unit(im: str) -> str:
+    """Unit of a measure with its blank, for the end of a number; empty where it has none."""
+    return f" {_binding.unit_of(im)}".rstrip()
+
+
+def level(value: float, im: str) -> Numeral:
+    """A level of intensity and its unit."""
+    return number(value, 3, blank_unit(im))
+
+
+def date_in_words(moment: datetime) -> str:
+    """A date in words."""
+    return f"{moment.day} {moment:%B %Y, %H:%M %Z}".strip().replace(" ", "\N{NO-BREAK SPACE}")

@@ -1,0 +1,257 @@
+"""Facts of a report on what was run: case, walls, records, checks, software."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo._fortran import _binding
+from dondolo._storage.run_file import RunFile
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.figures.style import mechanism_name
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.reporting.content import (
+    BETA,
+    THETA,
+    Facts,
+    Piece,
+    Symbol,
+    Table,
+    date_in_words,
+    level_unit,
+    state_name,
+)
+from dondolo.reporting.numerals import number, parameter, percent, whole
+from dondolo.reporting.run import Run
+from dondolo.reporting.statuses import status_table
+
+# Properties of a wall that are shown, and their units
+_PROPERTIES = {
+    "height": "m", "thickness": "m", "density": "kg/m3", "hinge": "of the height", "overburden": "N/m",
+    "eccentricity": "m, to the outer side", "restitution": "model", "restitution_value": "", "restitution_factor": "",
+}  # fmt: skip
+
+
+def inputs(run: Run) -> dict[str, Any]:
+    """The case with all its variables, and the files that it is made of."""
+    case, files = "", None
+    if run.file is not None and "records" in run.file.settings:
+        case = _case_text(run.file.settings)
+    if run.file is not None and run.file.inputs:
+        files = _files_table(run.file)
+    return {"case": case, "settings": [*run.settings, *_levels(run)], "files": files}
+
+
+def _case_text(settings: Mapping[str, Mapping[str, Any]]) -> str:
+    """Settings in the notation of a case file."""
+    lines = []
+    for group, variables in settings.items():
+        parts = [f"{name} = {_namelist_value(value)}" for name, value in variables.items()]
+        lines += [f"&{group} {parts[0]}", *(f"   {part}" for part in parts[1:])]
+        lines[-1] += " /"
+    return "\n".join(lines)
+
+
+def _namelist_value(value: Any) -> str:
+    """A value in the notation of namelists."""
+    if isinstance(value, bool):
+        return ".true." if value else ".false."
+    if isinstance(value, str):
+        return "'" + value.replace("'", "''") + "'"
+    if isinstance(value, list):
+        return ", ".join(map(_namelist_value, value))
+    mantissa, _, power = repr(value).partition("e")
+    return mantissa.removesuffix(".0") + (f"e{int(power)}" if power else "")
+
+
+def _files_table(file: RunFile) -> Table:
+    """Input files with their checksums."""
+    missing = "removed during the run"
+    columns: dict[Piece, Sequence[Piece]] = {
+        "file": [str(one["path"]) for one in file.inputs],
+        "role": [str(one["role"]) for one in file.inputs],
+        "bytes": [missing if one["bytes"] is None else whole(one["bytes"]) for one in file.inputs],
+        "CRC-32": [missing if one["crc32"] is None else str(one["crc32"]) for one in file.inputs],
+    }
+    return Table.of(columns, ("role",))
+
+
+def _levels(run: Run) -> Facts:
+    """The levels of results that come without a case."""
+    if (run.settings and run.settings[0][0] == "task") or isinstance(run.results, Response):
+        return []
+    return [(f"levels of {run.results.im}", ", ".join(f"{level:g}" for level in run.results.levels))]
+
+
+def walls(run: Run) -> dict[str, Any]:
+    """The walls with their statics, and their curves."""
+    people = run.population
+    if len(people) == 1:
+        return {"facts": _wall_facts(run), "table": None}
+    return {"facts": [*people._facts(), *people._ranges()], "table": _walls_table(run)}
+
+
+def _wall_facts(run: Run) -> Facts:
+    """Properties and statics of the one wall."""
+    wall = run.population.walls[0]
+    given = [(name, getattr(wall, name, None), unit) for name, unit in _PROPERTIES.items()]
+    pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
+    pairs += [
+        (name.replace("_", " "), f"{value} {unit}" if isinstance(value, str) else number(value, 6, f" {unit}"))
+        for name, value, unit in given
+        if value is not None and not (isinstance(value, float) and np.isnan(value))
+    ]
+    pairs += [
+        (("trigger ", Symbol("a", "0")), number(wall.trigger_acceleration / wall.gravity, unit=" g")),
+        ("capacity", number(wall.capacity_angle, unit=" rad")),
+        (("frequency parameter ", Symbol("p")), number(wall.frequency_parameter, unit=" rad/s")),
+        ("speed ratio of impacts", number(wall.restitution_coefficient)),
+        ("gravity", number(wall.gravity, unit=" m/s2")),
+    ]
+    if isinstance(run.results, Typology):
+        weights, p_occ = run.population.weights, run.population.p_occ
+        pairs += [("weight", number(weights[0])), (Symbol("p", "occ"), number(p_occ[0]))]
+    return pairs
+
+
+def _walls_table(run: Run) -> Table:
+    """Properties, statics and curves of the walls of a population."""
+    people, walls, results = run.population, run.population.walls, run.results
+    columns: dict[Piece, Sequence[Piece]] = {"wall": [wall.name for wall in walls]}
+    if any(people.groups):
+        columns["group"] = list(people.groups)
+    columns |= {
+        "mechanism": [mechanism_name(wall.mechanism) for wall in walls],
+        "weight": [number(weight) for weight in people.weights],
+        Symbol("p", "occ"): [number(p) for p in people.p_occ],
+        "height [m]": [number(wall.height) for wall in walls],
+        "thickness [m]": [number(wall.thickness) for wall in walls],
+        "density [kg/m3]": [number(wall.density) for wall in walls],
+    }
+    for what, head in (("hinge", "hinge / height"), ("overburden", "overburden [N/m]"), ("eccentricity", "ecc. [m]")):
+        values = [getattr(wall, what, None) for wall in walls]
+        if any(value is not None for value in values):
+            columns[head] = [number(value) for value in values]
+    columns |= {
+        (Symbol("a", "0"), " [g]"): [number(wall.trigger_acceleration / wall.gravity) for wall in walls],
+        "capacity [rad]": [number(wall.capacity_angle) for wall in walls],
+        (Symbol("p"), " [rad/s]"): [number(wall.frequency_parameter) for wall in walls],
+        "speed ratio": [number(wall.restitution_coefficient) for wall in walls],
+    }
+    if isinstance(results, Typology):
+        columns |= {
+            (THETA, f" [{level_unit(results.im)}]"): [parameter(curve.theta) for curve in results.curves],
+            BETA: [parameter(curve.beta) for curve in results.curves],
+            "status": [curve.status for curve in results.curves],
+        }
+    return Table.of(columns, ("group", "mechanism", "status"))
+
+
+def records(run: Run) -> dict[str, Any]:
+    """The records, and what is known of them."""
+    results = run.results
+    pairs: Facts = []
+    if run.file is not None:
+        catalogue = run.file.setting("records", "catalogue", "")
+        polarity = run.file.setting("records", "polarity", "").replace("_", " ")
+        pairs += [(name, text) for name, text in (("catalogue", catalogue), ("polarity", polarity)) if text]
+    if isinstance(results, Typology):
+        few, many = int(results.histories.min()), int(results.histories.max())
+        pairs.append(("histories of a stripe", f"{few} to {many}, by mechanism" if few < many else str(few)))
+    if isinstance(results, Response):
+        pairs += [*run.records[0]._facts(), ("record", results.record.name), ("factor", number(results.scale))]
+    found: dict[str, Any] = {"facts": pairs, "histories": None, "records": None}
+    found["is_motion"] = isinstance(results, Response)
+    if isinstance(results, Stripes):
+        found |= {"histories": _histories_table(results), "levels": len(results.levels)}
+    elif run.records and not found["is_motion"]:
+        found["records"] = _records_table(run.records)
+    return found
+
+
+def _histories_table(stripes: Stripes) -> Table:
+    """The histories of a stripe; the level over the factor is the intensity of the record as it is."""
+    columns: dict[Piece, Sequence[Piece]] = {
+        "record": list(stripes.record_names),
+        "polarity": ["reversed" if sign < 0 else "as recorded" for sign in stripes.polarity],
+        f"{stripes.im} unscaled [{level_unit(stripes.im)}]": [number(x) for x in stripes.levels[0] / stripes.scale[0]],
+        "largest factor": [number(x) for x in stripes.scale[-1]],
+        "collapses": [whole(z) for z in stripes.collapsed.sum(axis=0)],
+    }
+    return Table.of(columns, ("polarity",))
+
+
+def _records_table(records: Sequence[Record]) -> Table:
+    """Records that are at hand."""
+    known = [key for key in ("event", "date", "station", "component") if any(key in one.metadata for one in records)]
+    columns: dict[Piece, Sequence[Piece]] = {"record": [one.name for one in records]}
+    columns |= {key: [one.metadata.get(key, "") for one in records] for key in known}
+    columns |= {
+        "PGA [g]": [number(one.intensity("pga")) for one in records],
+        "PGV [m/s]": [number(one.intensity("pgv")) for one in records],
+        "duration [s]": [number(one.duration) for one in records],
+        "time step [s]": [number(one.dt) for one in records],
+    }
+    if any(one.processing for one in records):
+        columns["processing"] = ["; ".join(one.processing) for one in records]
+    return Table.of(columns, (*known, "processing"))
+
+
+def checks(run: Run) -> dict[str, Any]:
+    """What to look at before the numbers are believed."""
+    results = run.results
+    if isinstance(results, Response):
+        rows: Piece = "none" if results.time is None else whole(len(results.time))
+        pairs: Facts = [("limit of the EDP", number(results.edp_limit)), ("rows of the time history", rows)]
+        if results.edp_error is not None:
+            pairs.insert(0, ("largest estimated error of an EDP", number(results.edp_error, 3)))
+        return {"statuses": None, "facts": pairs}
+    if isinstance(results, Typology):
+        limit = float(results.edp_thresholds[-1])
+        states = {state_name(float(edp), limit): results.at(float(edp)).curves for edp in results.edp_thresholds}
+        error = None
+    else:
+        states = {state_name(float(edp), results.edp_limit): (results.fit(float(edp)),) for edp in run.thresholds}
+        error = results.edp_error
+    scales: Piece = "none"
+    if run.scales is not None:
+        share = percent(run.scales.many / run.scales.histories)
+        scales = (share, " of the histories, the largest ", number(run.scales.largest))
+    pairs = [("scale factors above 10", scales)]
+    if error is not None:
+        pairs.append(("largest estimated error of an EDP", number(float(np.max(error)), 3)))
+    work = results.work
+    pairs += [
+        ("histories", whole(work.histories)),
+        ("of these never move", (whole(work.still), " (", percent(work.still / max(work.histories, 1)), ")")),
+        ("sample intervals", whole(work.intervals)),
+        ("of these with rocking", (whole(work.rocked), " (", percent(work.rocked / max(work.intervals, 1)), ")")),
+        ("steps of the integration", whole(work.steps)),
+        ("impacts located", whole(work.impacts)),
+    ]
+    return {"statuses": status_table(states), "facts": pairs}
+
+
+def software(run: Run) -> Facts:
+    """Versions of what ran, and of what writes the report."""
+    from importlib.metadata import version
+
+    pairs: Facts = []
+    if run.file is None:
+        pairs.append(("build variant of this machine", _binding.build_variant()))
+    else:
+        pairs.append(("run by", f"dondolo {run.file.version}"))
+        known = {
+            "compiler": run.file.compiler and f"{run.file.compiler}, real{run.file.real_bits}",
+            "engine and build variant": run.file.engine,
+        }
+        pairs += [(name, text) for name, text in known.items() if text]
+        if run.file.written is not None:
+            pairs.append(("result files written", date_in_words(run.file.written)))
+    pairs += [("report by", f"dondolo {_binding.constants().version}"), ("Python", platform.python_version())]
+    return pairs + [(name, version(name.lower())) for name in ("NumPy", "SciPy", "Matplotlib")]

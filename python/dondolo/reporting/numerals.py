@@ -1,0 +1,83 @@
+"""Numbers as a report shows them: so many figures, thin blanks between thousands, powers of ten, a dash for none.
+
+Nothing here is HTML: a numeral keeps its power of ten apart, and the templates set it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+# Typography, by name: they look like others
+_DASH, _MINUS, _THIN_BLANK = "\N{EN DASH}", "\N{MINUS SIGN}", "\N{NARROW NO-BREAK SPACE}"
+
+
+@dataclass(frozen=True)
+class Numeral:
+    """A number in characters.
+
+    Attributes
+    ----------
+    text : str
+        What is left of the power of ten.
+    power : str
+        Of ten; empty for none.
+    unit : str
+        What follows, with its blank.
+    """
+
+    text: str
+    power: str = ""
+    unit: str = ""
+
+
+NONE = Numeral(_DASH)
+
+
+def number(value: float | None, figures: int = 4, unit: str = "") -> Numeral:
+    """A number with so many significant figures; a dash for none."""
+    if value is None or np.isnan(value):
+        return replace(NONE, unit=unit)
+    if np.isinf(value):
+        return Numeral("∞" if value > 0.0 else f"{_MINUS}∞", unit=unit)
+    if value == round(value) and abs(value) < 1e15:
+        if abs(value) >= 10**figures:
+            return whole(value, unit)
+        return Numeral(_signed(str(int(value))), unit=unit)
+    mantissa, _, power = f"{value:.{figures}g}".partition("e")
+    if power and 0 < int(power) < 6:
+        return whole(float(f"{value:.{figures}g}"), unit)
+    return Numeral(_signed(mantissa), _signed(str(int(power))) if power else "", unit)
+
+
+def parameter(value: float) -> Numeral:
+    """A number with four significant figures, also where they are zeros: for columns of a kind."""
+    text = f"{value:#.4g}".removesuffix(".")
+    return number(value) if "e" in text or not np.isfinite(value) else Numeral(_signed(text))
+
+
+def whole(value: float, unit: str = "") -> Numeral:
+    """A count, with thin blanks between thousands."""
+    return Numeral(f"{int(value):,}".replace(",", _THIN_BLANK), unit=unit)
+
+
+def probability(value: float) -> Numeral:
+    """A probability with four decimals; what is not quite 0 or 1 is told from it."""
+    if np.isnan(value):
+        return NONE
+    if 0.0 < value < 5e-5:
+        return Numeral("<0.0001")
+    if 0.99995 <= value < 1.0:
+        return Numeral(">0.9999")
+    return Numeral(f"{value:.4f}" if 0.0 < value < 1.0 else f"{value:.0f}")
+
+
+def percent(share: float) -> Numeral:
+    """A share in per cent."""
+    return Numeral("<0.1 %") if 0.0 < share < 0.0005 else number(100.0 * share, 3, " %")
+
+
+def _signed(text: str) -> str:
+    """A number in characters with a true minus sign."""
+    return text.replace("-", _MINUS)

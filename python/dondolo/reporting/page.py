@@ -1,0 +1,198 @@
+"""The report of a run: one page with figures, tables, inputs, checks and versions, in one self-contained file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from importlib import resources
+from typing import TYPE_CHECKING, Any
+
+from dondolo._base.arguments import as_text
+from dondolo._base.files import check_replaced
+from dondolo._fortran import _binding
+from dondolo._storage import tables
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.errors import InputError, silent
+from dondolo.exchange.cases import Results
+from dondolo.exchange.results import StoredResults
+from dondolo.figures import style
+from dondolo.figures.style import mechanism_name
+from dondolo.populations.typology import Typology
+from dondolo.reporting import inputs, typology, wall
+from dondolo.reporting.content import BETA, THETA, Symbol, blank_unit, date_in_words
+from dondolo.reporting.numerals import NONE, whole
+from dondolo.reporting.risk import risk_facts
+from dondolo.reporting.run import Run, run_of
+from dondolo.risk.hazard import HazardCurve
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+_GENERATOR = "dondolo report"
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter: its id to link to, its title, its template, and what this sets."""
+
+    id: str
+    title: str
+    template: str
+    facts: Mapping[str, Any] | Sequence[Any]
+
+
+def report(
+    results: StoredResults | Results | Typology | Stripes | Response,
+    path: str | os.PathLike[str],
+    hazard: HazardCurve | None = None,
+    title: str | None = None,
+) -> None:
+    """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.
+
+    Parameters
+    ----------
+    results : StoredResults, Results, Typology, Stripes or Response
+        What `read_results`, `run_case`, `typology`, `multiple_stripe` or `simulate` gave. Files know most of a run.
+    path : path
+        The file; its folder must exist. An earlier report is replaced, any other file is not.
+    hazard : HazardCurve, optional
+        Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
+    title : str, optional
+        Title of the page; that of the case if left out.
+
+    Raises
+    ------
+    InputError
+        Nothing that a report can be made of; a hazard curve of another intensity measure; a file that is no report.
+    DondoloError
+        The file cannot be written; with a hazard curve, there is no fragility curve.
+
+    Notes
+    -----
+    What the run and the fits warn of stands in the report, and is not given as a warning again.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> (record,) = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow")
+    >>> response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
+    >>> dd.report(response, "report.html", title="Parapet")
+    """
+    import matplotlib.pyplot as plt
+
+    check_replaced(path, _GENERATOR, "report")
+    run = run_of(results)
+    if title is not None:
+        run.title = as_text("title", title).decode()
+    if hazard is not None and not isinstance(hazard, HazardCurve):
+        raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
+    if hazard is not None and isinstance(run.results, Response):
+        raise InputError("hazard: must be left out for a single motion, which has no fragility")
+    # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
+    plt.draw_if_interactive()  # type: ignore[no-untyped-call]
+    with plt.ioff(), silent():
+        chapters = _chapters(run, hazard)
+    version, template = _binding.constants().version, _environment().get_template("page.html.j2")
+    text = template.render(
+        title=run.title,
+        generator=f"{_GENERATOR} {version}",
+        lead=_lead(run),
+        chapters=chapters,
+        version=version,
+        made=date_in_words(datetime.now().astimezone()),
+    )
+    tables.write_lines(path, [text.rstrip("\n")])
+
+
+def _environment() -> Environment:
+    """The templates, which escape all that they set."""
+    from jinja2 import Environment, FunctionLoader, StrictUndefined
+
+    folder = resources.files("dondolo.reporting") / "templates"
+    environment = Environment(
+        loader=FunctionLoader(lambda name: (folder / name).read_text(encoding="utf-8")),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    letters = {f"beta_{index}": Symbol("β", index) for index in ("walls", "records", "total")}
+    environment.globals |= {"theta": THETA, "beta": BETA, "none_text": NONE.text, **letters}
+    return environment
+
+
+def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
+    """All chapters of a page."""
+    results = run.results
+    if isinstance(results, Typology):
+        summary = typology.summary(results)
+        chapters = [
+            Chapter("curves", "Fragility curves", "typology_curves", typology.curves(results)),
+            Chapter("numbers", "Parameters and fractiles", "typology_numbers", typology.numbers(results)),
+            Chapter(
+                "uncertainty",
+                "Uncertainty of the typological curve",
+                "typology_uncertainty",
+                typology.uncertainty(results),
+            ),
+        ]
+    elif isinstance(results, Stripes):
+        assert run.curve is not None
+        summary = wall.summary(results, run.curve)
+        figures = wall.curves(results, run.curve, run.thresholds)
+        numbers = wall.numbers(results, run.curve, run.thresholds)
+        chapters = [
+            Chapter("curves", "Histories and fragility curve", "wall_curves", figures),
+            Chapter("numbers", "Stripes and damage states", "wall_numbers", numbers),
+            Chapter("uncertainty", "Uncertainty of the curve", "wall_uncertainty", wall.uncertainty(run.curve)),
+        ]
+    else:
+        summary = wall.motion_summary(results)
+        chapters = [
+            Chapter("motion", "Motion", "motion", wall.motion(results)),
+            Chapter("numbers", "Numbers", "facts", results._facts()),
+        ]
+    found = [str(one) for one in run.warnings]
+    if hazard is not None:
+        facts, short = risk_facts(results, run.curve, hazard)
+        chapters.append(Chapter("risk", "Annual frequency of collapse", "risk", facts))
+        found += short
+    measure = style.im_label(getattr(results, "im", "pga"))
+    return [
+        Chapter("summary", "Summary", "summary", {"warnings": found, **summary}),
+        *chapters,
+        Chapter("inputs", "What was run", "inputs", inputs.inputs(run)),
+        Chapter("walls", "Walls" if len(run.population) > 1 else "The wall", "walls", inputs.walls(run)),
+        Chapter("records", "Records", "records", inputs.records(run)),
+        Chapter("checks", "Checks", "checks", inputs.checks(run)),
+        Chapter("limits", "Limits of the models", "limits", {"is_population": isinstance(results, Typology)}),
+        Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure}),
+        Chapter("software", "Software", "facts", inputs.software(run)),
+    ]
+
+
+def _lead(run: Run) -> str:
+    """What this is, in a line."""
+    results = run.results
+    parts = []
+    if isinstance(results, Typology):
+        rows, walls = len(results.walls), len(results.combined)
+        counted = results["all"].walls
+        parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
+        if counted < walls:
+            parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"
+    else:
+        parts.append(f"{results.wall.name}: {mechanism_name(results.wall.mechanism)}")
+    if isinstance(results, Response):
+        parts.append(f"one motion under {results.record.name}, scale {results.scale:.4g}")
+    else:
+        levels = results.levels
+        number_of = f"{len(levels)} level{'s' if len(levels) > 1 else ''} of {results.im}"
+        parts.append(f"{number_of}, {levels[0]:g} to {levels[-1]:g}{blank_unit(results.im)}")
+        parts.append(f"{whole(results.work.histories).text} histories")
+    if run.file is not None and run.file.written is not None:
+        parts.append(f"run of {date_in_words(run.file.written)}")
+    return "; ".join(parts) + "."

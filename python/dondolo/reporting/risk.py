@@ -1,0 +1,83 @@
+"""Facts of a report on how often a wall collapses at its site."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+from dondolo.errors import DondoloWarning
+from dondolo.populations.typology import Typology
+from dondolo.reporting.content import Piece, Table, blank_unit, figure, level_unit, state_name
+from dondolo.reporting.numerals import number, percent
+from dondolo.reporting.typology import combined
+from dondolo.risk.frequency import between
+from dondolo.risk.hazard import HazardCurve
+
+_YEARS = 50.0
+
+
+def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str, Any], list[str]]:
+    """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
+    from dondolo.risk.frequency import mean_annual_frequency
+
+    population = isinstance(results, Typology)
+    if population:
+        limit = float(results.edp_thresholds[-1])
+        cases = [
+            (f"whole population, {state_name(edp, limit)}", results.at(float(edp))["all"])
+            for edp in results.edp_thresholds
+        ]
+        cases += [(f"{one.group}, collapse", results["all", one.group]) for one in combined(results) if one.group]
+        main = len(results.edp_thresholds) - 1
+    else:
+        cases, main = [("collapse", curve)], 0
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", DondoloWarning)
+        risks = [mean_annual_frequency(fragility, hazard) for _, fragility in cases]
+    risk = risks[main]
+    found = []
+    if any(issubclass(one.category, DondoloWarning) for one in caught):
+        short = [name for (name, _), one in zip(cases, risks, strict=True) if one.bounds[0] < 0.99 * one.bounds[1]]
+        first, last = hazard.im_levels[[0, -1]]
+        found.append(
+            f"the hazard curve, {first:g} to {last:g}{blank_unit(hazard.im)}, is too short: the bounds of the annual"
+            f" frequency differ by more than 1 % for {'; '.join(short)}"
+        )
+    frequencies: dict[Piece, Sequence[Piece]] = {
+        "curve": [name for name, _ in cases],
+        "annual frequency [1/year]": [_ends(*one.bounds) for one in risks],
+    }
+    if not population:
+        frequencies["return period [years]"] = [_ends(*one.return_period_bounds) for one in risks]
+    frequencies[f"probability in {_YEARS:g} years"] = [_ends(*one.probability_bounds(_YEARS)) for one in risks]
+    edges = hazard.im_levels
+    parts = risk.deaggregate(edges)
+    unit = level_unit(hazard.im)
+    deaggregation: dict[Piece, Sequence[Piece]] = {
+        f"{hazard.im} from [{unit}]": [number(x) for x in edges[:-1]],
+        f"to [{unit}]": [number(x) for x in edges[1:]],
+        "exceeded, lower end [1/year]": [number(h, 3) for h in hazard.annual_frequency[:-1]],
+        "contribution [1/year]": [number(part, 3) for part in parts],
+        "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
+    }
+    low, high = risk.bounds
+    frequency = between(low, high, "a year", 3)
+    facts = {
+        "population": population,
+        "years": f"{_YEARS:g}",
+        "frequency": frequency,
+        "is_sure": f"{low:.3g}" == f"{high:.3g}",
+        "figure": figure(risk.plot, f"Hazard, fragility and the intensities that the risk comes from: {frequency}."),
+        "frequencies": Table.of(frequencies),
+        "deaggregation": Table.of(deaggregation),
+        "above": [number(bound, 3) for bound in risk.above],
+        "below": [number(bound, 3) for bound in risk.below],
+    }
+    return facts, found
+
+
+def _ends(low: float, high: float) -> Piece:
+    """Both bounds, or one number where they are the same to the digits shown."""
+    ends = number(low, 3), number(high, 3)
+    return ends[0] if ends[0] == ends[1] else (ends[0], " to ", ends[1])

@@ -1,0 +1,175 @@
+"""What a report knows of a run: gathered from whatever holds its results."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dondolo._storage.run_file import RunFile
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloWarning, InputError
+from dondolo.exchange.cases import Results
+from dondolo.exchange.results import StoredResults
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.reporting.content import Facts
+from dondolo.walls.population import Population
+
+# Damage states of one wall, in parts of the limit
+_STATES = (0.1, 0.4, 1.0)
+_LARGE_SCALES = "scale_factors_large"
+
+
+class LargeScales(NamedTuple):
+    """Histories whose record is scaled by more than 10.
+
+    Attributes
+    ----------
+    many : int
+    histories : int
+        Of these.
+    largest : float
+        Scale factor.
+    """
+
+    many: int
+    histories: int
+    largest: float
+
+    @classmethod
+    def of(cls, stripes: Stripes) -> LargeScales | None:
+        """Those of a wall, if there are any."""
+        many = int(np.sum(stripes.scale > 10.0))
+        return cls(many, stripes.scale.size, float(stripes.scale.max())) if many else None
+
+    @classmethod
+    def among(cls, found: Sequence[DondoloWarning]) -> LargeScales | None:
+        """Those that a run of a population warns of, if it does."""
+        for numbers in (one.numbers for one in found if one.code == _LARGE_SCALES):
+            return cls(int(numbers["histories_beyond"]), int(numbers["histories"]), numbers["largest"])
+        return None
+
+    def warning(self) -> DondoloWarning:
+        """The warning that they are worth."""
+        sentence = f"scale factors above 10 in {self.many} of {self.histories} histories"
+        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES)
+
+
+@dataclass
+class Run:
+    """All that is known of a run.
+
+    Attributes
+    ----------
+    results : Typology, Stripes or Response
+    population : Population
+    title : str
+    curve : Fragility or None
+        Of stripes.
+    thresholds : sequence of float
+        Damage states of stripes.
+    records : tuple of Record
+        Those that are at hand.
+    settings : list
+        Names of what was asked for, and values.
+    file : RunFile or None
+        The file of the run, if the results were read.
+    warnings : list of DondoloWarning
+    scales : LargeScales or None
+        None if there are none.
+    """
+
+    results: Typology | Stripes | Response
+    population: Population
+    title: str
+    curve: Fragility | None = None
+    thresholds: Sequence[float] = ()
+    records: tuple[Record, ...] = ()
+    settings: Facts = field(default_factory=list)
+    file: RunFile | None = None
+    warnings: list[DondoloWarning] = field(default_factory=list)
+    scales: LargeScales | None = None
+
+
+def run_of(results: Any) -> Run:
+    """Gather what the objects hold."""
+    if isinstance(results, StoredResults):
+        return _of_files(results)
+    if isinstance(results, Results):
+        return _of_case(results)
+    if isinstance(results, Typology):
+        walls = len(results.combined)
+        title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.walls[0].name}"
+        found = list(results.warnings)
+        return Run(results, results.population, title, warnings=found, scales=LargeScales.among(found))
+    if isinstance(results, Stripes):
+        return _of_stripes(results)
+    if isinstance(results, Response):
+        title = f"{results.wall.name} in {results.record.name}"
+        return Run(results, Population((results.wall,)), title, records=(results.record,))
+    raise InputError(f"results: {type(results).__name__} is nothing that a report can be made of")
+
+
+def _of_files(stored: StoredResults) -> Run:
+    """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
+    run = run_of(stored.typology or stored.stripes or stored.response)
+    run.file, run.population = stored.run, stored.population
+    run.title = stored.run.setting("job", "title", "") or run.title
+    known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
+    more = [one for one in run.warnings if one.code not in known]
+    run.warnings = list(dict.fromkeys([*stored.run.warnings, *more]))
+    run.thresholds = stored.edp_thresholds or run.thresholds
+    return run
+
+
+def _of_case(results: Results) -> Run:
+    """A case run in Python."""
+    case = results.case
+    run = run_of(results.typology or results.stripes or results.response)
+    run.title, run.population = case.title or run.title, case.population
+    run.records = case.records if case.task != "history" else (case.records[case.record],)
+    run.settings = [
+        ("task", case.task),
+        ("intensity measure", case.im),
+        *([("polarity", case.polarity)] if case.task != "history" else []),
+        ("levels", ", ".join(f"{level:g}" for level in case.levels) or "none"),
+        ("damage states (EDP)", ", ".join(f"{edp:g}" for edp in case.edp_thresholds)),
+        ("engine", case.engine),
+        ("rtol, atol", f"{case.rtol:g}, {case.atol:g}"),
+        ("edp_limit", f"{case.edp_limit:g}"),
+    ]
+    if case.task == "stripes" and len(case.edp_thresholds) > 1:
+        run.thresholds = case.edp_thresholds.tolist()
+    return run
+
+
+def _of_stripes(stripes: Stripes) -> Run:
+    """Stripes of a wall, with their curve and what it warns of."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", DondoloWarning)
+        curve = stripes.fit()
+    found = [one.message for one in caught if isinstance(one.message, DondoloWarning)]
+    scales = LargeScales.of(stripes)
+    if scales:
+        found.insert(0, scales.warning())
+    settings: Facts = [
+        ("engine", stripes.engine),
+        ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
+        ("edp_limit", f"{stripes.edp_limit:g}"),
+    ]
+    return Run(
+        stripes,
+        Population((stripes.wall,)),
+        f"Fragility of {stripes.wall.name}",
+        curve,
+        [share * stripes.edp_limit for share in _STATES],
+        settings=settings,
+        warnings=found,
+        scales=scales,
+    )

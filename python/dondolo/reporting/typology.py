@@ -1,0 +1,194 @@
+"""Facts of a report on the curves of a population."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo.errors import DondoloError
+from dondolo.figures import style
+from dondolo.figures.style import counted, mechanism_name
+from dondolo.populations.curve import Group
+from dondolo.populations.typology import Typology
+from dondolo.reporting.content import (
+    BETA,
+    THETA,
+    Piece,
+    Symbol,
+    Table,
+    blank_unit,
+    figure,
+    level,
+    level_head,
+    level_unit,
+    state_name,
+)
+from dondolo.reporting.numerals import number, parameter, percent, probability, whole
+from dondolo.reporting.statuses import crossings
+
+# Samples of the bootstrap
+_SAMPLES = 500
+
+
+def summary(people: Typology) -> dict[str, Any]:
+    """The main numbers, and what collapses at three of the levels."""
+    curve = people["all"]
+    cards: list[tuple[Piece, Piece, Piece]] = []
+    if curve.fit.has_fit:
+        whose = "of collapse, whole population"
+        if curve.saturation < 1.0:
+            whose = f"of collapse, the {100.0 * curve.saturation:.3g} % of the population that can collapse"
+        cards.append((("median ", THETA), level(curve.fit.theta, people.im), whose))
+        cards.append((("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
+    else:
+        cards.append(("lognormal fit", "none", curve.fit.status.replace("_", " ")))
+    cards.append((Symbol("β", "walls"), number(curve.beta_walls, 3), "dispersion between walls"))
+    cards.append((Symbol("β", "records"), number(curve.beta_records, 3), "dispersion between records"))
+    chosen = dict.fromkeys(int(i) for i in np.linspace(0, len(people.levels) - 1, 5)[1:-1]) or [0]
+    shares = [(percent(curve.mean_curve[i]), level(people.levels[i], people.im)) for i in chosen]
+    return {"cards": cards, "shares": shares, "measure": style.im_label(people.im).split(" [")[0]}
+
+
+def curves(people: Typology) -> dict[str, Any]:
+    """Figures of the curves, and of the damage states with those that cross."""
+    of_all = [curve for curve in people.groups if not curve.group]
+    found: dict[str, Any] = dict.fromkeys(("combination", "groups", "states", "crossings"))
+    if len(of_all) > 1:
+        alt = "Mean fragility curve of each mechanism and of all together. " + _in_words(of_all)
+        found["combination"] = figure(people.plot_combination, alt)
+    found["mechanisms"] = []
+    for curve in sorted(of_all, key=lambda one: one.mechanism == "all"):
+        name = mechanism_name(curve.mechanism)
+        alt = f"Fragility curves of {counted(curve.walls, 'wall')}, {name}, their mean and fractiles. "
+        drawn = figure(people[curve.mechanism].plot, alt + _in_words([curve]))
+        found["mechanisms"].append((name[0].upper() + name[1:], drawn))
+    if grouped := [curve for curve in combined(people) if curve.group]:
+        alt = "Mean fragility curve of each group beside that of the population. " + _in_words(grouped)
+        found["groups"] = figure(people.plot_groups, alt)
+    if len(people.edp_thresholds) > 1:
+        alt = "Probability to reach each damage state. "
+        alt += _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
+        found["states"] = figure(people.plot_damage_states, alt)
+        found["crossings"] = _crossings(people)
+    return found
+
+
+def _crossings(people: Typology) -> Table | None:
+    """Mean curves of damage states that cross."""
+    limit = float(people.edp_thresholds[-1])
+    states = {
+        f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
+            people.at(edp)[curve.mechanism, curve.group].mean for edp in people.edp_thresholds
+        ]
+        for curve in people.groups
+    }
+    return crossings(states, [state_name(float(edp), limit) for edp in people.edp_thresholds], people.levels, people.im)
+
+
+def combined(people: Typology) -> list[Group]:
+    """The last curve of the population and of each group: all mechanisms."""
+    return list({curve.group: curve for curve in people.groups}.values())
+
+
+def _in_words(curves: Sequence[Group]) -> str:
+    """Curves in words, for those who cannot see them."""
+    texts = []
+    for curve in curves:
+        who = f"{curve.group or 'population'}, {mechanism_name(curve.mechanism)}"
+        fit = curve.fit
+        if fit.edp is not None and fit.has_fit:
+            numbers = f"median {fit.theta:.3g}{blank_unit(fit.im)}, dispersion {fit.beta:.3g}"
+            texts.append(f"{who}, EDP {fit.edp:g}: {numbers}")
+        else:
+            texts.append(f"{who}: no fit ({fit.status})")
+    return "; ".join(texts) + "."
+
+
+def numbers(people: Typology) -> dict[str, Any]:
+    """Tables of parameters and of probabilities at the levels."""
+    limit, whole_population = float(people.edp_thresholds[-1]), people["all"]
+    return {
+        "curves": _curves_table(people),
+        "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp))) for edp in people.edp_thresholds[:-1]],
+        "levels": [
+            (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))
+            for edp in people.edp_thresholds[::-1]
+        ],
+        "others": [
+            (f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}", _levels_table(people, curve))
+            for curve in people.groups
+            if (curve.group, curve.mechanism) != (whole_population.group, whole_population.mechanism)
+        ],
+    }
+
+
+def _curves_table(people: Typology) -> Table:
+    """Parameters of all curves of one state."""
+    curves = people.groups
+
+    def misfit(curve: Group) -> float:
+        if not curve.fit.has_fit:
+            return np.nan
+        return float(np.abs(curve.fit(people.levels) - curve.mean_fraction).max())
+
+    columns: dict[Piece, Sequence[Piece]] = {
+        "group": [curve.group or "whole population" for curve in curves],
+        "mechanism": [mechanism_name(curve.mechanism) for curve in curves],
+        "walls": [whole(curve.walls) for curve in curves],
+        "weight": [number(curve.weight) for curve in curves],
+        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.fit.theta) for curve in curves],
+        BETA: [parameter(curve.fit.beta) for curve in curves],
+        Symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
+        Symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
+        Symbol("β", "total"): [parameter(curve.beta_total) for curve in curves],
+        "misfit": [number(misfit(curve), 2) for curve in curves],
+        "fitted": [percent(curve.fitted) for curve in curves],
+        "status": [curve.fit.status for curve in curves],
+    }
+    return Table.of(columns, ("mechanism", "status"))
+
+
+def _levels_table(people: Typology, curve: Group) -> Table:
+    """Means and fractiles at the levels."""
+    columns: dict[Piece, Sequence[Piece]] = {
+        level_head(people.im): [number(x) for x in people.levels],
+        "mean of fractions": [probability(p) for p in curve.mean_fraction],
+        "mean of curves": [probability(p) for p in curve.mean_curve],
+    }
+    for share, row in zip(("16 %", "50 %", "84 %"), curve.level_fractiles, strict=True):
+        columns[f"{share} fractile"] = [probability(p) for p in row]
+    if curve.fit.has_fit:
+        columns["lognormal"] = [probability(p) for p in curve.fit(people.levels)]
+    return Table.of(columns)
+
+
+def uncertainty(people: Typology) -> dict[str, Any]:
+    """Intervals of the bootstrap, or why there are none."""
+    curve = people["all"]
+    stored = people.flags is None
+    try:
+        samples = people["all"].bootstrap(_SAMPLES, over=("walls",) if stored else ("records", "walls"))
+        intervals = samples.parameter_interval()
+    except DondoloError as error:
+        return {"problem": str(error)}
+    low, high = samples.mean_interval()
+    rows = [(curve.fit.theta, *intervals["theta"]), (curve.fit.beta, *intervals["beta"])]
+    parameters: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
+    parameters |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
+    levels: dict[Piece, Sequence[Piece]] = {
+        level_head(people.im): [number(x) for x in people.levels],
+        "mean of fractions": [probability(p) for p in curve.mean_fraction],
+        "from": [probability(p) for p in low],
+        "to": [probability(p) for p in high],
+    }
+    return {
+        "problem": "",
+        "samples": _SAMPLES,
+        "drawn": " and ".join(samples.over),
+        "stored": stored,
+        "without_fit": f"{100.0 * samples.without_fit:.3g} %" if samples.without_fit else "",
+        "parameters": Table.of(parameters),
+        "levels": Table.of(levels),
+    }

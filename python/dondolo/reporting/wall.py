@@ -1,0 +1,148 @@
+"""Facts of a report on one wall: its stripes and curve, or one motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo.analysis.response import Response
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fragility import Fragility
+from dondolo.reporting.content import (
+    BETA,
+    THETA,
+    Piece,
+    Table,
+    blank_unit,
+    figure,
+    level,
+    level_head,
+    level_unit,
+    state_name,
+)
+from dondolo.reporting.numerals import number, parameter, percent, probability, whole
+from dondolo.reporting.statuses import STATUSES, crossings
+
+# Samples of the bootstrap
+_SAMPLES = 2000
+
+
+def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
+    """The main numbers of a wall."""
+    cards: list[tuple[Piece, Piece, Piece]] = []
+    if curve.has_fit:
+        spread = ("standard error of ln ", THETA, " ", number(curve.se_ln_theta, 3))
+        cards.append((("median ", THETA), level(curve.theta, stripes.im), spread))
+        cards.append((("dispersion ", BETA), number(curve.beta, 3), ("standard error ", number(curve.se_beta, 3))))
+    else:
+        low, high = curve.bracket
+        cards.append(("fit", "none", curve.status.replace("_", " ")))
+        cards.append(("median between", (number(low, 3), " and ", level(high, stripes.im)), "levels"))
+    histories = f"{len(stripes.levels)} levels of {stripes.edp.shape[1]}"
+    cards.append(("histories", whole(stripes.collapsed.size), histories))
+    share = (percent(stripes.collapsed.mean()), " of the histories")
+    cards.append(("collapses", whole(stripes.collapsed.sum()), share))
+    return {"cards": cards, "shares": []}
+
+
+def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> dict[str, Any]:
+    """Figures of the histories, the curve and the damage states."""
+    unit = blank_unit(stripes.im)
+    counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
+    levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
+    fit = f"no fit ({curve.status})"
+    if curve.has_fit:
+        fit = f"median {curve.theta:.3g}{unit}, dispersion {curve.beta:.3g}"
+    return {
+        "stripes": figure(
+            stripes.plot,
+            f"Largest rotation over capacity of every history at every level. Collapses: {levels}.",
+        ),
+        "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {fit}."),
+        "states": figure(
+            lambda: stripes.plot_damage_states(edp=thresholds),
+            f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
+        )
+        if len(thresholds) > 1
+        else None,
+    }
+
+
+def numbers(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> dict[str, Any]:
+    """Tables of the damage states and of the stripes."""
+    levels: dict[Piece, Sequence[Piece]] = {
+        level_head(stripes.im): [number(x) for x in stripes.levels],
+        "histories": [whole(n) for n in stripes.histories],
+        "collapses": [whole(z) for z in stripes.collapses],
+        "fraction": [probability(p) for p in stripes.fraction],
+    }
+    if curve.has_fit:
+        low, high = curve.interval(stripes.levels)
+        levels["fitted curve"] = [probability(p) for p in curve(stripes.levels)]
+        levels["95 % band from"] = [probability(p) for p in low]
+        levels["to"] = [probability(p) for p in high]
+    levels["median EDP"] = [number(value, 3) for value in np.median(stripes.edp, axis=1)]
+    names = [state_name(edp, stripes.edp_limit) for edp in thresholds]
+    fits = [curve if edp == stripes.edp_limit else stripes.fit(float(edp)) for edp in thresholds]
+    states: dict[Piece, Sequence[Piece]] = {
+        "damage state": names,
+        (THETA, f" [{level_unit(stripes.im)}]"): [parameter(one.theta) for one in fits],
+        ("standard error of ln ", THETA): [number(one.se_ln_theta, 3) for one in fits],
+        BETA: [parameter(one.beta) for one in fits],
+        ("standard error of ", BETA): [number(one.se_beta, 3) for one in fits],
+        "log likelihood": [parameter(one.log_likelihood) for one in fits],
+        "status": [one.status for one in fits],
+    }
+    crossed = None
+    if all(one.has_fit for one in fits):
+        crossed = crossings({stripes.wall.name: fits}, names, stripes.levels, stripes.im)
+    return {"states": Table.of(states, ("status",)), "crossings": crossed, "levels": Table.of(levels)}
+
+
+def uncertainty(curve: Fragility) -> dict[str, Any]:
+    """Intervals of the parameters by each method, or the levels between which the median lies."""
+    if not curve.has_fit:
+        low, high = curve.bracket
+        return {
+            "intervals": None,
+            "low": number(low),
+            "high": level(high, curve.im),
+            "status": curve.status,
+            "meaning": STATUSES[curve.status],
+        }
+    methods = {
+        "covariance (delta method)": curve.parameter_interval(),
+        "profile likelihood": curve.parameter_interval(method="profile"),
+    }
+    if curve.sample is not None:
+        methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(_SAMPLES).parameter_interval()
+    columns: dict[Piece, Sequence[Piece]] = {"method": list(methods)}
+    for letter, name in ((THETA, "theta"), (BETA, "beta")):
+        columns[letter, " from"] = [parameter(interval[name][0]) for interval in methods.values()]
+        columns[letter, " to"] = [parameter(interval[name][1]) for interval in methods.values()]
+    return {"intervals": Table.of(columns)}
+
+
+def motion_summary(motion: Response) -> dict[str, Any]:
+    """The main numbers of a motion."""
+    cards: list[tuple[Piece, Piece, Piece]] = [
+        ("EDP", number(motion.edp), "largest rotation / capacity"),
+        ("collapse", "yes" if motion.collapsed else "no", f"limit: EDP = {motion.edp_limit:g}"),
+        ("impacts", whole(motion.impacts), "before the end of the record"),
+        ("time of the peak", number(motion.time_of_peak, unit=" s"), "of the largest rotation"),
+    ]
+    return {"cards": cards, "shares": []}
+
+
+def motion(motion: Response) -> dict[str, Any]:
+    """Figures of a motion."""
+    outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
+    alt = f"Ground acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s."
+    return {
+        "record": motion.record.name,
+        "scale": f"{motion.scale:.4g}",
+        "history": None if motion.time is None else figure(motion.plot, alt),
+        "wall": figure(motion.plot_peak, f"The wall at its largest rotation: {outcome}."),
+    }

@@ -1,0 +1,155 @@
+!> The run as data: what ran with which settings on which inputs, what was computed and what to beware of, in one JSON
+!> file beside the tables. docs/files.md describes its keys.
+module dondolo_run_file
+   use, intrinsic :: iso_fortran_env, only : compiler_version, int64
+   use dondolo_case, only : case_type
+   use dondolo_checksum, only : crc32_length, crc32_of_file
+   use dondolo_json, only : json_type
+   use dondolo_kinds, only : wp
+   use dondolo_paths, only : beside
+   use dondolo_result_files, only : result_files_type
+   use dondolo_results, only : results_type
+   use dondolo_echo, only : echo_type
+   use dondolo_version, only : dondolo_version_text
+   use dondolo_warning_sentence, only : put_warnings
+   use dondolo_work, only : work_names
+   implicit none
+   private
+
+   public :: write_run
+
+   !> Name and version of the format, the first member of the file
+   character(len=*), parameter :: format = 'dondolo run 1'
+
+contains
+
+   !> Write the file of the run
+   subroutine write_run(case, results, files)
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Its results
+      type(results_type), intent(in) :: results
+      !> Files; this one was begun
+      type(result_files_type), intent(inout) :: files
+
+      type(json_type) :: json
+      type(echo_type) :: echo
+      character(len=:), allocatable :: text
+
+      call json%open_object()
+      call json%put('format', format)
+      call json%put('version', dondolo_version_text)
+      call json%put('compiler', compiler_version())
+      call json%put('real_bits', storage_size(1.0_wp))
+      call results%name_engines(text)
+      call json%put('engine', text)
+      call case%echo(echo)
+      call echo%to_json(json)
+      call put_inputs(case, json)
+      if (case%job%task == 'history') then
+         call put_history(case, results, json)
+      else
+         call put_counts(case, results, json)
+      end if
+      call put_notes(case, json)
+      call put_warnings(results%warnings, json)
+      call json%close_object()
+      call json%get(text)
+      call files%line(text)
+   end subroutine write_run
+
+   !> Put the files that the case is made of, with their lengths and checksums
+   subroutine put_inputs(case, json)
+      type(case_type), intent(in) :: case
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_array('inputs')
+      call put_input('case', case%file)
+      call put_input('catalogue', beside(case%records_input%catalogue, case%file))
+      do i = 1, size(case%suite%records)
+         if (allocated(case%suite%records(i)%file)) call put_input('record', case%suite%records(i)%file)
+      end do
+      if (allocated(case%population_file)) call put_input('population', case%population_path())
+      call json%close_array()
+
+   contains
+
+      !> Put one file
+      subroutine put_input(role, path)
+         character(len=*), intent(in) :: role, path
+
+         character(len=crc32_length) :: checksum
+         integer(int64) :: bytes
+         logical :: ok
+
+         call crc32_of_file(path, checksum, bytes, ok)
+         call json%open_object()
+         call json%put('role', role)
+         call json%put('path', path)
+         if (ok) then
+            call json%put('bytes', bytes)
+            call json%put('crc32', checksum)
+         else
+            ! Removed during the run: that must not cost the results
+            call json%put_raw('bytes', 'null')
+            call json%put_raw('crc32', 'null')
+         end if
+         call json%close_object()
+      end subroutine put_input
+
+   end subroutine put_inputs
+
+   !> Put the result of a time history
+   subroutine put_history(case, results, json)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(json_type), intent(inout) :: json
+
+      associate (response => results%response)
+         call json%open_object('history')
+         call json%put('record', case%suite%records(case%history%record)%name)
+         call json%put('scale', case%history_scale())
+         call json%put('edp', response%edp)
+         call json%put('collapsed', response%collapsed)
+         call json%put('impacts', response%impacts)
+         call json%put('time_of_peak_s', response%time_of_peak)
+         if (case%solver%solver%estimate_error) call json%put('edp_error', response%edp_error)
+         call json%close_object()
+      end associate
+   end subroutine put_history
+
+   !> Put the unit of the levels and the counts of what was computed
+   subroutine put_counts(case, results, json)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(json_type), intent(inout) :: json
+
+      integer(int64) :: counts(size(work_names))
+      integer :: i
+
+      call json%put('unit_of_levels', case%stripes%scaling%unit())
+      counts = results%work%counts()
+      call json%open_object('work')
+      do i = 1, size(counts)
+         call json%put(trim(work_names(i)), counts(i))
+      end do
+      call json%close_object()
+   end subroutine put_counts
+
+   !> Put how tables were read, where there is something to say of it
+   subroutine put_notes(case, json)
+      type(case_type), intent(in) :: case
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_array('notes')
+      do i = 1, case%notes%count
+         call json%put('', case%notes%line(i)%text)
+      end do
+      call json%close_array()
+   end subroutine put_notes
+
+end module dondolo_run_file

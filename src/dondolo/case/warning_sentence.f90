@@ -1,0 +1,245 @@
+!> Warnings as they are read: by people as sentences, by programs as JSON. The only place where a warning is worded.
+module dondolo_warning_sentence
+   use dondolo_json, only : json_type
+   use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
+   use dondolo_property, only : find_property
+   use dondolo_record_table, only : describe_pga
+   use dondolo_text, only : rounded, to_text
+   use dondolo_wall_properties, only : wall_properties
+   use dondolo_warning, only : warning_type, warnings_type
+   implicit none
+   private
+
+   public :: make_sentence, warning_sentences, warning_objects, put_warnings
+
+contains
+
+   !> The sentence of a warning
+   subroutine make_sentence(warning, text)
+      !> The warning
+      type(warning_type), intent(in) :: warning
+      !> Its sentence, without a full stop
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=:), allocatable :: record
+
+      call warning%get_word('record', record)
+      select case (warning%code)
+      case ('value_below_usual', 'value_above_usual')
+         call say_implausible(warning, text)
+      case ('record_without_motion')
+         text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
+      case ('record_pga')
+         call describe_pga(warning%value('pga_g'), warning%value('limit_g'), text)
+         text = 'record '''//record//''': '//text
+         if (warning%value('records') > 1.0_wp) text = text//' ('//to_text(warning%value('records_beyond'))//' of '// &
+            & to_text(warning%value('records'))//' records)'
+      case ('scale_factors_large')
+         text = 'scale factors above '//to_text(warning%value('limit'))//' in '// &
+            & to_text(warning%value('histories_beyond'))//' of '//to_text(warning%value('histories'))// &
+            & ' histories, the largest '//rounded(warning%value('largest'))//' (record '''//record//''' at level '// &
+            & rounded(warning%value('level'))//')'
+      case ('ill_conditioned')
+         if (len(record) > 0) then
+            text = 'ill-conditioned: '//to_text(warning%value('histories_beyond'))//' of '// &
+               & to_text(warning%value('histories'))//' histories with an estimated error of the EDP above '// &
+               & to_text(warning%value('limit'))//'; the largest is '//rounded(warning%value('largest'))// &
+               & ' (record '''//record//''' at level '//rounded(warning%value('level'))//')'
+         else
+            text = 'ill-conditioned: the estimated error of the EDP is '//rounded(warning%value('largest'))//', above '// &
+               & to_text(warning%value('limit'))
+         end if
+      case ('collapse_in_doubt')
+         text = 'collapse or not is in doubt, by the estimated error'
+         if (warning%value('histories') > 0.0_wp) text = text//', in '//to_text(warning%value('histories_in_doubt'))// &
+            & ' of '//to_text(warning%value('histories'))//' histories'
+      case ('curves_without_fit', 'curves_extrapolated', 'population_without_fit', 'population_extrapolated')
+         call say_of_population(warning, text)
+      case default
+         call say_of_fit(warning, text)
+      end select
+   end subroutine make_sentence
+
+   !> Of a value that no masonry has: the table of properties asks what may have happened
+   subroutine say_implausible(warning, text)
+      type(warning_type), intent(in) :: warning
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=:), allocatable :: wall, variable, unit
+
+      call warning%get_word('wall', wall)
+      call warning%get_word('variable', variable)
+      call warning%get_word('unit', unit)
+      text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//' '//unit
+      associate (property => wall_properties(find_property(wall_properties, variable)))
+         if (warning%code == 'value_below_usual') then
+            text = text//' is less than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_less)
+         else
+            text = text//' is more than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_more)
+         end if
+      end associate
+      if (warning%value('walls') > 1.0_wp) text = text//' ('//to_text(warning%value('walls_beyond'))//' of '// &
+         & to_text(warning%value('walls'))//' in all)'
+   end subroutine say_implausible
+
+   !> Of the curve of one wall
+   subroutine say_of_fit(warning, text)
+      type(warning_type), intent(in) :: warning
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=*), parameter :: none = ', no curve is fitted: '
+      character(len=:), allocatable :: levels
+
+      levels = to_text(warning%value('first_level'))
+      if (warning%value('levels') > 1.0_wp) levels = levels//' to '//to_text(warning%value('last_level'))
+      select case (warning%code)
+      case ('no_collapse')
+         text = 'no collapse at levels '//levels//none//'the largest EDP is '//rounded(warning%value('largest_edp'))// &
+            & ', higher levels are needed'
+      case ('no_motion')
+         text = 'no motion at levels '//levels//none//'the wall begins to rock at '//rounded(warning%value('trigger_g'))// &
+            & ' g, higher levels are needed'
+      case ('all_collapse')
+         text = 'every history collapses at levels '//levels//none//'lower levels are needed'
+      case ('single_level')
+         text = 'only one level, '//levels//none//'two at least are needed'
+      case ('decreasing')
+         text = 'collapses do not become more frequent with the level'//none//'their trend is flat or falling'
+      case ('not_converged')
+         text = 'the fit does not converge at levels '//levels//', no curve is fitted'
+      case ('separated')
+         text = 'all collapses lie at levels above the survivals, or share one level with them'//none// &
+            & 'the median lies '
+         if (.not. warning%value('bracket_high') > 0.0_wp) then
+            text = text//'above '//to_text(warning%value('bracket_low'))
+         else if (.not. warning%value('bracket_low') > 0.0_wp) then
+            text = text//'below '//to_text(warning%value('bracket_high'))
+         else
+            text = text//'between '//to_text(warning%value('bracket_low'))//' and '// &
+               & to_text(warning%value('bracket_high'))
+         end if
+         text = text//', more levels there are needed'
+      case default
+         text = 'theta = '//rounded(warning%value('theta'))//' lies outside the levels '//levels//': the fit extrapolates'
+      end select
+   end subroutine say_of_fit
+
+   !> Of the curves of a population
+   subroutine say_of_population(warning, text)
+      type(warning_type), intent(in) :: warning
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=:), allocatable :: wall, of, status, group, mechanism
+
+      call warning%get_word('wall', wall)
+      call warning%get_word('of', of)
+      call warning%get_word('status', status)
+      call warning%get_word('group', group)
+      call warning%get_word('mechanism', mechanism)
+      if (len(group) > 0) then
+         group = 'group '''//group//''''
+      else
+         group = 'the population'
+      end if
+      select case (warning%code)
+      case ('population_without_fit')
+         text = group//' has no fit (mechanism '//mechanism//', status '//status//')'
+      case ('population_extrapolated')
+         text = 'the median of '//group//', '//rounded(warning%value('theta'))//' (mechanism '//mechanism// &
+            & '), lies outside the levels: the fit extrapolates'
+      case default
+         text = to_text(warning%value('curves'))//' of '//to_text(warning%value('of_curves'))//' '//of
+         if (warning%value('curves') > 1.0_wp) then
+            text = text//' have '
+         else
+            text = text//' has '
+         end if
+         if (warning%code == 'curves_extrapolated') then
+            text = text//'a median outside the levels'
+         else if (warning%value('curves') > 1.0_wp) then
+            text = text//'no fit and take part with their fractions of collapse'
+         else
+            text = text//'no fit and takes part with its fractions of collapse'
+         end if
+         text = text//' ('//status//'; the first is '''//wall//''')'
+      end select
+   end subroutine say_of_population
+
+   !> The sentences of warnings
+   subroutine warning_sentences(warnings, lines)
+      !> Warnings
+      type(warnings_type), intent(in) :: warnings
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = 1, warnings%count
+         call make_sentence(warnings%item(i), text)
+         call lines%add(text)
+      end do
+   end subroutine warning_sentences
+
+   !> Warnings as JSON objects, each on one line
+   subroutine warning_objects(warnings, lines)
+      !> Warnings
+      type(warnings_type), intent(in) :: warnings
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      type(json_type) :: json
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = 1, warnings%count
+         json = json_type(is_compact=.true.)
+         call put_warning(warnings%item(i), json)
+         call json%get(text)
+         call lines%add(text)
+      end do
+   end subroutine warning_objects
+
+   !> Put warnings into a JSON object, as an array `warnings`
+   subroutine put_warnings(warnings, json)
+      !> Warnings
+      type(warnings_type), intent(in) :: warnings
+      !> JSON, in an object
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_array('warnings')
+      do i = 1, warnings%count
+         call put_warning(warnings%item(i), json)
+      end do
+      call json%close_array()
+   end subroutine put_warnings
+
+   !> Put one warning as an object: its code, what it is about, its numbers and its sentence
+   subroutine put_warning(warning, json)
+      type(warning_type), intent(in) :: warning
+      type(json_type), intent(inout) :: json
+
+      character(len=:), allocatable :: text
+      integer :: i
+
+      call make_sentence(warning, text)
+      call json%open_object()
+      call json%put('code', trim(warning%code))
+      call json%open_object('subject')
+      do i = 1, warning%words
+         call json%put(trim(warning%word(i)%name), warning%word(i)%text)
+      end do
+      call json%close_object()
+      call json%open_object('numbers')
+      do i = 1, warning%numbers
+         call json%put(trim(warning%number(i)%name), warning%number(i)%value)
+      end do
+      call json%close_object()
+      call json%put('sentence', text)
+      call json%close_object()
+   end subroutine put_warning
+
+end module dondolo_warning_sentence
