@@ -268,7 +268,7 @@ def test_axes_are_returned(wall, motion, stripes):
         (lambda wall, motion, stripes: wall.plot(rotation=np.nan), "rotation"),
         (lambda wall, motion, stripes: motion.animate(speed="fast"), "speed = 'fast': must be a number"),
         (lambda wall, motion, stripes: stripes.fit().plot(level="most"), "level = 'most': must be a number"),
-        (lambda wall, motion, stripes: stripes.plot_damage_states(edp=0.4), "edp: must be one row of numbers"),
+        (lambda wall, motion, stripes: stripes.plot_damage_states(edp="low"), "edp: must be numbers"),
         (lambda wall, motion, stripes: stripes.plot_damage_states(edp=[2.0]), "edp = 2: must be positive and at most"),
     ],
 )
