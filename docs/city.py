@@ -77,7 +77,7 @@ class Study:
 
     def run(self, what, population, levels, progress=False, **options):
         """Compute a typology, or read it from its checkpoint."""
-        checkpoint = out / f"{self.name}_{what}.sqlite"
+        checkpoint = out / f"{self.name}_{what}.counts"
         options = {"polarity": "both", "checkpoint": checkpoint, "progress": progress, **options}
         return dd.typology(population, self.records, levels, **options)
 

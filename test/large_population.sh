@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Populations that run for a while: bash test/large_population.sh PATH/TO/dondolo
 # Runs that are killed at random moments must end with the same bytes as one that is not, parts that are merged too, and
-# more walls must take no more memory.
+# more walls must take little more memory.
 set -uo pipefail
 
 if [ $# -ne 1 ] || [ ! -x "$1" ]; then
@@ -82,7 +82,7 @@ rm out/*.counts
 check "parts: the same bytes" diff -r whole out
 rm -rf out
 
-# Memory: five times the walls, hardly any work; what grows is the index of names
+# Memory: five times the walls, hardly any work; what grows is the index of names, and the counts and curves of each row
 if command -v /usr/bin/time >/dev/null; then
    study 'levels = 0.01' >study.nml
    for n in 8000 40000; do
@@ -90,7 +90,7 @@ if command -v /usr/bin/time >/dev/null; then
       /usr/bin/time -f %M "$exe" --quiet study.nml 2>memory.$n
       tail -n 1 memory.$n >>memory
    done
-   check "memory: $(tr '\n' ' ' <memory) KiB for 8000 and 40000 walls" awk '{ m[NR] = $1 } END { exit !(m[2] < m[1] + 4096) }' memory
+   check "memory: $(tr '\n' ' ' <memory) KiB for 8000 and 40000 walls" awk '{ m[NR] = $1 } END { exit !(m[2] < m[1] + 16384) }' memory
 fi
 
 echo "$passed passed, $failed failed"

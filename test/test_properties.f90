@@ -2,6 +2,7 @@
 !> namelist to what is computed and back, and is refused in one line where it is out of range.
 program test_properties
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type
    use dondolo_history_group, only : history_input_type, read_history_group
    use dondolo_job_group, only : job_type, read_job, task_names
@@ -212,6 +213,7 @@ contains
 
       type(property_type), allocatable :: table(:)
       type(group_settings_type) :: settings
+      type(echo_type) :: said
       type(lines_type) :: lines
       type(group_type) :: group
       type(error_type), allocatable :: error
@@ -231,8 +233,10 @@ contains
          if (.not. allocated(error)) call through(name, group, settings, error)
          call check_ok(error, what//' = '//text)
          if (allocated(error)) cycle
+         said = echo_type()
+         call echo_settings(name, settings, said)
          lines = lines_type()
-         call echo_settings(name, settings, lines)
+         call said%to_namelist(lines)
          echo = ''
          do j = 1, lines%count
             echo = echo//lines%line(j)%text//' '

@@ -197,7 +197,7 @@ contains
       do i = 1, size(problems)
          call check_error(error, trim(problems(i)), 'problem '//to_text(i))
       end do
-      call check_error(error, 'line 14: mechanism = ''o n'': must be', 'a line end in a cell')
+      call check_error(error, 'line 14: mechanism = ''o n'': must', 'a line end in a cell')
       if (allocated(error)) call check(lines_of(error%message) == 10, 'no more problems than there are')
    end subroutine check_problems
 

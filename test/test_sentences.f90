@@ -14,7 +14,6 @@ program test_sentences
    use dondolo_numbers, only : parse_integer
    use dondolo_record, only : new_record, record_type
    use dondolo_record_format, only : shown
-   use dondolo_record_table, only : pga_problem
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_text, only : counted, first_word, join, rounded, stripped, to_table, to_text
    use dondolo_text_file, only : text_file_type
@@ -110,7 +109,7 @@ contains
       case (9)
          call new_record(record, [0.0_wp, 100.0_wp*real(n, wp)], 0.01_wp, repeat('r', n), error)
          call new_scaling(scaling, 'saavg(0.1:'//to_text(real(n, wp))//')', error)
-         text = pga_problem(record, 9.81_wp)//scaling%title()//scaling%unit_after_blank()
+         text = scaling%title()//scaling%unit_after_blank()
       end select
       if (allocated(error)) text = error%message
    end subroutine make
