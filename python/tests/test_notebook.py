@@ -4,11 +4,12 @@ import pytest
 
 nbclient, nbformat, _ = (pytest.importorskip(name) for name in ("nbclient", "nbformat", "ipykernel"))
 
+pytestmark = pytest.mark.slow
+
 SETUP = """
 import numpy as np
 import dondolo as dd
 
-pytestmark = pytest.mark.slow
 wall = dd.FreeStandingWall(height=6.0, thickness=0.9)
 sine = dd.Record(np.sin(2.0 * np.pi * 0.01 * np.arange(401)), 0.01)
 motion = dd.simulate(wall, sine, 2.0)
