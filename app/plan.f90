@@ -95,7 +95,7 @@ contains
       integer :: i
 
       call oddities%warn(warnings)
-      call warn_of_records(records, case%solver%gravity, warnings)
+      call warn_of_records(records, records%pga(), case%solver%gravity, warnings)
       call scales%warn(warnings)
       if (warnings%count > 0) write (output_unit, '(a)') ''
       call warning_sentences(warnings, sentences)

@@ -12,7 +12,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-CALLS = (2, 7)
+CALLS = (2, 4)
 
 CASE = """
 &job task = 'stripes' output = 'result' threads = 1 /

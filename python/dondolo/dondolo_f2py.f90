@@ -692,10 +692,8 @@ subroutine warn_of_motion(walls, record, pga, handle, sizes, stat, message)
    if (.not. allocated(error)) then
       call oddities%look(people(1))
       call oddities%warn(warnings)
-      ! Of the samples the sentences need the largest only
       records(1)%name = record
-      records(1)%acceleration = [pga]
-      call warn_of_records(records, people(1)%gravity, warnings)
+      call warn_of_records(records, [pga], people(1)%gravity, warnings)
       if (warnings%count > 0) then
          call pack_warnings(warnings, parcel)
          call send(parcel, handle, sizes)
@@ -828,7 +826,7 @@ subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
    end do
    if (.not. allocated(error)) then
       call oddities%warn(warnings)
-      call warn_of_records(chosen%suite%records, people(1)%gravity, warnings)
+      call warn_of_records(chosen%suite%records, chosen%suite%peaks, people(1)%gravity, warnings)
       call scales%warn(warnings)
       if (warnings%count > 0) then
          call pack_warnings(warnings, parcel)

@@ -31,7 +31,7 @@ IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
-_FIRST_SAMPLES = 2_000_000
+_FIRST_SAMPLES = 10_000_000
 
 
 class Plan(NamedTuple):

@@ -105,16 +105,6 @@ class Flags:
         return replace(self, histories=self.histories[walls], bits=np.concatenate(bits))
 
 
-def pack(edp: FloatArray, collapsed: NDArray[np.bool_], states: FloatArray, sizes: Iterable[int]) -> Bits:
-    """The bits of consecutive walls, which have so many histories each; the last state is collapse."""
-    packed, start = [], 0
-    for size in sizes:
-        here = slice(start, start + size)
-        packed.append(np.packbits(np.vstack([edp[here] >= states[:-1, None], collapsed[here]])))
-        start += size
-    return np.concatenate(packed) if packed else np.zeros(0, dtype=np.uint8)
-
-
 def states_of(edp_thresholds: ArrayLike | None, edp_limit: float) -> FloatArray:
     """EDP from which on a history is in each state: what a user gives, checked, and collapse as the last."""
     given = np.empty(0) if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)

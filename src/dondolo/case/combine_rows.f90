@@ -41,7 +41,7 @@ contains
          results%typologies(:, k) = typologies
       end do
       call case%survey%oddities%warn(results%warnings)
-      call warn_of_records(case%suite%records, case%solver%gravity, results%warnings)
+      call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, states), results%warnings)
    end subroutine combine_rows

@@ -51,8 +51,10 @@ contains
       end if
       select case (case%job%task)
       case ('history')
-         call warn_of_records(case%suite%records(case%history%record:case%history%record), case%solver%gravity, &
-            & results%warnings)
+         associate (one => case%history%record)
+            call warn_of_records(case%suite%records(one:one), case%suite%peaks(one:one), case%solver%gravity, &
+               & results%warnings)
+         end associate
          call simulate(case%wall%mechanism, case%suite%records(case%history%record), case%history_scale(), &
             & case%solver%solver, results%response, results%trace)
          if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
@@ -137,7 +139,7 @@ contains
       if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, error)
       if (allocated(error)) return
       results%work = stripes%work
-      call warn_of_records(case%suite%records, case%solver%gravity, results%warnings)
+      call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
       call scales%look(stripes, case%suite%records)
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)

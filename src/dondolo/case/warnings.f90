@@ -104,9 +104,11 @@ contains
    end subroutine warn
 
    !> Warn of records without motion, and of those whose PGA no accelerograph has measured
-   subroutine warn_of_records(records, gravity, warnings)
+   subroutine warn_of_records(records, peaks, gravity, warnings)
       !> Records
       type(record_type), intent(in) :: records(:)
+      !> Their PGA [m/s2]
+      real(wp), intent(in) :: peaks(:)
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> Warnings to add to
@@ -118,7 +120,7 @@ contains
 
       number = 0
       do i = 1, size(records)
-         pga = records(i)%pga()/gravity
+         pga = peaks(i)/gravity
          if (.not. pga > 0.0_wp) then
             warning = warning_type('record_without_motion')
             call warning%about('record', records(i)%name)

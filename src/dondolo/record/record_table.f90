@@ -82,18 +82,19 @@ contains
       character(len=:), allocatable, intent(out) :: problems
 
       real(wp) :: velocity(size(record%acceleration)), peak
+      real(wp) :: pga
       integer :: n, run, longest, i
 
       problems = ''
       n = size(record%acceleration)
-      if (.not. record%pga() > 0.0_wp) then
+      pga = record%pga()
+      if (.not. pga > 0.0_wp) then
          problems = 'no motion'
          return
       end if
-      if (pga_limit(record%pga()/gravity) > 0.0_wp) &
-         & call describe_pga(record%pga()/gravity, pga_limit(record%pga()/gravity), problems)
-      if (abs(record%acceleration(1)) > abrupt*record%pga()) call append('begins at '// &
-         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/record%pga())))//' % of its PGA')
+      if (pga_limit(pga/gravity) > 0.0_wp) call describe_pga(pga/gravity, pga_limit(pga/gravity), problems)
+      if (abs(record%acceleration(1)) > abrupt*pga) call append('begins at '// &
+         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/pga)))//' % of its PGA')
       velocity = ground_velocity(record)
       peak = peak_velocity(record)
       if (abs(velocity(n)) > drifted*peak) call append('ends at '// &
@@ -102,7 +103,7 @@ contains
       longest = 0
       do i = 1, n
          run = run + 1
-         if (abs(record%acceleration(i)) < record%pga()) run = 0
+         if (abs(record%acceleration(i)) < pga) run = 0
          longest = max(longest, run)
       end do
       if (longest >= clipped) call append(to_text(longest)//' samples in a row at its PGA')
