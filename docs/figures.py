@@ -15,7 +15,6 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.figures import style
-from dondolo.records.processing import velocity
 from dondolo.walls.drawing import shape
 
 import dondolo as dd
@@ -110,17 +109,17 @@ def processing():
     time = clean.time
     noise = 0.01 + 0.03 * np.sin(2.0 * np.pi * 0.04 * time)
     given = clean.processed(clean.acceleration + noise, "0.01 m/s2 and 0.03 m/s2 of 0.04 Hz added")
-    mean = dd.correct_baseline(given)
+    mean = given.correct_baseline()
     curves = [
         (given, style.GREY, "-", "as given"),
         (mean, style.BLUE, "--", "mean taken off"),
-        (dd.band_pass(mean, 0.1, 25.0, keep_padding=True), style.RED, "-", "and band-pass 0.1-25 Hz, pads kept"),
+        (mean.band_pass(0.1, 25.0, keep_padding=True), style.RED, "-", "and band-pass 0.1-25 Hz, pads kept"),
     ]
     figure, axes = new_axes(3, 1, (8.4, 6.0), sharex=True)
     for record, color, line, label in curves:
         # Pads are shown before time 0 and after the end
         shift = 0.5 * (record.duration - clean.duration)
-        speed = velocity(record)
+        speed = record.velocity
         way = np.append(0.0, np.cumsum(0.5 * record.dt * (speed[1:] + speed[:-1])))
         for ax, values in zip(axes, (record.acceleration, speed, way), strict=True):
             ax.plot(record.time - shift, values, color=color, linestyle=line, linewidth=1.0, label=label)
@@ -136,15 +135,15 @@ def processing():
 def pulses():
     """Draw acceleration and velocity of the four pulses."""
     shown = [
-        (dd.one_sine(1.0, 1.0), "one_sine"),
-        (dd.one_cosine(1.0, 1.0), "one_cosine"),
-        (dd.ricker(1.0, 1.0), "ricker"),
-        (dd.mavroeidis_papageorgiou(1.0 / (2.0 * np.pi), 1.0, phase=90.0, gamma=2.5), "mavroeidis_papageorgiou"),
+        (dd.pulses.one_sine(1.0, 1.0), "one_sine"),
+        (dd.pulses.one_cosine(1.0, 1.0), "one_cosine"),
+        (dd.pulses.ricker(1.0, 1.0), "ricker"),
+        (dd.pulses.mavroeidis_papageorgiou(1.0 / (2.0 * np.pi), 1.0, phase=90.0, gamma=2.5), "mavroeidis_papageorgiou"),
     ]
     figure, axes = new_axes(2, 4, (9.6, 3.8), sharey="row", sharex="col")
     for column, (record, name) in zip(axes.T, shown, strict=True):
         time = np.concatenate([[-0.2, 0.0], record.time, record.duration + np.array([0.0, 0.2])])
-        for ax, values in zip(column, (record.acceleration, 2.0 * np.pi * velocity(record)), strict=True):
+        for ax, values in zip(column, (record.acceleration, 2.0 * np.pi * record.velocity), strict=True):
             end = values[-1] if ax is column[1] else 0.0
             ax.plot(time, np.concatenate([[0.0, 0.0], values, [end, end]]), color=style.BLUE)
         column[0].set_title(name, loc="left", family="monospace", fontsize=8.5)
@@ -165,9 +164,11 @@ def overturning():
         name="alpha = 0.25, p = 2.14/s, restitution 0.9",
     )
     figure, axes = new_axes(1, 2, (10.4, 4.8), sharey=True)
-    for ax, pulse in zip(axes, (dd.one_sine, dd.ricker), strict=True):
+    for ax, pulse in zip(axes, (dd.pulses.one_sine, dd.pulses.ricker), strict=True):
         ratio, height = np.linspace(0.1, 8.0, 159), np.linspace(0.1, 12.0, 120)
-        spectrum = dd.overturning_spectrum(wall, pulse, ratio * p / (2.0 * np.pi), height * np.tan(alpha))
+        spectrum = dd.overturning_spectrum(
+            wall, pulse, frequencies=ratio * p / (2.0 * np.pi), amplitudes=height * np.tan(alpha)
+        )
         spectrum.plot(ax)
         ax.set_title(pulse.__name__, loc="left", family="monospace")
     axes[1].set_ylabel("")
@@ -237,7 +238,7 @@ def spectra():
     ]
     figure, axes = new_axes(1, 3, (10.4, 3.8))
     for name, several, color, line in sets:
-        logs = np.log([dd.response_spectrum(record, periods).sa / 9.81 for record in several])
+        logs = np.log([record.spectrum(periods).sa / 9.81 for record in several])
         pga = np.log([record.pga / 9.81 for record in several])
         shape = logs - pga[:, None]
         for ax, values in zip(axes[:2], (logs, shape), strict=True):

@@ -225,8 +225,8 @@ EDITS = [
     ),
     Edit(
         "rotation turns in the wrong sense",
-        " = cosine * first + sine * second",
-        " = cosine * first - sine * second",
+        " = cosine * first.acceleration + sine * second.acceleration",
+        " = cosine * first.acceleration - sine * second.acceleration",
         "test_processing.py::test_directions_of_a_line_and_a_circle",
     ),
     Edit(

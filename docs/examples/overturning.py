@@ -12,11 +12,11 @@ out.mkdir(parents=True, exist_ok=True)
 
 # %% A pulse is a record: 1 Hz, 4 m/s2, chords within 1e-5 of the amplitude
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
-print(dd.simulate(pinnacle, dd.ricker(4.0, 1.0), solver=dd.Solver(edp_limit=5.0)))
+print(dd.simulate(pinnacle, dd.pulses.ricker(4.0, 1.0), solver=dd.Solver(edp_limit=5.0)))
 
 # %% Scan of all amplitudes, since a stronger pulse may be safer
 spectrum = dd.overturning_spectrum(
-    pinnacle, dd.one_sine, frequencies=np.linspace(0.2, 3.0, 57), amplitudes=np.linspace(0.1, 2.4, 47)
+    pinnacle, dd.pulses.one_sine, frequencies=np.linspace(0.2, 3.0, 57), amplitudes=np.linspace(0.1, 2.4, 47)
 )
 print(spectrum)
 
@@ -28,7 +28,7 @@ for boundary in spectrum.boundaries:
 # %% A pulse with more cycles: any function of amplitude and frequency that returns a record
 near_fault = dd.overturning_spectrum(
     pinnacle,
-    lambda amplitude, frequency: dd.mavroeidis_papageorgiou(amplitude, frequency, phase=90.0, gamma=2.5),
+    lambda amplitude, frequency: dd.pulses.mavroeidis_papageorgiou(amplitude, frequency, phase=90.0, gamma=2.5),
     frequencies=[0.5, 1.0, 2.0],
     amplitudes=np.linspace(0.1, 2.4, 24),
 )

@@ -15,24 +15,24 @@ first, second = (record for record in records if "friuli_1976_sep_15" in record.
 first = first.processed(first.acceleration + 0.02, "zero shifted by 0.02 m/s2")
 
 # %% Records are never corrected implicitly; explicit processing is documented in the record
-clean = dd.trim(dd.band_pass(dd.correct_baseline(first), low=0.1, high=25.0))
+clean = first.correct_baseline().band_pass(low=0.1, high=25.0).trim()
 print(clean)
 print(*clean.processing, sep="\n")
 
 # %% Half the time step changes nothing, since the motion is linear between samples; 0.01 s requires a filter
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
-for record in (first, dd.resample(first, 0.0025), dd.resample(first, 0.01)):
+for record in (first, first.resample(0.0025), first.resample(0.01)):
     print(f"EDP {dd.simulate(wall, record, scale=2.0).edp:.6f}", *record.processing[1:])
 
 # %% A facade responds to the component along its normal, here at 30 degrees from the first component
-normal = dd.rotate(first, second, 30.0)
+normal = first.rotate(second, 30.0)
 print(dd.simulate(wall, normal, scale=2.0))
 
 # %% Median and largest value over all directions, of the peak acceleration and of the EDP of a two-sided wall
-peaks = dd.rotd(first, second)
+peaks = first.rotd(second)
 print(f"PGA: RotD50 {peaks.rotd50:.3f}, RotD100 {peaks.rotd100:.3f} m/s2 at {peaks.angle:.0f} degrees")
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
-rocking = dd.rotd(first, second, lambda record: dd.simulate(pinnacle, record, 1.5, history=False).edp, angles=36)
+rocking = first.rotd(second, lambda record: dd.simulate(pinnacle, record, 1.5, history=False).edp, angles=36)
 print(f"EDP: RotD50 {rocking.rotd50:.3f}, RotD100 {rocking.rotd100:.3f} at {rocking.angle:.0f} degrees")
 
 # %%

@@ -34,10 +34,12 @@ from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
-from dondolo.records.intensity import Spectrum, intensity_table, response_spectrum
-from dondolo.records.processing import RotD, band_pass, correct_baseline, resample, reverse, rotate, rotd, trim
-from dondolo.records.pulses import mavroeidis_papageorgiou, one_cosine, one_sine, ricker
-from dondolo.records.record import Record, read_catalogue, read_record, read_records
+from dondolo.records import pulses
+from dondolo.records.intensity import intensity_table
+from dondolo.records.reading import read_catalogue, read_record, read_records
+from dondolo.records.record import Record
+from dondolo.records.rotation import RotD
+from dondolo.records.spectrum import Spectrum
 from dondolo.records.synthetic import synthetic_records
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
@@ -93,22 +95,18 @@ __all__ = [
     "Window",
     "Work",
     "__version__",
-    "band_pass",
     "build_variant",
     "cloud",
     "compare",
     "compare_intensities",
-    "correct_baseline",
     "fit_fragility",
     "incremental",
     "intensity_table",
-    "mavroeidis_papageorgiou",
     "mean_annual_frequency",
     "multiple_stripe",
     "nrml_functions",
-    "one_cosine",
-    "one_sine",
     "overturning_spectrum",
+    "pulses",
     "read_case",
     "read_catalogue",
     "read_population",
@@ -116,17 +114,10 @@ __all__ = [
     "read_records",
     "read_results",
     "report",
-    "resample",
-    "response_spectrum",
-    "reverse",
-    "ricker",
-    "rotate",
-    "rotd",
     "run_case",
     "sample_population",
     "simulate",
     "synthetic_records",
-    "trim",
     "typology",
     "write_nrml",
 ]

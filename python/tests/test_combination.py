@@ -43,8 +43,8 @@ def typology_of(walls, levels=LEVELS, histories=HISTORIES):
     people = dd.Population(
         tuple(KINDS[row[3]](3.0, 0.3, name=row[0]) for row in rows),
         [row[2] for row in rows],
-        tuple(row[1] for row in rows),
-        [row[4][2] for row in rows],
+        groups=tuple(row[1] for row in rows),
+        p_occ=[row[4][2] for row in rows],
     )
     share = [ndtr(np.log(levels / theta) / beta) for *_, (theta, beta, _) in rows]
     counts = np.round(np.array(share).T * histories)[None].astype(np.int32)
@@ -300,7 +300,7 @@ def states(few):
         dd.TwoBlockWall(2.5, 0.25, name="a"),
         dd.OneSidedWall(2.0, 0.25, name="b"),
     ]
-    people = dd.Population(walls, [1.0, 1.0, 2.0], ("x", "x", ""), [0.5, 0.5, 1.0])
+    people = dd.Population(walls, [1.0, 1.0, 2.0], groups=("x", "x", ""), p_occ=[0.5, 0.5, 1.0])
     levels = np.array([0.2, 0.4, 0.6, 0.9, 1.3])
     stripes = [dd.multiple_stripe(wall, few, levels, progress=False) for wall in walls]
     thresholds = np.array([0.1, 0.4, 1.0])

@@ -53,7 +53,7 @@ def people(few):
         dd.TwoBlockWall(3.0, 0.25, name="a", gravity=9.7),
         dd.OneSidedWall(2.0, 0.30, name="b, with a comma", gravity=9.7),
     ]
-    population = dd.Population(walls, [2.0, 2.0, 1.0], ["low", "low", "high"], [0.6, 0.5, 1.0])
+    population = dd.Population(walls, [2.0, 2.0, 1.0], groups=["low", "low", "high"], p_occ=[0.6, 0.5, 1.0])
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
     return dd.typology(population, few, levels, polarity="both", edp_thresholds=[0.3], progress=False)
 
@@ -246,7 +246,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
     if character != "\0":
         path = tmp_path / f"{name}.txt"
         path.write_text("0\n1\n0\n")
-        assert dd.read_record(path, 0.01, "g").name == f"a{' ' * len(character.encode())}b"
+        assert dd.read_record(path, dt=0.01, units="g").name == f"a{' ' * len(character.encode())}b"
 
 
 def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo.records.record import place_of, upload
+from dondolo.records.suite import place_of, upload
 from dondolo.walls.wall import upload as upload_walls
 
 import dondolo as dd
@@ -44,7 +44,7 @@ def test_no_record_crosses_twice(few, monkeypatch):
         dd.multiple_stripe(wall, records, LEVELS, im="sa(0.5)", progress=False)
         dd.multiple_stripe(wall, records, LEVELS, polarity="both", progress=False)
         dd.simulate(wall, records[1])
-        dd.response_spectrum(records[0], [0.5])
+        records[0].spectrum([0.5])
     assert len(calls) == 1
 
 

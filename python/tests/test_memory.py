@@ -39,7 +39,7 @@ WORKS = {
     "history": "dd.simulate(wall, long, 3.0)",
     "scaling_values": "dd.multiple_stripe(wall, [long], [0.01], im='pgd', progress=False)",
     "plan": "dd.multiple_stripe(wall, few, levels, progress=False)",
-    "spectrum": "dd.response_spectrum(long, [0.1, 0.2])",
+    "spectrum": "long.spectrum([0.1, 0.2])",
     "fit": "dd.fit_fragility(np.linspace(0.1, 1.0, 400_000), np.arange(400_000) // 40_000, np.full(400_000, 10))",
     "catalogue": "dd.read_catalogue(FOLDER + '/records.csv')",
     "population": "dd.read_population(FOLDER + '/walls.csv')",

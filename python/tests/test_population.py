@@ -17,7 +17,7 @@ ROWS = [
     dd.FreeStandingWall(1.8, 0.4, restitution="constant", restitution_value=0.7, density=2000.0, name='b, "the" #2'),
     dd.OneSidedWall(1.0, 0.25, name="c"),
 ]
-PEOPLE = dd.Population(ROWS, [2.0, 2.0, 5.0, 0.0], ["low", "low", "high, free", ""], [0.4, 0.6, 1.0, 0.0])
+PEOPLE = dd.Population(ROWS, [2.0, 2.0, 5.0, 0.0], groups=["low", "low", "high, free", ""], p_occ=[0.4, 0.6, 1.0, 0.0])
 
 
 def same(one, other):
@@ -76,7 +76,9 @@ def test_rows_and_parts():
 
 
 def test_joined():
-    other = dd.Population([dd.OneSidedWall(2.0, 0.3, name="d")], [3.0], ["low"], [0.5], ["walls of the east"])
+    other = dd.Population(
+        [dd.OneSidedWall(2.0, 0.3, name="d")], [3.0], groups=["low"], p_occ=[0.5], origin=["walls of the east"]
+    )
     both = PEOPLE + other
     assert len(both) == 5
     assert same(both[:4], PEOPLE)
@@ -165,7 +167,9 @@ def test_mechanisms_of_one_wall_run(few):
 
 
 def test_table(tmp_path):
-    named = dd.Population(PEOPLE.walls, PEOPLE.weights, PEOPLE.groups, PEOPLE.p_occ, ["surveyed in spring"])
+    named = dd.Population(
+        PEOPLE.walls, PEOPLE.weights, groups=PEOPLE.groups, p_occ=PEOPLE.p_occ, origin=["surveyed in spring"]
+    )
     named.to_csv(tmp_path / "walls.csv")
     lines = (tmp_path / "walls.csv").read_text().splitlines()
     assert lines[0] == "# surveyed in spring"
@@ -198,7 +202,7 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
     wall = dd.TwoBlockWall(
         10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name
     )
-    people = dd.Population([wall], [weight], [group], [p_occ])
+    people = dd.Population([wall], [weight], groups=[group], p_occ=[p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"
     people.to_csv(path)
     back = dd.read_population(path)

@@ -2,9 +2,12 @@
 
 import ast
 import doctest
+import functools
 import importlib
 import importlib.util
+import inspect
 import pkgutil
+import pydoc
 import re
 import subprocess
 import sys
@@ -249,6 +252,74 @@ def test_documented():
         if callable(thing):
             assert thing.__doc__, name
             assert not thing.__doc__.startswith(f"{name}("), name
+
+
+def public_callables():
+    """Functions of the API, methods of its classes, and classes that users make: their docstrings have parameters."""
+    things = {name: getattr(dd, name) for name in dd.__all__} | {
+        f"pulses.{name}": getattr(dd.pulses, name) for name in dd.pulses.__all__
+    }
+    for name, thing in things.items():
+        if not inspect.isclass(thing):
+            if callable(thing):
+                yield name, thing
+            continue
+        if issubclass(thing, Exception):
+            continue
+        if re.search(r"Parameters\n +---|Parameters are those", thing.__doc__):
+            yield name, thing
+        for what, method in vars(thing).items():
+            if not what.startswith("_") and inspect.isfunction(method):
+                # As called on an object: without the object itself
+                yield f"{name}.{what}", functools.partial(method, None)
+
+
+def test_options_are_keywords():
+    """No more than three arguments go by their place."""
+    by_place = {}
+    for name, thing in public_callables():
+        kinds = [one.kind for one in inspect.signature(thing).parameters.values()]
+        by_place[name] = sum(kind is inspect.Parameter.POSITIONAL_OR_KEYWORD for kind in kinds)
+    assert len(by_place) > 100
+    assert {"Record", "OneSidedWall", "Record.band_pass", "typology", "pulses.ricker"} <= set(by_place)
+    assert {name: count for name, count in by_place.items() if count > 3} == {}
+
+
+def test_no_name_hides_a_module():
+    """Every module is what its path says, also after a function of its name has come into the package."""
+    for module in pkgutil.walk_packages(dd.__path__, "dondolo."):
+        if module.name != "dondolo.__main__":
+            assert pydoc.locate(module.name) is importlib.import_module(module.name), module.name
+    assert dd.pulses is importlib.import_module("dondolo.records.pulses")
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (
+            lambda wall, sine: dd.multiple_stripe(wall, sine, [0.1], polarity="Both"),
+            "'as_recorded', 'reversed', 'both'",
+        ),
+        (lambda wall, sine: dd.cloud(wall, sine, polarity="Both"), "'as_recorded', 'reversed', 'both'"),
+        (lambda wall, sine: dd.simulate(wall, sine, solver=dd.Solver(engine="RK45")), "'auto', 'rk45', 'lanes'"),
+        (lambda wall, sine: dd.TwoBlockWall(3.0, 0.3, bearing="Outer"), "'inner', 'outer', 'centre'"),
+        (
+            lambda wall, sine: dd.OneSidedWall(3.0, 0.3, restitution="Constant"),
+            "'default', 'sorrentino', 'impulse', 'c",
+        ),
+        (lambda wall, sine: sine.correct_baseline("Linear"), "'constant', 'linear', 'velocity'"),
+        (lambda wall, sine: dd.synthetic_records(6.0, 10.0, "Rock"), "'rock', 'shallow', 'deep'"),
+        (lambda wall, sine: dd.sample_population("One_Sided", 2, 1), "'one_sided', 'free_standing', 'two_block'"),
+        (
+            lambda wall, sine: dd.fit_fragility([0.2, 0.4], [11, 33], 44).interval(0.3, method="Delta"),
+            "'delta', 'profile'",
+        ),
+    ],
+)
+def test_words_of_options_are_exact(call, words, wall, sine):
+    """A word in another case is refused with those that are allowed."""
+    with pytest.raises(dd.InputError, match=f"must be one of {words}"):
+        call(wall, sine)
 
 
 @pytest.mark.slow

@@ -12,12 +12,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo._fortran import _core
-from dondolo.records.processing import velocity
 from matplotlib.collections import PolyCollection
 
 import dondolo as dd
 
-PULSES = (dd.one_sine, dd.one_cosine, dd.ricker, dd.mavroeidis_papageorgiou)
+PULSES = (dd.pulses.one_sine, dd.pulses.one_cosine, dd.pulses.ricker, dd.pulses.mavroeidis_papageorgiou)
 
 
 def block(alpha, p, **options):
@@ -38,33 +37,33 @@ def exact(kind, x, frequency):
 
 
 @pytest.mark.parametrize("error", [1e-2, 1e-5])
-@pytest.mark.parametrize("pulse", [dd.one_sine, dd.one_cosine, dd.ricker])
+@pytest.mark.parametrize("pulse", [dd.pulses.one_sine, dd.pulses.one_cosine, dd.pulses.ricker])
 def test_chords_keep_their_bound(pulse, error):
-    record = pulse(3.0, 0.7, error)
+    record = pulse(3.0, 0.7, error=error)
     assert record.pga == 3.0
-    origin = 0.5 * record.duration if pulse is dd.ricker else 0.0
+    origin = 0.5 * record.duration if pulse is dd.pulses.ricker else 0.0
     time = np.linspace(0.0, record.duration, 20011)
     far = np.abs(np.interp(time, record.time, record.acceleration) - exact(pulse.__name__, time - origin, 0.7)).max()
     # The bound holds, and it is not wasted.
     assert 0.3 * 3.0 * error < far <= 3.0 * error * (1.0 + 1e-9)
-    if pulse is dd.ricker:
+    if pulse is dd.pulses.ricker:
         assert 0.5 * error < abs(record.acceleration[0]) / 3.0 <= error * (1.0 + 1e-6)
     else:
         assert record.duration == pytest.approx(1.0 / 0.7, rel=1e-14)
-    assert velocity(record)[-1] == pytest.approx(0.0, abs=3.0 * error)
+    assert record.velocity[-1] == pytest.approx(0.0, abs=3.0 * error)
 
 
 @pytest.mark.parametrize(("phase", "gamma"), [(0.0, 2.0), (90.0, 1.3), (215.0, 3.7)])
 def test_velocity_of_mavroeidis_and_papageorgiou(phase, gamma):
     f, amplitude, error = 0.8, 0.6, 1e-6
-    record = dd.mavroeidis_papageorgiou(amplitude, f, phase, gamma, error)
+    record = dd.pulses.mavroeidis_papageorgiou(amplitude, f, phase=phase, gamma=gamma, error=error)
     assert record.duration == pytest.approx(gamma / f, rel=1e-14)
     s = record.time - 0.5 * record.duration
     nu = np.radians(phase)
     formula = 0.5 * amplitude * (1.0 + np.cos(2.0 * np.pi * f * s / gamma)) * np.cos(2.0 * np.pi * f * s + nu)
     # Chords on one side of the curve add up, at most error times 2 pi f A for every second.
     bound = error * 2.0 * np.pi * f * amplitude * record.duration
-    np.testing.assert_allclose(velocity(record), formula, rtol=0.0, atol=bound)
+    np.testing.assert_allclose(record.velocity, formula, rtol=0.0, atol=bound)
     middle = 0.5 * (s[1:] + s[:-1])
     slow, turn = 2.0 * np.pi * f * middle / gamma, 2.0 * np.pi * f * middle + nu
     slope = -np.pi * f * amplitude * (np.sin(slow) / gamma * np.cos(turn) + (1.0 + np.cos(slow)) * np.sin(turn))
@@ -87,9 +86,9 @@ def test_errors_of_pulses(pulse):
 
 def test_errors_of_gamma_and_phase():
     with pytest.raises(dd.InputError, match="gamma = 1: must be greater than 1"):
-        dd.mavroeidis_papageorgiou(1.0, 1.0, gamma=1.0)
+        dd.pulses.mavroeidis_papageorgiou(1.0, 1.0, gamma=1.0)
     with pytest.raises(dd.InputError, match="phase = inf"):
-        dd.mavroeidis_papageorgiou(1.0, 1.0, phase=np.inf)
+        dd.pulses.mavroeidis_papageorgiou(1.0, 1.0, phase=np.inf)
 
 
 def test_safe_window_above_the_first_overturning():
@@ -97,9 +96,9 @@ def test_safe_window_above_the_first_overturning():
     # by quadrature at 1e-11, which also gives the windows above it
     spectrum = dd.overturning_spectrum(
         block(np.radians(15.0), 2.0),
-        lambda amplitude, frequency: dd.one_cosine(amplitude, frequency, 1e-8),
-        [0.5],
-        np.arange(0.31, 0.35, 0.002),
+        lambda amplitude, frequency: dd.pulses.one_cosine(amplitude, frequency, error=1e-8),
+        frequencies=[0.5],
+        amplitudes=np.arange(0.31, 0.35, 0.002),
         tolerance=1e-8,
         progress=False,
     )
@@ -127,9 +126,9 @@ def test_safe_window_above_the_first_overturning():
 def test_zhang_and_makris(alpha, expected, tolerance):
     spectrum = dd.overturning_spectrum(
         block(alpha, 2.14, restitution="constant", restitution_value=0.9),
-        dd.one_sine,
-        [5.0 * 2.14 / (2.0 * np.pi)],
-        np.arange(1.0, 8.0, 0.2) * alpha,
+        dd.pulses.one_sine,
+        frequencies=[5.0 * 2.14 / (2.0 * np.pi)],
+        amplitudes=np.arange(1.0, 8.0, 0.2) * alpha,
         tolerance=1e-6,
         progress=False,
     )
@@ -151,9 +150,9 @@ def test_makris_and_roussos():
     # quadrature
     spectrum = dd.overturning_spectrum(
         dd.FreeStandingWall(3.0, 1.0, restitution="constant", restitution_value=0.85),
-        lambda amplitude, frequency: dd.one_cosine(amplitude, frequency, 1e-7),
-        [1.0],
-        [0.5, 0.6, 0.65],
+        lambda amplitude, frequency: dd.pulses.one_cosine(amplitude, frequency, error=1e-7),
+        frequencies=[1.0],
+        amplitudes=[0.5, 0.6, 0.65],
         tolerance=1e-7,
         progress=False,
     )
@@ -167,7 +166,11 @@ def spectrum():
     wall = block(0.25, 2.14, restitution="constant", restitution_value=0.9)
     ratio, height = np.linspace(0.6, 6.0, 10), np.linspace(0.25, 7.5, 30)
     return dd.overturning_spectrum(
-        wall, dd.one_sine, ratio * 2.14 / (2.0 * np.pi), height * np.tan(0.25), progress=False
+        wall,
+        dd.pulses.one_sine,
+        frequencies=ratio * 2.14 / (2.0 * np.pi),
+        amplitudes=height * np.tan(0.25),
+        progress=False,
     )
 
 
@@ -177,7 +180,7 @@ def test_every_point_is_the_motion_it_stands_for(spectrum):
     for i, frequency in enumerate(spectrum.frequencies):
         for j, amplitude in enumerate(spectrum.amplitudes):
             motion = dd.simulate(
-                spectrum.wall, dd.one_sine(amplitude * 9.81, frequency), solver=dd.Solver(edp_limit=5.0)
+                spectrum.wall, dd.pulses.one_sine(amplitude * 9.81, frequency), solver=dd.Solver(edp_limit=5.0)
             )
             assert motion.edp == pytest.approx(spectrum.edp[j, i], rel=1e-9)
             pulse = motion.time <= 1.0 / frequency
@@ -220,7 +223,12 @@ def test_shapes_and_tables(spectrum, tmp_path):
 @pytest.mark.parametrize("threads", [1, 3])
 def test_threads_change_nothing(spectrum, threads):
     again = dd.overturning_spectrum(
-        spectrum.wall, dd.one_sine, spectrum.frequencies, spectrum.amplitudes, threads=threads, progress=False
+        spectrum.wall,
+        dd.pulses.one_sine,
+        frequencies=spectrum.frequencies,
+        amplitudes=spectrum.amplitudes,
+        threads=threads,
+        progress=False,
     )
     assert np.array_equal(again.edp, spectrum.edp)
     assert np.array_equal(again.state, spectrum.state)
@@ -230,21 +238,23 @@ def test_threads_change_nothing(spectrum, threads):
 def test_polarity_of_a_one_sided_wall(wall):
     options = {"frequencies": [0.8], "amplitudes": np.linspace(0.05, 3.0, 30), "progress": False}
     towards, away = (
-        dd.overturning_spectrum(wall, dd.one_sine, polarity=polarity, **options)
+        dd.overturning_spectrum(wall, dd.pulses.one_sine, polarity=polarity, **options)
         for polarity in ("as_recorded", "reversed")
     )
     assert not np.array_equal(towards.edp, away.edp)
     for sign, result in ((1.0, towards), (-1.0, away)):
         for amplitude, edp in zip(result.amplitudes, result.edp[:, 0], strict=True):
             motion = dd.simulate(
-                wall, dd.one_sine(9.81 * amplitude, 0.8), sign, solver=dd.Solver(edp_limit=5.0), history=False
+                wall, dd.pulses.one_sine(9.81 * amplitude, 0.8), sign, solver=dd.Solver(edp_limit=5.0), history=False
             )
             assert motion.edp == pytest.approx(edp, rel=1e-9)
 
 
 def test_two_blocks():
     wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
-    result = dd.overturning_spectrum(wall, dd.ricker, [0.5, 1.0], np.linspace(0.1, 4.0, 15), progress=False)
+    result = dd.overturning_spectrum(
+        wall, dd.pulses.ricker, frequencies=[0.5, 1.0], amplitudes=np.linspace(0.1, 4.0, 15), progress=False
+    )
     assert result.overturned.any()
     assert result.amplitude_ratio[0] == pytest.approx(0.1 * 9.81 / wall.trigger_acceleration)
     assert "trigger" in result.plot().get_ylabel()
@@ -264,7 +274,13 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
     monkeypatch.setattr(_core, "run_scaled", stop)
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
     with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
-        dd.overturning_spectrum(spectrum.wall, dd.one_sine, spectrum.frequencies, spectrum.amplitudes, progress=False)
+        dd.overturning_spectrum(
+            spectrum.wall,
+            dd.pulses.one_sine,
+            frequencies=spectrum.frequencies,
+            amplitudes=spectrum.amplitudes,
+            progress=False,
+        )
     partial = caught.value.partial
     assert 1 <= len(partial.frequencies) < 10
     assert np.array_equal(partial.state, spectrum.state[:, : len(partial.frequencies)])
@@ -292,7 +308,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
 def test_errors_of_spectra(spectrum, changes, words):
     arguments = {
         "wall": spectrum.wall,
-        "pulse": dd.one_sine,
+        "pulse": dd.pulses.one_sine,
         "frequencies": [0.5, 1.0],
         "amplitudes": [0.5, 1.0],
         "progress": False,

@@ -112,7 +112,9 @@ def people(few):
         dd.OneSidedWall(2.0, 0.30, name="b"),
         dd.OneSidedWall(0.5, 1.0, name="never"),
     ]
-    population = dd.Population(walls, [2.0, 2.0, 1.0, 0.5], ["low", "low", "high", "high"], [0.6, 0.5, 1.0, 1.0])
+    population = dd.Population(
+        walls, [2.0, 2.0, 1.0, 0.5], groups=["low", "low", "high", "high"], p_occ=[0.6, 0.5, 1.0, 1.0]
+    )
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
     with pytest.warns(dd.DondoloWarning):
         return dd.typology(population, few, levels, edp_thresholds=[0.3], progress=False)

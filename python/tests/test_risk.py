@@ -291,7 +291,7 @@ def people(records):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         levels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6]
-        population = dd.Population(walls, weights, groups, p_occ)
+        population = dd.Population(walls, weights, groups=groups, p_occ=p_occ)
         made = dd.typology(population, records[::4], levels, progress=False)
     assert {"no_collapse", "ok"} < {curve.status for curve in made.curves}
     return made

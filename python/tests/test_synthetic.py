@@ -97,20 +97,21 @@ def test_the_end_is_still(many):
         ((6.0, 200.0, "rock"), "distance = 200 km: must be between 0 and 150"),
         ((6.0, 10.0, "clay"), "site = 'clay': must be one of"),
         ((6.0, 10.0, 3), "site = 3: must be a text"),
-        ((6.0, 10.0, "rock", 0), "count = 0: must be a whole number, between 1 and"),
-        ((6.0, 10.0, "rock", 1, 0), "seed = 0: must be a whole number, between 1 and"),
-        ((6.0, 10.0, "rock", 1, 1, -1), "first = -1: must be a whole number, between 0 and"),
-        ((6.0, 10.0, "rock", 3, 1, 2**31 - 2), "realisations must have numbers below 2147483648"),
-        ((6.0, 10.0, "rock", 1, 1, 0, 4.0), "deviations = 4: must be between -3 and 3"),
+        ((6.0, 10.0, "rock", {"count": 0}), "count = 0: must be a whole number, between 1 and"),
+        ((6.0, 10.0, "rock", {"seed": 0}), "seed = 0: must be a whole number, between 1 and"),
+        ((6.0, 10.0, "rock", {"first": -1}), "first = -1: must be a whole number, between 0 and"),
+        ((6.0, 10.0, "rock", {"count": 3, "first": 2**31 - 2}), "realisations must have numbers below 2147483648"),
+        ((6.0, 10.0, "rock", {"deviations": 4.0}), "deviations = 4: must be between -3 and 3"),
     ],
 )
 def test_errors(arguments, words):
+    magnitude, distance, site, *options = arguments
     with pytest.raises(dd.InputError, match=words):
-        dd.synthetic_records(*arguments)
+        dd.synthetic_records(magnitude, distance, site, **dict(*options))
 
 
 def test_deviations_raise_the_energy():
-    median, above = (dd.synthetic_records(6.0, 10.0, "rock", 100, deviations=k) for k in (0.0, 1.0))
+    median, above = (dd.synthetic_records(6.0, 10.0, "rock", count=100, deviations=k) for k in (0.0, 1.0))
     energy, more = (np.mean([record.acceleration @ record.acceleration for record in some]) for some in (median, above))
     # 0.397 is the standard deviation of the model's decimal logarithm; each mean is known to about 1 %.
     assert more / energy == pytest.approx(10.0**0.397, rel=0.06)

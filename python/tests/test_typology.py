@@ -53,7 +53,7 @@ def test_every_wall_is_its_own_analysis(typology, population, few):
 
 def test_a_fit_that_does_not_converge_ends_no_population(records):
     walls = [dd.OneSidedWall(3.0, 0.25, name="a"), dd.OneSidedWall(1.0, 0.5, name="b")]
-    people = dd.Population(walls, [1e-12, 1.0], ["rare", "frequent"])
+    people = dd.Population(walls, [1e-12, 1.0], groups=["rare", "frequent"])
     with pytest.warns(dd.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
         result = dd.typology(people, records, [0.2, 0.4, 0.8], progress=False)
     assert result["all"].fit.status == "not_converged"

@@ -42,7 +42,7 @@ def mixed():
             count = records * (1 + i % 4 % 2)
             capacity = np.exp(rng.normal(rng.normal(0.0, 0.3), 0.5, count))
             reached.append(LEVELS[None, :, None] >= np.array([0.5, 1.0])[:, None, None] * capacity)
-    return dd.Population(walls, weights, groups, p_occ), flags_of(reached), reached
+    return dd.Population(walls, weights, groups=groups, p_occ=p_occ), flags_of(reached), reached
 
 
 def test_flags(mixed):

@@ -70,6 +70,13 @@ def increasing(name: str, values: ArrayLike) -> FloatArray:
     return levels
 
 
+def one_of(name: str, value: Any, allowed: Iterable[str]) -> None:
+    """Check a word that a user gives for an option."""
+    words = list(dict.fromkeys(allowed))
+    if not isinstance(value, str) or value not in words:
+        raise InputError(f"{name} = {value!r}: must be one of {', '.join(map(repr, words))}")
+
+
 def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a word into the bytes Fortran takes."""
     if not isinstance(value, str):

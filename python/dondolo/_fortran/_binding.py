@@ -86,15 +86,6 @@ class FlatWall(NamedTuple):
     gravity: Any
 
 
-class FlatRecords(NamedTuple):
-    """Records as Fortran takes them."""
-
-    names: bytes
-    lengths: NDArray[np.int32]
-    dt: FloatArray
-    acceleration: FloatArray
-
-
 class WallData(NamedTuple):
     """A wall as Fortran has understood it."""
 

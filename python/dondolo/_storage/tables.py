@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._base.arguments import one_of
 from dondolo._base.files import whole_file
 from dondolo._fortran import _binding
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError
 
 # Columns of equal length, arrays or lists
 Table = dict[str, Any]
@@ -84,7 +85,6 @@ def frame(table: Table) -> Any:
 
 def choose(tables: Mapping[str, Any], name: str) -> Table:
     """One of several tables of an object, made when it is asked for."""
-    if name not in tables:
-        raise InputError(f"table = {name!r}: must be one of {', '.join(map(repr, tables))}")
+    one_of("table", name, tables)
     table: Table = tables[name]()
     return table

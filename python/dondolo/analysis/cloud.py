@@ -57,7 +57,7 @@ from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
-from dondolo.analysis.request import Request, check_threads, new_request
+from dondolo.analysis.request import Polarity, Request, check_threads, new_request
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
@@ -317,7 +317,7 @@ def cloud(
     *,
     im: str = "pga",
     scale: float = 1.0,
-    polarity: str = "as_recorded",
+    polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,

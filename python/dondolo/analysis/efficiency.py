@@ -11,7 +11,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_count, as_measures
 from dondolo._fortran import _binding
 from dondolo._storage import tables
-from dondolo.analysis.request import new_request
+from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
@@ -136,7 +136,7 @@ def compare_intensities(
     ims: str | Iterable[str],
     *,
     levels: int = 15,
-    polarity: str = "as_recorded",
+    polarity: Polarity = "as_recorded",
     samples: int = 1000,
     seed: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,

@@ -6,19 +6,20 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import InputError, Interrupted
-from dondolo.records.record import Record, upload
+from dondolo.records.record import Record
+from dondolo.records.suite import upload
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
 
@@ -219,10 +220,10 @@ class OverturningSpectrum(Shown):
 def overturning_spectrum(
     wall: Wall,
     pulse: Callable[[float, float], Record],
+    *,
     frequencies: ArrayLike,
     amplitudes: ArrayLike,
-    *,
-    polarity: str = "as_recorded",
+    polarity: Literal["as_recorded", "reversed"] = "as_recorded",
     tolerance: float = 1e-4,
     solver: Solver | None = None,
     threads: int = 0,
@@ -235,8 +236,8 @@ def overturning_spectrum(
     wall : Wall
         The wall.
     pulse : callable
-        A record for an amplitude [m/s2] and a frequency [Hz], such as `ricker` or `one_sine`; the record of amplitude 1
-        is scaled to the peak ground accelerations of the scan.
+        A record for an amplitude [m/s2] and a frequency [Hz], such as `pulses.ricker` or `pulses.one_sine`; the
+        record of amplitude 1 is scaled to the peak ground accelerations of the scan.
     frequencies : array_like, shape (frequencies,)
         Frequencies of the pulse [Hz], positive and increasing.
     amplitudes : array_like, shape (amplitudes,)
@@ -276,11 +277,12 @@ def overturning_spectrum(
     """
     if not isinstance(wall, Wall):
         raise InputError(f"wall: {type(wall).__name__} is no wall")
-    if polarity not in ("as_recorded", "reversed"):
-        raise InputError(f"polarity = {polarity!r}: must be one of 'as_recorded', 'reversed'")
+    one_of("polarity", polarity, ("as_recorded", "reversed"))
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):
-        raise InputError(f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.one_sine")
+        raise InputError(
+            f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.pulses.one_sine"
+        )
     width = as_number("tolerance", tolerance)
     if not 1e-12 <= width <= 1.0:
         raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")

@@ -11,7 +11,7 @@ import time
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +23,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import DondoloWarning
 from dondolo.records.record import Record
-from dondolo.records.record import upload as upload_records
+from dondolo.records.suite import upload as upload_records
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
 
@@ -32,6 +32,9 @@ IntArray = np.ndarray[Any, np.dtype[np.int32]]
 _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within a block's time
 _FIRST_SAMPLES = 10_000_000
+
+#: Polarities of the records in an analysis
+Polarity = Literal["as_recorded", "reversed", "both"]
 
 
 class Plan(NamedTuple):

@@ -17,7 +17,8 @@ from dondolo._storage import tables
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
-from dondolo.records.record import Record, place_of
+from dondolo.records.record import Record
+from dondolo.records.suite import place_of
 from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from dondolo._fortran import _binding
 from dondolo.errors import InputError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Solver:
     """How motions are integrated.
 

@@ -15,7 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
-from dondolo.analysis.request import Outcome, Plan, Request, new_request
+from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
@@ -260,7 +260,7 @@ def multiple_stripe(
     levels: ArrayLike,
     *,
     im: str = "pga",
-    polarity: str = "as_recorded",
+    polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
     estimate_error: bool = False,
     threads: int = 0,

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import as_generator, tails
+from dondolo._base.arguments import as_generator, one_of, tails
 from dondolo._fortran import _binding
 from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
@@ -46,7 +46,8 @@ class Comparison:
 def compare(
     first: Fragility,
     second: Fragility,
-    method: str = "likelihood",
+    *,
+    method: Literal["likelihood", "bootstrap"] = "likelihood",
     level: float = 0.95,
     n: int = 2000,
     seed: int | np.random.Generator | None = 0,
@@ -86,6 +87,7 @@ def compare(
     DondoloWarning
         The curves are of populations, whose walls share their records.
     """
+    one_of("method", method, ("likelihood", "bootstrap"))
     for curve in (first, second):
         if not isinstance(curve, Fragility):
             raise InputError(f"curves: {type(curve).__name__} is no fragility curve")
@@ -100,9 +102,7 @@ def compare(
         _binding.warn([sentence])
     if method == "likelihood":
         return _by_likelihood(first, second, level)
-    if method == "bootstrap":
-        return _by_bootstrap(first, second, level, n, seed, events)
-    raise InputError(f"method = {method!r}: must be one of 'likelihood', 'bootstrap'")
+    return _by_bootstrap(first, second, level, n, seed, events)
 
 
 def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Comparison:

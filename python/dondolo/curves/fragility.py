@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
+from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, one_of, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Interval = tuple[float, float]
+
+#: How an interval is found
+Method = Literal["delta", "profile"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -109,7 +112,7 @@ class Fragility(Shown):
         values = as_levels(x)
         return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
 
-    def interval(self, x: ArrayLike, level: float = 0.95, method: str = "delta") -> tuple[Any, Any]:
+    def interval(self, x: ArrayLike, level: float = 0.95, *, method: Method = "delta") -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
 
         Parameters
@@ -133,6 +136,7 @@ class Fragility(Shown):
         InputError
             Levels that are not positive, a confidence beyond 0 and 1, no such method.
         """
+        one_of("method", method, get_args(Method))
         self._need_fit()
         quantile = _quantile(level)
         values = as_levels(x)
@@ -145,15 +149,13 @@ class Fragility(Shown):
         half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, self.covariance, gradient))
         if method == "delta":
             low, high = probit - half, probit + half
-        elif method == "profile":
-            low, high = self._likelihood().probit_interval(at, half, 0.5 * quantile**2)
         else:
-            raise InputError(f"method = {method!r}: must be one of 'delta', 'profile'")
+            low, high = self._likelihood().probit_interval(at, half, 0.5 * quantile**2)
         from scipy.special import ndtr
 
         return shaped(self.saturation * ndtr(low), values), shaped(self.saturation * ndtr(high), values)
 
-    def parameter_interval(self, level: float = 0.95, method: str = "delta") -> dict[str, Interval]:
+    def parameter_interval(self, level: float = 0.95, *, method: Method = "delta") -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
 
         Parameters
@@ -176,13 +178,12 @@ class Fragility(Shown):
         InputError
             A confidence beyond 0 and 1, no such method.
         """
+        one_of("method", method, get_args(Method))
         self._need_fit()
         quantile = _quantile(level)
         if method == "delta":
             theta = _spread(self.theta, quantile * self.se_ln_theta)
             return {"theta": theta, "beta": _spread(self.beta, quantile * self.se_beta / self.beta)}
-        if method != "profile":
-            raise InputError(f"method = {method!r}: must be one of 'delta', 'profile'")
         likelihood = self._likelihood()
         drop = 0.5 * quantile**2
         low, high = likelihood.median_interval(quantile * self.se_ln_theta, drop)
@@ -195,6 +196,7 @@ class Fragility(Shown):
         self,
         n: int = 2000,
         seed: int | np.random.Generator | None = 0,
+        *,
         events: Sequence[Any] | None = None,
     ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
@@ -305,7 +307,7 @@ class Fragility(Shown):
         ]
 
 
-def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, im: str = "") -> Fragility:
+def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, *, im: str = "") -> Fragility:
     """Fit a lognormal fragility curve by maximum likelihood (Baker 2015).
 
     Parameters

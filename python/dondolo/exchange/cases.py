@@ -75,7 +75,7 @@ class Case:
         -------
         Results
         """
-        how = Solver(self.rtol, self.atol, self.edp_limit, self.engine)  # type: ignore[arg-type]
+        how = Solver(rtol=self.rtol, atol=self.atol, edp_limit=self.edp_limit, engine=self.engine)  # type: ignore[arg-type]
         if self.task == "history":
             record = self.records[self.record]
             response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, solver=how)
@@ -149,7 +149,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         task,
         title,
         output,
-        Population(tuple(people), weight, tuple(groups), p_occ),
+        Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ),
         tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
         im,
         polarity,

@@ -50,13 +50,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import pairwise
-from typing import Any
+from typing import Any, Literal, get_args
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, increasing
+from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
 from dondolo._base.files import check_replaced
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
@@ -67,7 +67,8 @@ from dondolo.errors import DondoloError, InputError
 _NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 # What stands in the second line of every file
 _MARK = "<!-- dondolo "
-_LOSS_CATEGORIES = ("structural", "nonstructural", "contents", "business_interruption")
+#: Losses that a model is for
+LossCategory = Literal["structural", "nonstructural", "contents", "business_interruption"]
 _NAME = re.compile(r"[A-Za-z0-9_-]{1,100}")
 # What the engine's reader accepts, and the GEM taxonomy needs: ASCII without blanks, quotes and the number sign
 _TAXONOMY = re.compile(r"[!$-&(-~]{1,100}")
@@ -129,10 +130,11 @@ Curve = Fragility | DiscreteFragility
 def write_nrml(
     path: str | os.PathLike[str],
     functions: Mapping[str, Mapping[str, Curve]],
+    *,
     id: str = "dondolo",
     description: str = "Rocking masonry walls, by dondolo",
     asset_category: str = "buildings",
-    loss_category: str = "structural",
+    loss_category: LossCategory = "structural",
     no_damage_limit: float | None = None,
     min_iml: float | None = None,
     max_iml: float | None = None,
@@ -180,9 +182,7 @@ def write_nrml(
         raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
     description = _words("description", description)
     asset_category = _words("asset_category", asset_category)
-    if loss_category not in _LOSS_CATEGORIES:
-        allowed = ", ".join(map(repr, _LOSS_CATEGORIES))
-        raise InputError(f"loss_category = {loss_category!r}: must be one of {allowed}")
+    one_of("loss_category", loss_category, get_args(LossCategory))
     limits = {"no_damage_limit": no_damage_limit, "min_iml": min_iml, "max_iml": max_iml}
     for what, value in limits.items():
         if value is not None and not 0.0 < as_number(what, value) < np.inf:

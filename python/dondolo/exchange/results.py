@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_array
+from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._fortran import _binding
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
@@ -121,14 +121,13 @@ def _population(table: ResultFile, gravity: float) -> Population:
             argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
         }
         try:
-            if kind not in MECHANISMS:
-                raise InputError(f"mechanism = {kind!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
-            restitution = table.texts("restitution_model")[i]
-            walls.append(MECHANISMS[kind](name=name, restitution=restitution, gravity=gravity, **given))
+            one_of("mechanism", kind, MECHANISMS)
+            given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
+            walls.append(MECHANISMS[kind](**given))
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
-    return Population(tuple(walls), weights, tuple(table.texts("group")), p_occ)
+    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
 
 
 def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:

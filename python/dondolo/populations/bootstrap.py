@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, tails
+from dondolo._base.arguments import FloatArray, as_count, as_generator, one_of, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
 from dondolo.curves.series import in_series
 from dondolo.errors import InputError
@@ -159,9 +159,7 @@ def resample_population(
 
 def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows:
     """The rows of a curve, wall by wall."""
-    groups = dict.fromkeys(["", *population.groups])
-    if group not in groups:
-        raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, groups))}")
+    one_of("group", group, ("", *population.groups))
     wall = np.searchsorted(population.first_rows, np.arange(len(population)), side="right") - 1
     chosen = np.array([group in ("", own) for own in population.groups])
     kinds = dict.fromkeys(own.mechanism for own, here in zip(population.walls, chosen, strict=True) if here)
@@ -171,8 +169,7 @@ def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows
     if mechanism is None or mechanism == "all":
         row = np.flatnonzero(chosen)
         return _Rows(row, wall[row], walls, weight[row], p_occ[row])
-    if mechanism not in kinds:
-        raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, [*kinds, 'all']))}")
+    one_of("mechanism", mechanism, (*kinds, "all"))
     row = np.flatnonzero(chosen & np.array([own.mechanism == mechanism for own in population.walls]))
     return _Rows(row, wall[row], walls, weight[row] * p_occ[row], np.ones(len(row)))
 

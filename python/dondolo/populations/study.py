@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._fortran import _binding
-from dondolo.analysis.request import new_request
+from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import Interrupted
 from dondolo.populations.blocks import run_walls
@@ -32,7 +32,7 @@ def typology(
     levels: ArrayLike,
     *,
     im: str = "pga",
-    polarity: str = "as_recorded",
+    polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
     edp_thresholds: ArrayLike | None = None,
     threads: int = 0,

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
@@ -116,15 +116,11 @@ class Typology(Shown):
         """
         mechanism, group = (key, "") if isinstance(key, str) else key
         known = {one.group: None for one in self.groups}
-        if group not in known:
-            raise InputError(f"group = {group!r}: must be one of {', '.join(map(repr, known))}")
+        one_of("group", group, known)
         of_group = {one.mechanism: one for one in self.groups if one.group == group}
         # Where there is but one mechanism, and it can occur in all walls, its curve is that of all.
         last = list(of_group)[-1]
-        if mechanism not in (*of_group, "all"):
-            raise InputError(
-                f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, dict.fromkeys([*of_group, 'all'])))}"
-            )
+        one_of("mechanism", mechanism, (*of_group, "all"))
         source = Source(
             self.population, self.im, self.levels, self.curves, self.exceedances, self.histories, self.flags
         )

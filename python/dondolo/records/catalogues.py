@@ -10,7 +10,8 @@ from dondolo._base.files import check_replaced
 from dondolo._storage import tables
 from dondolo.errors import InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
-from dondolo.records.record import Record, read_records
+from dondolo.records.reading import read_records
+from dondolo.records.record import Record
 
 #: Metadata that stand in a catalogue, for its readers.
 _KEYS = ("event", "date", "station", "component", "magnitude")
@@ -108,7 +109,7 @@ def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record]
     attempts = dict.fromkeys([(None, None), (None, units), (dt, None), (dt, units)])
     for attempt in attempts:
         try:
-            return read_records(path, *attempt), attempt[1] or ""
+            return read_records(path, dt=attempt[0], units=attempt[1]), attempt[1] or ""
         except InputError as error:
             reason = error
             if attempt == (None, None) and "must be given" not in str(error):

@@ -13,11 +13,13 @@ from dondolo._base.arguments import as_number
 from dondolo.errors import InputError
 from dondolo.records.record import Record
 
+__all__ = ["mavroeidis_papageorgiou", "one_cosine", "one_sine", "ricker"]
+
 # An error of 1e-12 takes 2.2 million samples for a period.
 _SMALLEST_ERROR = 1e-12
 
 
-def one_sine(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
+def one_sine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record:
     """One period of a sine: a = amplitude sin(2 pi frequency t), a forward displacement.
 
     Parameters
@@ -47,7 +49,7 @@ def one_sine(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
     return _harmonic(np.sin, "one_sine", amplitude, frequency, error)
 
 
-def one_cosine(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
+def one_cosine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record:
     """One period of a cosine: a = amplitude cos(2 pi frequency t), a forward and back displacement.
 
     Parameters
@@ -72,7 +74,7 @@ def one_cosine(amplitude: float, frequency: float, error: float = 1e-5) -> Recor
     return _harmonic(np.cos, "one_cosine", amplitude, frequency, error)
 
 
-def ricker(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
+def ricker(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record:
     """Ricker's symmetric wavelet: a = amplitude (1 - 2 x^2) exp(-x^2), x = pi frequency (t - t0).
 
     Parameters
@@ -106,7 +108,7 @@ def ricker(amplitude: float, frequency: float, error: float = 1e-5) -> Record:
 
 
 def mavroeidis_papageorgiou(
-    amplitude: float, frequency: float, phase: float = 0.0, gamma: float = 2.0, error: float = 1e-5
+    amplitude: float, frequency: float, *, phase: float = 0.0, gamma: float = 2.0, error: float = 1e-5
 ) -> Record:
     """The velocity pulse of Mavroeidis and Papageorgiou (2003).
 

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
-from dondolo._fortran.handles import Handle
 from dondolo.errors import InputError
+from dondolo.records import processing as process
+from dondolo.records import suite
+from dondolo.records.processing import Baseline
+from dondolo.records.rotation import RotD, check_components, component
+from dondolo.records.spectrum import Spectrum
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -30,7 +35,7 @@ class Record:
     name : str, optional
         Name in tables and figures.
     processing : iterable of str, optional
-        What was done to the record since it was read, a sentence a step; functions that process records add theirs.
+        What was done to the record since it was read, a sentence a step; the methods that process it add theirs.
     metadata : mapping of str to str, optional
         What is known of the record.
 
@@ -65,8 +70,8 @@ class Record:
         acceleration: ArrayLike,
         dt: float,
         name: str = "record",
-        processing: Iterable[str] = (),
         *,
+        processing: Iterable[str] = (),
         metadata: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         values = as_array("acceleration", acceleration).copy()
@@ -109,7 +114,8 @@ class Record:
             Of the same name and metadata, with the step added to its history of processing.
         """
         steps = (*self.processing, step)
-        return Record(acceleration, self.dt if dt is None else dt, self.name, steps, metadata=self.metadata)
+        dt = self.dt if dt is None else dt
+        return Record(acceleration, dt, self.name, processing=steps, metadata=self.metadata)
 
     @property
     def duration(self) -> float:
@@ -122,7 +128,7 @@ class Record:
         time: FloatArray = self.dt * np.arange(len(self.acceleration), dtype=np.float64)
         return time
 
-    def intensity(self, im: str, gravity: float | None = None) -> float:
+    def intensity(self, im: str, *, gravity: float | None = None) -> float:
         """An intensity measure of the record as it stands.
 
         Parameters
@@ -138,7 +144,265 @@ class Record:
         float
             In the unit of its levels: accelerations in g, all else in SI units.
         """
-        return float(intensities([self], im, gravity)[0])
+        return float(suite.intensities((self,), im, gravity)[0])
+
+    def spectrum(self, periods: ArrayLike, *, damping: float = 0.05) -> Spectrum:
+        """Elastic response spectrum.
+
+        The motion of every oscillator is exact for the piecewise linear accelerogram, with peaks between samples, and
+        with the free oscillations after the record.
+
+        Parameters
+        ----------
+        periods : array_like, shape (periods,)
+            Periods of the oscillators, 0.01 to 20 [s].
+        damping : float
+            Damping ratio, at least 0 and below 1.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        InputError
+            Periods or a damping beyond what is allowed.
+        """
+        several, ratio = as_array("periods", periods).copy(), as_number("damping", damping)
+        displacements = suite.spectral_displacements(self, several, ratio)
+        for array in (several, displacements):
+            array.flags.writeable = False
+        return Spectrum(several, ratio, displacements)
+
+    @property
+    def velocity(self) -> FloatArray:
+        """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
+        return suite.velocity(self)
+
+    def significant_times(self, low: float = 0.05, high: float = 0.95) -> tuple[float, float]:
+        """Times at which Arias' integral of the squared acceleration reaches two parts of its end value [s].
+
+        Parameters
+        ----------
+        low, high : float
+            The parts; 0 and 1: where motion begins and ends.
+
+        Raises
+        ------
+        InputError
+            Parts that do not increase from 0 to 1, a record without motion.
+        """
+        return suite.significant_times(self, low, high)
+
+    def correct_baseline(self, kind: Baseline = "constant", *, order: int | None = None) -> Record:
+        """Take off a baseline.
+
+        Parameters
+        ----------
+        kind : {'constant', 'linear', 'velocity'}
+            'constant': the mean of the samples; 'linear': their straight line of least squares; 'velocity': a
+            polynomial is fitted to the velocity, from 0 at the start, and its derivative taken off the acceleration.
+        order : int, optional
+            Degree of the polynomial of 'velocity', 1 to 8; 2 if left out.
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        InputError
+            An unknown kind, an order where there is none.
+
+        Notes ----- The first step of ITACA and ESM is the constant (Paolucci et al. 2011). Of a digital record whose
+        zero has shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits
+        a straight line).
+        """
+        return self.processed(*process.correct_baseline(self, kind, order))
+
+    def band_pass(
+        self,
+        low: float | None,
+        high: float | None,
+        *,
+        order: int = 4,
+        taper: float = 0.05,
+        keep_padding: bool = False,
+    ) -> Record:
+        """Filter with Butterworth's band-pass, passed forwards and back: no phase is moved.
+
+        Parameters
+        ----------
+        low, high : float or None
+            Corner frequencies [Hz], low < high < Nyquist's frequency 1/(2 dt); None for low: a low-pass, for high: a
+            high-pass.
+        order : int
+            Order of one pass, 1 to 10. Both passes together have the gain 1/(1 + (low/f)^(2 order)) below the band
+            (that of one pass squared): one half, not its root, at a corner.
+        taper : float
+            Part of the record at either end, 0 to 0.5, that half a cosine brings to zero before the filter.
+        keep_padding : bool
+            Keep the zeros that the filter needs at both ends, with what it leaves in them?
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        InputError
+            Corners out of order, or beyond Nyquist's frequency; an order or a taper out of range; a keep_padding that
+            is neither True nor False.
+
+        Notes ----- 1.5 order/low seconds of zeros go before and after the record, as long at each end as Converse and
+        Brady (1992) ask for both together (Boore 2005, On pads and filters, BSSA 95(2):745-750); without a low corner
+        `high` takes its place. Without its padded ends a record's velocity and displacement are not quite those of the
+        filtered motion and may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with
+        order 2 (Paolucci et al. 2011).
+        """
+        return self.processed(*process.band_pass(self, low, high, order, taper, keep_padding))
+
+    def resample(self, dt: float) -> Record:
+        """The record with another time step.
+
+        Parameters
+        ----------
+        dt : float
+            New time step [s].
+
+        Returns
+        -------
+        Record
+            It says which of the two ways was taken.
+
+        Raises
+        ------
+        InputError
+            The steps have no ratio of whole numbers up to 1000, the new one is too long for the record, or there would
+            be more than 100 million samples.
+
+        Notes ----- Where the new step divides the old one, new samples lie on the straight lines between the old: the
+        same function of time, exactly. Otherwise SciPy's polyphase filter (`scipy.signal.resample_poly`, Kaiser's
+        window with 5.0) makes a band-limited signal: frequencies above half the lower of the two sampling rates are
+        taken out, which keeps them from coming back as lower ones, and the straight lines between samples are others
+        than before.
+        """
+        return self.processed(*process.resample(self, dt))
+
+    def trim(self, low: float = 0.05, high: float = 0.95, *, before: float = 1.0, after: float = 1.0) -> Record:
+        """Cut to the significant duration.
+
+        Parameters
+        ----------
+        low, high : float
+            Parts of Arias' integral of the squared acceleration at which the significant duration begins and ends.
+        before, after : float
+            Margins that are kept before and after it [s].
+
+        Returns
+        -------
+        Record
+            Whole samples; the first and the last are not brought to zero.
+
+        Raises
+        ------
+        InputError
+            Parts that do not increase from 0 to 1, a negative margin, a record without motion.
+
+        Notes
+        -----
+        Significant duration: Trifunac and Brady (1975). Ground acceleration is zero before a record begins and after it
+        ends, so that a cut is a jump to zero: look at the margins.
+        """
+        return self.processed(*process.trim(self, low, high, before, after))
+
+    def reverse(self) -> Record:
+        """The record of the other polarity.
+
+        Returns
+        -------
+        Record
+        """
+        return self.processed(-self.acceleration, "reversed polarity")
+
+    def rotate(self, other: Record, angle: float) -> Record:
+        """The component of this and another horizontal component in a direction.
+
+        Parameters
+        ----------
+        other : Record
+            The component at right angles, of the same step and number of samples.
+        angle : float
+            Direction, from this component towards the other [degrees].
+
+        Returns
+        -------
+        Record
+            self cos(angle) + other sin(angle), with the metadata that both share.
+
+        Raises
+        ------
+        InputError
+            Records that do not belong together (steps, lengths, stations or dates differ), a vertical component, an
+            angle that is none.
+        """
+        check_components(self, _as_record(other))
+        direction = as_number("angle", angle)
+        if not np.isfinite(direction):
+            raise InputError(f"angle = {direction}: must be a number")
+        steps = self.processing
+        if steps != other.processing:
+            steps = tuple(f"{part.name}: {step}" for part in (self, other) for step in part.processing)
+        text = f"component at {direction:g} degrees from '{self.name}' towards '{other.name}'"
+        shared = self.metadata.items() & other.metadata.items()
+        metadata = {key: value for key, value in self.metadata.items() if (key, value) in shared}
+        name = f"{self.name} at {direction:g} degrees"
+        values = component(self, other, direction)
+        return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata)
+
+    def rotd(self, other: Record, measure: str | Callable[[Record], float] | None = None, *, angles: int = 180) -> RotD:
+        """Median and largest value of a measure over all directions of this and another horizontal component.
+
+        Parameters
+        ----------
+        other : Record
+            The component at right angles, of the same step and number of samples.
+        measure : str or callable, optional
+            Name of an intensity measure, in the unit of `Record.intensity` ('pga' is in g), or a number of a record
+            that does not depend on its polarity; the peak ground acceleration in m/s2 if left out.
+        angles : int
+            Directions in half a circle: 180 for steps of one degree, as Boore (2010) takes.
+
+        Returns
+        -------
+        RotD
+
+        Raises
+        ------
+        InputError
+            As for `rotate`; an unknown measure or one that is no number.
+
+        Notes ----- RotD50 and RotD100: Boore (2010), Orientation-independent, nongeometric-mean measures of seismic
+        intensity from two horizontal components of motion, BSSA 100(4):1830-1835. The largest peak is missed by up to 1
+        - cos(90/angles degrees): 4e-5 of it for 180.
+        """
+        check_components(self, _as_record(other))
+        count = as_count("angles", angles, 1, 36000)
+        directions = 180.0 * np.arange(count) / count
+        if isinstance(measure, str):
+            measure = partial(Record.intensity, im=_binding.describe_measure(measure, of_record=True).name)
+        if measure is not None and not callable(measure):
+            raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
+        values = np.empty(count)
+        for i, direction in enumerate(directions):
+            if measure is None:
+                values[i] = np.abs(component(self, other, direction)).max()
+            else:
+                values[i] = as_number("measure", measure(self.rotate(other, direction)))
+        if np.isnan(values).any():
+            raise InputError("measure: must be a number in every direction")
+        largest = int(values.argmax())
+        return RotD(float(np.median(values)), float(values[largest]), float(directions[largest]), directions, values)
 
     def __len__(self) -> int:
         return len(self.acceleration)
@@ -171,89 +435,6 @@ class Record:
         self.acceleration.flags.writeable = False
 
 
-def read_record(
-    path: str | os.PathLike[str],
-    dt: float | None = None,
-    units: str | None = None,
-    channel: str | int | None = None,
-    format: str | None = None,
-) -> Record:
-    """Read one channel of an accelerogram file; the format is recognised by its content.
-
-    Parameters
-    ----------
-    path : path
-        The file; its stem names the record, with the channel's name where there are several.
-    dt : float, optional
-        Time step [s], needed where the file does not state it.
-    units : str, optional
-        Units of the values such as 'm/s2', 'gal' or 'g', needed where the file does not state them.
-    channel : str or int, optional
-        Name of the channel or its number from 1, needed where the file holds several. A name goes before a number.
-    format : str, optional
-        Name of the format, as docs/ground_motions.md lists them, needed where it is not recognised.
-
-    Returns
-    -------
-    Record
-
-    Raises
-    ------
-    InputError
-        The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
-    """
-    name = str(channel) if isinstance(channel, int) else channel
-    (data,) = _binding.read_records(path, 0, dt, units, name, format)
-    return _as_record(data)
-
-
-def read_records(
-    path: str | os.PathLike[str], dt: float | None = None, units: str | None = None, format: str | None = None
-) -> list[Record]:
-    """Read all channels of an accelerogram file.
-
-    Parameters
-    ----------
-    path, dt, units, format
-        As those of `read_record`.
-
-    Returns
-    -------
-    list of Record
-        One for each channel.
-
-    Raises
-    ------
-    InputError
-        The file is missing, unknown, wrong, or says less than is needed.
-    """
-    return [_as_record(data) for data in _binding.read_records(path, 2, dt, units, layout=format)]
-
-
-def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
-    """Read all records of a catalogue.
-
-    Parameters
-    ----------
-    path : path
-        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder.
-
-    Returns
-    -------
-    list of Record
-
-    Raises
-    ------
-    InputError
-        The catalogue or one of its records is wrong.
-    """
-    return [_as_record(data) for data in _binding.read_records(path, 1)]
-
-
-def _as_record(data: _binding.RecordData) -> Record:
-    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)
-
-
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     """One record or several as a tuple of them."""
     if isinstance(records, Record):
@@ -269,48 +450,7 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     return several
 
 
-def intensities(records: Iterable[Record], im: str, gravity: float | None = None) -> FloatArray:
-    """An intensity measure of several records, in the unit of its levels."""
-    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
-    if not 0.0 < pull < np.inf:
-        raise InputError(f"gravity = {pull:g}: must be positive")
-    several = as_records(records)
-    values, stat, message = _core.intensities(upload(several).number, as_text("im", im), len(several), pull, 0)
-    _binding.check(stat, message)
-    return np.asarray(values)
-
-
-def flatten(records: tuple[Record, ...]) -> _binding.FlatRecords:
-    """All records as Fortran takes them."""
-    return _binding.FlatRecords(
-        "\n".join(record.name for record in records).encode(),
-        np.array([len(record) for record in records], dtype=np.int32),
-        np.array([record.dt for record in records]),
-        np.concatenate([record.acceleration for record in records]),
-    )
-
-
-def upload(records: tuple[Record, ...]) -> Handle:
-    """The records as a suite in Fortran. The same records in the same order are uploaded once.
-
-    Each record keeps the suite that it was uploaded with last, and its place there: a suite lives as long as one of its
-    records does, and has not come into another.
-    """
-    homes = [record.__dict__.get("_home", (None, 0, 0)) for record in records]
-    suite: Handle | None = homes[0][0]
-    if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
-        return suite
-    handle, stat, message = _core.new_suite(*flatten(records))
-    _binding.check(stat, message)
-    suite = Handle(handle)
-    for i, record in enumerate(records):
-        object.__setattr__(record, "_home", (suite, i, len(records)))
-    return suite
-
-
-def place_of(record: Record) -> tuple[int, int]:
-    """Where Fortran has a record: the handle of a suite, and the number in it from 1."""
-    if "_home" not in record.__dict__:
-        upload((record,))
-    suite, place, _ = record.__dict__["_home"]
-    return suite.number, place + 1
+def _as_record(record: Any) -> Record:
+    if not isinstance(record, Record):
+        raise InputError(f"record: {type(record).__name__} is no record")
+    return record

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 from dondolo._base.arguments import as_count, as_number, as_text
 from dondolo._fortran import _binding, _core
@@ -13,7 +13,8 @@ from dondolo.records.record import Record
 def synthetic_records(
     magnitude: float,
     distance: float,
-    site: str,
+    site: Literal["rock", "shallow", "deep"],
+    *,
     count: int = 1,
     seed: int = 1,
     first: int = 0,

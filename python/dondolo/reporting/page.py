@@ -48,6 +48,7 @@ def report(
     results: StoredResults | Results | Typology | Stripes | Response,
     path: str | os.PathLike[str],
     hazard: HazardCurve | None = None,
+    *,
     title: str | None = None,
 ) -> None:
     """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.

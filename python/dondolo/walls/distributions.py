@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -114,6 +114,7 @@ class Normal:
 
     mean: float
     sd: float
+    _: KW_ONLY
     low: float | None = None
     high: float | None = None
 
@@ -150,6 +151,7 @@ class Lognormal:
 
     median: float
     beta: float
+    _: KW_ONLY
     low: float | None = None
     high: float | None = None
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
-from dondolo.errors import InputError
+from dondolo._base.arguments import one_of
 from dondolo.figures import style
-from dondolo.walls.population import Population
+from dondolo.walls.population import Kind, Population
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,10 +21,9 @@ _SLENDERNESS = (5, 10, 20, 40)
 _BINS = 30
 
 
-def draw_population(population: Population, ax: Iterable[Axes] | None, by: str) -> style.Panels:
+def draw_population(population: Population, ax: Iterable[Axes] | None, by: Kind) -> style.Panels:
     """Draw thickness against height above, trigger accelerations below."""
-    if by not in ("mechanism", "group"):
-        raise InputError(f"by = {by!r}: must be one of 'mechanism', 'group'")
+    one_of("by", by, get_args(Kind))
     axes = above, below = style.panels(ax, 2, (6.4, 6.0), height_ratios=(3, 2))
     keys = np.array(population.groups if by == "group" else [wall.mechanism for wall in population.walls])
     height = np.array([wall.height for wall in population.walls])

@@ -7,14 +7,14 @@ import math
 import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_text, one_of
 from dondolo._base.shown import Shown, html_of
 from dondolo._fortran import _binding
 from dondolo._storage import tables
@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 
 # Name that Fortran gives a wall without one
 _UNNAMED = "wall"
+
+#: What distinguishes walls in a figure
+Kind = Literal["mechanism", "group"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,6 +80,7 @@ class Population(Shown):
 
     walls: tuple[Wall, ...]
     weights: FloatArray = None  # type: ignore[assignment]
+    _: KW_ONLY
     groups: tuple[str, ...] = None  # type: ignore[assignment]
     p_occ: FloatArray = None  # type: ignore[assignment]
     origin: tuple[str, ...] = ()
@@ -176,9 +180,9 @@ class Population(Shown):
         return Population(
             self.walls + other.walls,
             np.concatenate([self.weights, other.weights]),
-            self.groups + other.groups,
-            np.concatenate([self.p_occ, other.p_occ]),
-            self.origin + other.origin,
+            groups=self.groups + other.groups,
+            p_occ=np.concatenate([self.p_occ, other.p_occ]),
+            origin=self.origin + other.origin,
         )
 
     def group(self, name: str) -> Population:
@@ -198,11 +202,8 @@ class Population(Shown):
         InputError
             No wall belongs to it.
         """
-        chosen = [i for i, group in enumerate(self.groups) if group == name]
-        if not chosen:
-            known = ", ".join(map(repr, dict.fromkeys(self.groups)))
-            raise InputError(f"group = {name!r}: must be one of {known}")
-        return self._chosen(chosen)
+        one_of("group", name, self.groups)
+        return self._chosen([i for i, group in enumerate(self.groups) if group == name])
 
     def _chosen(self, chosen: Sequence[int]) -> Population:
         """A population of some of the walls."""
@@ -210,9 +211,9 @@ class Population(Shown):
         return Population(
             tuple(self.walls[i] for i in chosen),
             self.weights[index],
-            tuple(self.groups[i] for i in chosen),
-            self.p_occ[index],
-            self.origin,
+            groups=tuple(self.groups[i] for i in chosen),
+            p_occ=self.p_occ[index],
+            origin=self.origin,
         )
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -244,7 +245,7 @@ class Population(Shown):
     def _repr_html_(self) -> str:
         return html_of("Population", [*self._facts(), *self._ranges()])
 
-    def plot(self, ax: Iterable[Axes] | None = None, *, by: str = "mechanism") -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism") -> Panels:
         """Draw the walls: thickness against height above, trigger accelerations below.
 
         Parameters
@@ -330,7 +331,9 @@ def read_population(path: str | os.PathLike[str], gravity: float | None = None) 
     """
     walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)
-    return Population(tuple(wall_from(data) for data in walls), weights, tuple(groups), p_occ, origin)
+    return Population(
+        tuple(wall_from(data) for data in walls), weights, groups=tuple(groups), p_occ=p_occ, origin=origin
+    )
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_count, as_number, as_text, one_of
 from dondolo._fortran import _binding
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution
@@ -33,6 +33,7 @@ def sample_population(
     mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],
     n: int,
     seed: int,
+    *,
     variables: Mapping[str, Distribution] | None = None,
     correlation: Mapping[tuple[str, str], float] | None = None,
     group: str = "",
@@ -135,9 +136,11 @@ def sample_population(
     return Population(
         tuple(wall for row in zip(*walls, strict=True) for wall in row),
         np.repeat(common.get("weight", np.ones(n)), len(own)),
-        (group,) * (n * len(own)),
-        np.stack(p_occ, axis=1).ravel(),
-        _origin(f"{prefix}: {n} walls, a Latin hypercube of the seed {seed}", own, variables, correlation, properties),
+        groups=(group,) * (n * len(own)),
+        p_occ=np.stack(p_occ, axis=1).ravel(),
+        origin=_origin(
+            f"{prefix}: {n} walls, a Latin hypercube of the seed {seed}", own, variables, correlation, properties
+        ),
     )
 
 
@@ -149,8 +152,7 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
         raise InputError(f"mechanisms = {mechanisms!r}: must be names of mechanisms")
     own: dict[str, dict[str, Property]] = {}
     for mechanism in mechanisms:
-        if not isinstance(mechanism, str) or mechanism not in MECHANISMS:
-            raise InputError(f"mechanism = {mechanism!r}: must be one of {', '.join(map(repr, MECHANISMS))}")
+        one_of("mechanism", mechanism, MECHANISMS)
         if mechanism in own:
             raise InputError(f"mechanisms: {mechanism!r} is given twice")
         extra = mechanisms[mechanism] if isinstance(mechanisms, Mapping) else {}

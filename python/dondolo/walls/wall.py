@@ -5,12 +5,12 @@ from __future__ import annotations
 import copy
 import dataclasses
 from collections.abc import Iterable, Sequence
-from dataclasses import InitVar, dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+from dataclasses import KW_ONLY, InitVar, dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
@@ -64,8 +64,9 @@ class Wall:
 
     height: float
     thickness: float
+    _: KW_ONLY
     density: float = _DEFAULT
-    restitution: str = _DEFAULT
+    restitution: Literal["default", "sorrentino", "impulse", "constant"] = _DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
     gravity: float = _DEFAULT
@@ -78,7 +79,13 @@ class Wall:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
-        self._fill(_binding.describe_wall(self._properties() | more, self.gravity))
+        properties = self._properties() | more
+        for row in _binding.WALL_PROPERTIES:
+            word = properties[row.name]
+            # The library reads words in any case, as its files may have them; those of a program are exact.
+            if row.choices and isinstance(word, str) and word != word.lower():
+                one_of(row.name, word, row.choices)
+        self._fill(_binding.describe_wall(properties, self.gravity))
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
@@ -315,7 +322,7 @@ class FreeStandingWall(Wall):
     mechanism: ClassVar[str] = "free_standing"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class TwoBlockWall(Wall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
 
@@ -356,7 +363,7 @@ class TwoBlockWall(Wall):
     hinge: float = _DEFAULT
     overburden: float = _DEFAULT
     eccentricity: float = _DEFAULT
-    bearing: InitVar[str | None] = None
+    bearing: InitVar[Literal["inner", "outer", "centre"] | None] = None
     bearing_distance: InitVar[float | None] = None
 
     def __post_init__(self, bearing: str | None, bearing_distance: float | None) -> None:

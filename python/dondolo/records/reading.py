@@ -1,0 +1,96 @@
+"""Accelerograms read from files."""
+
+from __future__ import annotations
+
+import os
+
+from dondolo._fortran import _binding
+from dondolo.records.record import Record
+
+
+def read_record(
+    path: str | os.PathLike[str],
+    *,
+    dt: float | None = None,
+    units: str | None = None,
+    channel: str | int | None = None,
+    format: str | None = None,
+) -> Record:
+    """Read one channel of an accelerogram file; the format is recognised by its content.
+
+    Parameters
+    ----------
+    path : path
+        The file; its stem names the record, with the channel's name where there are several.
+    dt : float, optional
+        Time step [s], needed where the file does not state it.
+    units : str, optional
+        Units of the values such as 'm/s2', 'gal' or 'g', needed where the file does not state them.
+    channel : str or int, optional
+        Name of the channel or its number from 1, needed where the file holds several. A name goes before a number.
+    format : str, optional
+        Name of the format, as docs/ground_motions.md lists them, needed where it is not recognised.
+
+    Returns
+    -------
+    Record
+
+    Raises
+    ------
+    InputError
+        The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
+    """
+    name = str(channel) if isinstance(channel, int) else channel
+    (data,) = _binding.read_records(path, 0, dt, units, name, format)
+    return _as_record(data)
+
+
+def read_records(
+    path: str | os.PathLike[str],
+    *,
+    dt: float | None = None,
+    units: str | None = None,
+    format: str | None = None,
+) -> list[Record]:
+    """Read all channels of an accelerogram file.
+
+    Parameters
+    ----------
+    path, dt, units, format
+        As those of `read_record`.
+
+    Returns
+    -------
+    list of Record
+        One for each channel.
+
+    Raises
+    ------
+    InputError
+        The file is missing, unknown, wrong, or says less than is needed.
+    """
+    return [_as_record(data) for data in _binding.read_records(path, 2, dt, units, layout=format)]
+
+
+def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
+    """Read all records of a catalogue.
+
+    Parameters
+    ----------
+    path : path
+        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder.
+
+    Returns
+    -------
+    list of Record
+
+    Raises
+    ------
+    InputError
+        The catalogue or one of its records is wrong.
+    """
+    return [_as_record(data) for data in _binding.read_records(path, 1)]
+
+
+def _as_record(data: _binding.RecordData) -> Record:
+    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)

@@ -1,0 +1,48 @@
+"""Elastic response spectra."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo._storage import tables
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Spectrum:
+    """Elastic response spectrum of a record.
+
+    Attributes
+    ----------
+    periods : ndarray, shape (periods,)
+        [s]
+    damping : float
+        Damping ratio.
+    sd : ndarray, shape (periods,)
+        Spectral displacement: the largest displacement relative to the ground [m].
+    """
+
+    periods: FloatArray
+    damping: float
+    sd: FloatArray
+
+    @property
+    def sv(self) -> FloatArray:
+        """Pseudo-spectral velocity, 2 pi / T times the displacement [m/s]."""
+        return 2.0 * np.pi / self.periods * self.sd
+
+    @property
+    def sa(self) -> FloatArray:
+        """Pseudo-spectral acceleration, (2 pi / T)**2 times the displacement [m/s2]."""
+        return (2.0 * np.pi / self.periods) ** 2 * self.sd
+
+    def to_frame(self) -> Any:
+        """The spectrum as a pandas DataFrame."""
+        return tables.frame({"period [s]": self.periods, "sd [m]": self.sd, "sv [m/s]": self.sv, "sa [m/s2]": self.sa})
+
+    def __repr__(self) -> str:
+        low, high = self.periods.min(), self.periods.max()
+        return f"<Spectrum: {len(self.periods)} periods, {low:g} to {high:g} s, damping {self.damping:g}>"
