@@ -144,7 +144,7 @@ def states(study):
     """Print the curves of the damage states."""
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
-        print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state.fit(name))}" for name in (*MECHANISMS, "all")))
+        print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state[name].fit)}" for name in (*MECHANISMS, "all")))
 
 
 def walls():
