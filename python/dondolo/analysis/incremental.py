@@ -38,7 +38,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -73,6 +73,9 @@ class FirstCollapseFragility(Fragility):
 
     def _facts(self) -> list[tuple[str, str]]:
         return [fact for fact in super()._facts() if fact[0] != "log likelihood"]
+
+
+_Table = Literal["records", "fractiles"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -197,7 +200,7 @@ class Incremental(Shown):
 
         return draw_incremental(self, ax)
 
-    def _tables(self) -> dict[str, Any]:
+    def _tables(self) -> dict[_Table, Any]:
         stripes = self.stripes
         none = np.where(np.isfinite(self.edp_fractiles), self.edp_fractiles, np.nan)
         return {
@@ -222,11 +225,11 @@ class Incremental(Shown):
             },
         }
 
-    def to_frame(self, table: str = "records") -> Any:
+    def to_frame(self, table: _Table = "records") -> Any:
         """One of the tables 'records' and 'fractiles' as a pandas DataFrame; what is infinite is empty."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "records") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
         comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)

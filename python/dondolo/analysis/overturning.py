@@ -79,6 +79,9 @@ class Window(NamedTuple):
     state: State
 
 
+_Table = Literal["map", "boundaries"]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class OverturningSpectrum(Shown):
     """What pulses of many frequencies and amplitudes do to a wall.
@@ -178,7 +181,7 @@ class OverturningSpectrum(Shown):
 
         return draw_spectrum(self, ax)
 
-    def _tables(self) -> dict[str, Any]:
+    def _tables(self) -> dict[_Table, Any]:
         count = len(self.amplitudes)
         return {
             "map": lambda: {
@@ -197,11 +200,11 @@ class OverturningSpectrum(Shown):
             },
         }
 
-    def to_frame(self, table: str = "map") -> Any:
+    def to_frame(self, table: _Table = "map") -> Any:
         """One of the tables 'map' and 'boundaries' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "map") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "map") -> None:
         """Write one of the tables 'map' and 'boundaries'."""
         comments = [repr(self.wall), f"pulse: {self.pulse}, {self.polarity}", f"edp_limit = {self.edp_limit!r}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)

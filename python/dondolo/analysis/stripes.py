@@ -6,7 +6,7 @@ import dataclasses
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,8 @@ from dondolo.walls.wall import Wall, upload, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_Table = Literal["histories", "stripes", "walls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -216,7 +218,7 @@ class Stripes(Shown):
         """The histories as a curve keeps them."""
         return Sample(self.levels, self.collapsed, self.record_index, self.record_names[: self.records])
 
-    def _tables(self) -> dict[str, Any]:
+    def _tables(self) -> dict[_Table, Any]:
         return {
             "histories": lambda: histories_table(self),
             "stripes": lambda: stripes_table(
@@ -230,11 +232,11 @@ class Stripes(Shown):
             "walls": lambda: walls_table([self.wall]),
         }
 
-    def to_frame(self, table: str = "histories") -> Any:
+    def to_frame(self, table: _Table = "histories") -> Any:
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "histories") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "histories") -> None:
         """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
         comments = [
             repr(self.wall),

@@ -7,7 +7,7 @@ import os
 from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -28,6 +28,8 @@ from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+_Table = Literal["typology", "fragility", "stripes", "walls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -272,7 +274,7 @@ class Typology(Shown):
 
         return draw_damage_states(self, ax, edp, mechanism, group)
 
-    def _tables(self) -> dict[str, Any]:
+    def _tables(self) -> dict[_Table, Any]:
         return {
             "typology": lambda: typology_table(self),
             "fragility": self._curves_table,
@@ -287,11 +289,11 @@ class Typology(Shown):
         walls = [wall for wall in self.walls for _ in states]
         return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
-    def to_frame(self, table: str = "typology") -> Any:
+    def to_frame(self, table: _Table = "typology") -> Any:
         """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "typology") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
         comments = [
@@ -334,8 +336,8 @@ class Typology(Shown):
             for table in self._tables():
                 part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
                 self.to_csv(part, table)
-        for table in ("histories", "history"):
-            remove_old(start.with_name(f"{start.name}_{table}.csv"), "# dondolo ")
+        for other in ("histories", "history"):
+            remove_old(start.with_name(f"{start.name}_{other}.csv"), "# dondolo ")
 
     def _run_file(self, gravity: float) -> RunFile:
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
