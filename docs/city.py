@@ -5,7 +5,6 @@ they are available in the folder DONDOLO_RECORDS (default ../shared/records). Ch
 remove the folder to compute everything again.
 """
 
-import functools
 import os
 import warnings
 from dataclasses import replace
@@ -145,7 +144,7 @@ def states(study):
     """Print the curves of the damage states."""
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
-        print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state.fit(name))}" for name in (*MECHANISMS, "all")))
+        print(f"EDP >= {edp:g}:", ", ".join(f"{name} {text(state[name].fit)}" for name in (*MECHANISMS, "all")))
 
 
 def walls():
@@ -399,9 +398,9 @@ def risk(study):
     for edp in study.typology.edp_thresholds:
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
-            curves = (functools.partial(state.mean, mechanism=mechanism), state.fit(mechanism))
-            mean, curve = (dd.mean_annual_frequency(curve, HAZARD).frequency for curve in curves)
-            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {curve:.4g}")
+            curve = state[mechanism]
+            mean, fit = (dd.mean_annual_frequency(one, HAZARD).frequency for one in (curve.mean, curve.fit))
+            print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
     alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = study.typology["all"].risk(HAZARD)
@@ -418,13 +417,13 @@ def draw(studies):
     with plt.rc_context(style.RC):
         figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9), layout="constrained")
     for ax, mechanism in zip(axes, MECHANISMS, strict=True):
-        dd.plot_typology(typology, ax, mechanism)
+        typology[mechanism].plot(ax)
     figure.savefig(figures / "city_mechanisms.png", dpi=100)
 
     with plt.rc_context(style.RC):
         figure, axes = plt.subplots(1, 2, figsize=(10.4, 5.0), layout="constrained")
-    dd.plot_combination(typology, axes[0])
-    dd.plot_damage_states(typology, axes[1])
+    typology.plot_combination(axes[0])
+    typology.plot_damage_states(axes[1])
     figure.savefig(figures / "city_combined.png", dpi=100)
 
     with plt.rc_context(style.RC):

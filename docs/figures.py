@@ -14,8 +14,8 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.analysis.drawing import shape
 from dondolo.figures import style
+from dondolo.walls.drawing import shape
 
 import dondolo as dd
 
@@ -52,8 +52,8 @@ def quick_start():
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
     figure, axes = new_axes(1, 2, (9.6, 3.8))
-    dd.plot_stripes(stripes, axes[0])
-    dd.plot_fragility(stripes.fit(), stripes, axes[1])
+    stripes.plot(axes[0])
+    stripes.fit().plot(axes[1])
     figure.savefig(figures / "quick_start.png", dpi=100)
 
 
@@ -61,7 +61,7 @@ def intensities():
     """Draw the comparison of intensity measures."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
-    axes = dd.plot_intensities(dd.compare_intensities(wall, records, ims))
+    axes = dd.compare_intensities(wall, records, ims).plot()
     axes[0].figure.savefig(figures / "intensity_measures.png", dpi=100)
 
 
@@ -74,7 +74,7 @@ def mechanisms():
     ]
     figure, axes = new_axes(1, 3, (9.6, 4.0))
     for ax, (shown, part) in zip(axes, walls, strict=True):
-        dd.plot_wall(shown, rotation=part * shown.capacity_angle, ax=ax)
+        shown.plot(ax, rotation=part * shown.capacity_angle)
         ax.set_title(shown.name, loc="left", family="monospace")
     figure.savefig(figures / "mechanisms.png", dpi=100)
 
@@ -87,7 +87,7 @@ def bearing():
     joists = {"color": style.GREY, "linewidth": 7.0, "alpha": 0.55, "solid_capstyle": "butt", "zorder": 3}
     arrow = {"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 1.6}
     for ax, part, title in zip(axes, (0.35, -0.35), ("outwards", "inwards"), strict=True):
-        dd.plot_wall(wall, rotation=part * wall.capacity_angle, ax=ax)
+        wall.plot(ax, rotation=part * wall.capacity_angle)
         _, _, outer, inner = shape(wall, part * wall.capacity_angle).blocks[1]
         if part < 0.0:
             # A mirrored block is drawn clockwise
@@ -169,7 +169,7 @@ def overturning():
         spectrum = dd.overturning_spectrum(
             wall, pulse, frequencies=ratio * p / (2.0 * np.pi), amplitudes=height * np.tan(alpha)
         )
-        dd.plot_overturning_spectrum(spectrum, ax)
+        spectrum.plot(ax)
         ax.set_title(pulse.__name__, loc="left", family="monospace")
     axes[1].set_ylabel("")
     # Zhang and Makris (2001), figures 7 and 8, linear block: overturns from, safe from, without impact from

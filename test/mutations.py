@@ -244,8 +244,8 @@ EDITS = [
     ),
     Edit(
         "upper ends of the bars are those of one collapse fewer",
-        "beta_distribution.ppf(1.0 - tail, z + 1.0, n - z)",
-        "beta_distribution.ppf(1.0 - tail, z, n - z + 1.0)",
+        "beta_distribution.ppf(upper, z + 1.0, n - z)",
+        "beta_distribution.ppf(upper, z, n - z + 1.0)",
         "test_plots.py::test_bars_end_at_the_saturation",
     ),
 ]

@@ -36,4 +36,4 @@ print(near_fault.overturned.any(axis=0))
 
 # %%
 spectrum.to_csv(out / "overturning_boundaries.csv", table="boundaries")
-dd.plot_overturning_spectrum(spectrum).figure.savefig(out / "overturning.png")
+spectrum.plot().figure.savefig(out / "overturning.png")

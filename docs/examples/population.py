@@ -25,4 +25,4 @@ print(f"P(collapse | 0.5 g) of a wall of this centre: {centre['all'].mean(0.5):.
 centre.to_csv(out / "population_fragility.csv", table="fragility")
 
 # %%
-dd.plot_typology(centre).figure.savefig(out / "population.png")
+centre.plot().figure.savefig(out / "population.png")

@@ -19,14 +19,14 @@ ida = dd.incremental(stripes)
 print(ida)
 print("fitted to first collapses:", ida.fit())
 print("fitted to stripes:        ", stripes.fit())
-dd.plot_incremental(ida).figure.savefig(out / "incremental.png")
+ida.plot().figure.savefig(out / "incremental.png")
 
 # %% Cloud analysis with one scale factor for all records
 cloud = dd.cloud(wall, records, scale=2.5, polarity="both")
 print(cloud)
 print("P(EDP > 0.4 | 0.6 g) =", round(cloud.probability(0.6, 0.4), 3))
 print("the same against the PGV:", cloud.against("pgv"))
-dd.plot_cloud(cloud).figure.savefig(out / "cloud.png")
+cloud.plot().figure.savefig(out / "cloud.png")
 
 # %% Annual frequency of collapse for the hazard of a fictitious site, given as annual frequencies of exceedance
 hazard = dd.HazardCurve([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6], [0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6], im="pga")
@@ -37,7 +37,7 @@ for low, high in ((0.02, 0.4), (0.4, 0.8), (0.8, 1.6)):
     share = risk.deaggregate([low, high])[0] / risk.frequency
     print(f"{100 * share:.0f} % of it comes from {low} to {high} g")
 print(f"{100 * risk.above[0] / risk.frequency:.0f} % of it, at least, from above")
-dd.plot_risk(risk)[0].figure.savefig(out / "risk.png")
+risk.plot()[0].figure.savefig(out / "risk.png")
 
 # %% The curve for OpenQuake, with rotations of 0.4 of the capacity as a less severe damage state
 reached = dd.fit_fragility(stripes.levels, (stripes.edp >= 0.4).sum(axis=1), stripes.edp.shape[1], im="pga")

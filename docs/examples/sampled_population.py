@@ -52,10 +52,10 @@ town.to_csv(out / "town.csv")
 assert dd.read_population(out / "town.csv").walls == town.walls
 
 # %%
-dd.plot_population(town)[0].figure.savefig(out / "sampled_population.png")
+town.plot()[0].figure.savefig(out / "sampled_population.png")
 
 # %% Their fragility
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 fragility = dd.typology(town, records, levels=np.linspace(0.2, 2.0, 10))
 for mechanism in ("one_sided", "two_block"):
-    print(mechanism, fragility.fit(mechanism))
+    print(mechanism, fragility[mechanism].fit)

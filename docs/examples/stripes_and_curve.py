@@ -28,5 +28,5 @@ low, high = curve.interval(0.7)
 print(f"P(collapse | 0.7 g) = {curve(0.7):.3f}, between {low:.3f} and {high:.3f}")
 
 # %%
-dd.plot_stripes(stripes).figure.savefig(out / "stripes.png")
-dd.plot_fragility(curve, stripes).figure.savefig(out / "curve.png")
+stripes.plot().figure.savefig(out / "stripes.png")
+curve.plot().figure.savefig(out / "curve.png")

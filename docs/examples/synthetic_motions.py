@@ -23,4 +23,4 @@ curve = stripes.fit()
 print(curve)
 
 # %%
-dd.plot_fragility(curve, stripes).figure.savefig(out / "synthetic_motions.png")
+curve.plot().figure.savefig(out / "synthetic_motions.png")

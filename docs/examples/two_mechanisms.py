@@ -30,6 +30,6 @@ print(f"median acceleration of the tied wall: {curves[1].theta / curves[0].theta
 print(dd.compare(*curves))
 
 # %%
-ax = dd.plot_fragility(curves[0], label="loose: overturns as a whole", color=style.RED, linestyle="--", marker="s")
-dd.plot_fragility(curves[1], ax=ax, label="tied: folds in two blocks")
+ax = curves[0].plot(label="loose: overturns as a whole", color=style.RED, linestyle="--", marker="s")
+curves[1].plot(ax, label="tied: folds in two blocks")
 ax.figure.savefig(out / "two_mechanisms.png")

@@ -14,18 +14,9 @@
 from dondolo._fortran._binding import build_variant
 from dondolo._fortran._binding import constants as _constants
 from dondolo.analysis.cloud import Cloud, cloud
-from dondolo.analysis.drawing import animate_history, plot_wall
 from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
 from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
 from dondolo.analysis.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
-from dondolo.analysis.plots import (
-    plot_fragility,
-    plot_history,
-    plot_intensities,
-    plot_overturning_spectrum,
-    plot_stripes,
-)
-from dondolo.analysis.plots_cloud import plot_cloud, plot_incremental
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
@@ -41,7 +32,6 @@ from dondolo.exchange.nrml import DiscreteFragility, write_nrml
 from dondolo.exchange.results import StoredResults, read_results
 from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
-from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records import pulses
@@ -54,9 +44,7 @@ from dondolo.records.synthetic import synthetic_records
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.plots import plot_risk
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
-from dondolo.walls.plots import plot_population
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
 from dondolo.walls.wall import *  # noqa: F403
@@ -107,7 +95,6 @@ __all__ = [
     "Window",
     "Work",
     "__version__",
-    "animate_history",
     "build_variant",
     "cloud",
     "compare",
@@ -119,20 +106,6 @@ __all__ = [
     "multiple_stripe",
     "nrml_functions",
     "overturning_spectrum",
-    "plot_cloud",
-    "plot_combination",
-    "plot_damage_states",
-    "plot_fragility",
-    "plot_groups",
-    "plot_history",
-    "plot_incremental",
-    "plot_intensities",
-    "plot_overturning_spectrum",
-    "plot_population",
-    "plot_risk",
-    "plot_stripes",
-    "plot_typology",
-    "plot_wall",
     "pulses",
     "read_case",
     "read_catalogue",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import functools
 import os
 import re
 import sys
@@ -60,7 +59,8 @@ def _parser() -> argparse.ArgumentParser:
         "plot",
         help="draw the figures of a run",
         description="Draw the figures of a run from its CSV files, those of the executable or of Typology.save: the "
-        "histories and the curve of a wall, the curves of a population, or a motion and the wall at its peak.",
+        "histories, the curve and the damage states of a wall, the curves of a population, or a motion and the wall at "
+        "its peak.",
     )
     plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     plot.add_argument(
@@ -168,29 +168,30 @@ def _plot(options: argparse.Namespace) -> None:
     results = dd.read_results(options.prefix)
     if results.response is not None:
         motion = results.response
-        _save(options, "history", lambda: dd.plot_history(motion)[0])
-        _save(options, "wall", lambda: dd.plot_wall(motion))
+        _save(options, "history", lambda: motion.plot()[0])
+        _save(options, "wall", motion.plot_peak)
         if options.animate:
             path = f"{options.prefix}_motion.gif"
-            dd.animate_history(motion, frames_per_second=20).save(path, writer="pillow")
+            motion.animate(frames_per_second=20).save(path, writer="pillow")
             print(f"drawn: {path}")
     if results.stripes is not None and results.fragility is not None:
-        stripes, curve = results.stripes, results.fragility
-        _save(options, "stripes", lambda: dd.plot_stripes(stripes))
-        _save(options, "fragility", lambda: dd.plot_fragility(curve, stripes))
+        stripes = results.stripes
+        _save(options, "stripes", stripes.plot)
+        _save(options, "fragility", results.fragility.plot)
+        if results.edp_thresholds:
+            _save(options, "damage_states", lambda: stripes.plot_damage_states(edp=results.edp_thresholds))
     if results.typology is not None:
         people = results.typology
-        _save(options, "typology", lambda: dd.plot_typology(people))
+        _save(options, "typology", people.plot)
         if len(people.groups) > 1:
-            _save(options, "combination", lambda: dd.plot_combination(people))
+            _save(options, "combination", people.plot_combination)
         for of in people.groups:
             if of.mechanism != "all" and not of.group and len(people.groups) > 1:
-                draw = functools.partial(dd.plot_typology, people, mechanism=of.mechanism)
-                _save(options, f"typology_{of.mechanism}", draw)
+                _save(options, f"typology_{of.mechanism}", people[of.mechanism].plot)
         if any(of.group for of in people.groups):
-            _save(options, "groups", lambda: dd.plot_groups(people))
+            _save(options, "groups", people.plot_groups)
         if len(people.edp_thresholds) > 1:
-            _save(options, "damage_states", lambda: dd.plot_damage_states(people))
+            _save(options, "damage_states", people.plot_damage_states)
 
 
 def _save(options: argparse.Namespace, name: str, draw: Callable[[], Any]) -> None:

@@ -268,7 +268,7 @@ def test_tables(cloud, tmp_path):
 
 
 def test_figure(cloud):
-    ax = dd.plot_cloud(cloud)
+    ax = cloud.plot()
     drawn = {str(line.get_label()).split(" (")[0]: line for line in ax.get_lines()}
     rocks = ~cloud.collapsed & (cloud.edp > 0.0)
     np.testing.assert_array_equal(drawn["rocks"].get_ydata(), cloud.edp[rocks])

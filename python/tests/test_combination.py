@@ -371,22 +371,22 @@ def test_warnings_name_the_state(states, edp):
 
 
 def test_figures(people, states, monkeypatch):
-    ax = dd.plot_typology(people, mechanism="one_sided", group="facades")
+    ax = people["one_sided", "facades"].plot()
     assert ax.get_title(loc="left") == "one-sided, group facades"
     monkeypatch.setattr(plots, "_THIN", 2)
-    labels = dd.plot_typology(people).get_legend_handles_labels()[1]
+    labels = people.plot().get_legend_handles_labels()[1]
     assert labels[0] == "2 of 5 walls"
-    assert dd.plot_typology(typology_of(WALLS[3:4])).get_legend_handles_labels()[1][0] == "1 wall"
+    assert typology_of(WALLS[3:4]).plot().get_legend_handles_labels()[1][0] == "1 wall"
     assert {"16 to 84 % of the walls", "median of the walls", "weighted mean"} <= set(labels)
 
-    ax = dd.plot_combination(people)
+    ax = people.plot_combination()
     lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
     for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", "all")):
         assert np.array_equal(lines[name].get_ydata(), people[mechanism].mean(lines[name].get_xdata()))
     styles = [drawn.get_linestyle() for name, drawn in lines.items() if "occur" in name]
     assert len(set(styles)) == len(styles) == 3
 
-    ax = dd.plot_groups(people, "two_block")
+    ax = people.plot_groups(mechanism="two_block")
     labels = ax.get_legend_handles_labels()[1]
     assert [label.split(":")[0] for label in labels] == [
         "facades (3 walls)",
@@ -396,14 +396,14 @@ def test_figures(people, states, monkeypatch):
     ]
     towers = next(drawn for drawn in ax.get_lines() if drawn.get_label().startswith("towers"))
     assert np.array_equal(towers.get_ydata(), people["two_block", "towers"].mean(towers.get_xdata()))
-    labels = dd.plot_groups(people, "one_sided").get_legend_handles_labels()[1]
+    labels = people.plot_groups(mechanism="one_sided").get_legend_handles_labels()[1]
     assert [label.split(" (")[0] for label in labels[:-1]] == ["facades", "population"]
     with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
-        dd.plot_groups(typology_of(WALLS[3:4]))
+        typology_of(WALLS[3:4]).plot_groups()
 
     typology, stripes = states
     for what, edp in ((typology, (0.1, 0.4, 1.0)), (stripes[0], (0.1, 0.4, 1.0))):
-        ax = dd.plot_damage_states(what)
+        ax = what.plot_damage_states()
         labels = ax.get_legend_handles_labels()[1]
         assert [label.split(":")[0] for label in labels if "EDP" in label] == [f"EDP ≥ {one:g}" for one in edp]
         assert ("thin" in labels[-1]) == (what is typology)
@@ -421,9 +421,9 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     typology = states[0]
     state = [typology.at(edp) for edp in typology.edp_thresholds]
     drawings = [
-        (dd.plot_combination(people), [people[name] for name in (*KINDS, "all")]),
-        (dd.plot_groups(people), [people["all", name] for name in ("facades", "towers", "")]),
-        (dd.plot_damage_states(typology), [one["all"] for one in state]),
+        (people.plot_combination(), [people[name] for name in (*KINDS, "all")]),
+        (people.plot_groups(), [people["all", name] for name in ("facades", "towers", "")]),
+        (typology.plot_damage_states(), [one["all"] for one in state]),
     ]
     for ax, curves in drawings:
         lines = ax.get_lines()
@@ -439,7 +439,7 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     counts = people.exceedances * 0
     complete = np.ones(len(people.walls), dtype=bool)
     none = combine(people.population, "pga", LEVELS, np.ones(1), counts, people.histories, complete, Work())
-    labels = dd.plot_groups(none).get_legend_handles_labels()[1]
+    labels = none.plot_groups().get_legend_handles_labels()[1]
     assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
 
 
@@ -449,9 +449,9 @@ def test_figures_of_groups_with_any_name(name, tmp_path):
     walls = [(wall[0], name, *wall[2:]) for wall in WALLS[:3]]
     people = typology_of(walls)
     axes = [
-        dd.plot_groups(people),
-        *dd.plot_population(people.population, "group"),
-        dd.plot_combination(people, group=name),
+        people.plot_groups(),
+        *people.population.plot(by="group"),
+        people.plot_combination(group=name),
     ]
     for ax in axes[:3]:
         texts = [text.get_text().lstrip() for text in ax.get_legend().get_texts()]

@@ -211,7 +211,7 @@ def test_tables(stripes, tmp_path):
 
 def test_figure(stripes):
     ida = dd.incremental(stripes)
-    ax = dd.plot_incremental(ida)
+    ax = ida.plot()
     lines = ax.get_lines()
     n = len(ida.first_collapse)
     flat = sum(line.get_ydata()[-1] == line.get_ydata()[-2] and line.get_xdata()[-1] > 1.0 for line in lines[:n])

@@ -185,15 +185,15 @@ def test_units_everywhere(records, wall, tmp_path):
     curve = stripes.fit()
     assert "0.4 to 0.7 m/s" in repr(stripes)
     assert " m/s (standard error" in repr(curve)
-    assert dd.plot_stripes(stripes).get_xlabel() == "peak ground velocity [m/s]"
-    ax = dd.plot_fragility(curve, stripes)
+    assert stripes.plot().get_xlabel() == "peak ground velocity [m/s]"
+    ax = curve.plot()
     assert ax.get_xlabel() == "peak ground velocity [m/s]"
     assert any("m/s, β" in text.get_text() for text in ax.get_legend().get_texts())
     stripes.to_csv(tmp_path / "stripes.csv", "stripes")
     assert "# unit of im_level: m/s\n" in (tmp_path / "stripes.csv").read_text()
     curve.to_csv(tmp_path / "curve.csv")
     assert "# unit of theta: m/s\n" in (tmp_path / "curve.csv").read_text()
-    assert dd.plot_stripes(dd.multiple_stripe(wall, records[0], [2.0], im="pga/a0")).get_xlabel().endswith("[-]")
+    assert dd.multiple_stripe(wall, records[0], [2.0], im="pga/a0").plot().get_xlabel().endswith("[-]")
 
 
 def test_files_of_the_executable(run, root, tmp_path):
@@ -205,7 +205,7 @@ def test_files_of_the_executable(run, root, tmp_path):
     prefix = tmp_path / dd.read_case(tmp_path / "case.nml").output
     stored = dd.read_results(prefix)
     assert stored.stripes.im == stored.fragility.im == dd.read_case(tmp_path / "case.nml").im == "saavg(0.2:2)"
-    assert dd.plot_stripes(stored.stripes).get_xlabel() == "average spectral acceleration, 0.2 to 2 s [g]"
+    assert stored.stripes.plot().get_xlabel() == "average spectral acceleration, 0.2 to 2 s [g]"
 
 
 @pytest.fixture(scope="module")
@@ -231,7 +231,7 @@ def test_comparison(comparison, wall):
         assert stripes.fraction[-1] > 0.9
     assert len(comparison.to_frame()) == 4
     assert str(comparison).count("\n") == 4
-    left, right = dd.plot_intensities(comparison)
+    left, right = comparison.plot()
     assert right.get_yticklabels()[0].get_text() == comparison.best
     assert len(left.get_lines()) == 8
 

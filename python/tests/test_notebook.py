@@ -4,11 +4,12 @@ import pytest
 
 nbclient, nbformat, _ = (pytest.importorskip(name) for name in ("nbclient", "nbformat", "ipykernel"))
 
+pytestmark = pytest.mark.slow
+
 SETUP = """
 import numpy as np
 import dondolo as dd
 
-pytestmark = pytest.mark.slow
 wall = dd.FreeStandingWall(height=6.0, thickness=0.9)
 sine = dd.Record(np.sin(2.0 * np.pi * 0.01 * np.arange(401)), 0.01)
 motion = dd.simulate(wall, sine, 2.0)
@@ -34,7 +35,7 @@ def value(outputs):
 
 
 def test_every_cell_has_its_own_picture():
-    drawn = ("axes = dd.plot_history(motion)", "axes = dd.plot_wall(motion)", "film = dd.animate_history(motion)")
+    drawn = ("axes = motion.plot()", "axes = motion.plot_peak()", "film = motion.animate()")
     _, *outputs, own = run(SETUP, *drawn, OWN)
     assert [pictures(cell) for cell in outputs] == [1, 1, 1]
     # The user's own line is alone in a figure of its own.

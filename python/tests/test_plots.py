@@ -1,5 +1,6 @@
 """Figures, by what they hold: labels, data, geometry; and the shell command that draws them."""
 
+import inspect
 import subprocess
 import sys
 from dataclasses import replace
@@ -11,7 +12,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.analysis.drawing import peak_rotation, shape
+from dondolo.walls.drawing import shape
 from matplotlib.image import imread
 from scipy import stats
 
@@ -47,7 +48,7 @@ def line(ax, label):
 
 
 def test_history_shows_the_motion(motion):
-    above, below = dd.plot_history(motion)
+    above, below = motion.plot()
     np.testing.assert_array_equal(above.get_lines()[0].get_ydata(), motion.ground_acceleration / 9.81)
     np.testing.assert_array_equal(line(below, "rotation").get_ydata(), motion.rotation / motion.wall.capacity_angle)
     np.testing.assert_array_equal(line(below, "impacts").get_xdata(), motion.time[motion.after_impact])
@@ -62,23 +63,23 @@ def test_history_shows_the_motion(motion):
 def test_history_counts_the_impacts_after_the_record_apart(sine):
     motion = dd.simulate(dd.FreeStandingWall(height=6.0, thickness=0.9), sine, 2.0)
     later = int((motion.after_impact & (motion.time > sine.duration)).sum())
-    drawn = line(dd.plot_history(motion)[1], "impacts")
+    drawn = line(motion.plot()[1], "impacts")
     assert later > 0
     assert drawn.get_label() == f"impacts ({motion.impacts}, and {later} after the record)"
 
 
 def test_history_draws_into_given_axes(motion):
     _, axes = plt.subplots(2)
-    assert list(dd.plot_history(motion, axes)) == list(axes)
+    assert list(motion.plot(axes)) == list(axes)
 
 
 def test_history_needs_a_history(wall, records):
     with pytest.raises(dd.DondoloError, match="history=True"):
-        dd.plot_history(dd.simulate(wall, records[0], history=False))
+        dd.simulate(wall, records[0], history=False).plot()
 
 
 def test_stripes_set_collapses_apart(stripes):
-    ax = dd.plot_stripes(stripes)
+    ax = stripes.plot()
     assert len(line(ax, "survives").get_ydata()) == (~stripes.collapsed).sum()
     assert (line(ax, "survives").get_ydata() < 1.0).all()
     reached = stripes.collapses > 0
@@ -91,7 +92,7 @@ def test_stripes_set_collapses_apart(stripes):
 
 def test_fragility_shows_fractions_curve_and_band(stripes):
     curve = stripes.fit()
-    ax = dd.plot_fragility(curve, stripes)
+    ax = curve.plot()
     drawn = line(ax, "θ")
     np.testing.assert_allclose(drawn.get_ydata(), curve(drawn.get_xdata()))
     container = ax.containers[0]
@@ -109,7 +110,7 @@ def test_bars_end_at_the_saturation():
     """Exact binomial intervals of the walls that can collapse, times their share of the population."""
     collapses, share = [0, 8, 20, 41, 44], 0.5
     curve = replace(dd.fit_fragility(LEVELS, collapses, 44), saturation=share)
-    ax = dd.plot_fragility(curve, level=0.9)
+    ax = curve.plot(level=0.9)
     container = ax.containers[0]
     np.testing.assert_allclose(container.lines[0].get_ydata(), np.array(collapses) / 88, rtol=1e-12)
     exact = [stats.binomtest(count, 44).proportion_ci(0.9, method="exact") for count in collapses]
@@ -123,7 +124,7 @@ def test_bars_end_at_the_saturation():
 
 def test_fragility_without_a_fit_shows_the_bracket():
     curve = dd.fit_fragility([0.2, 0.4, 0.6], [0, 5, 44], [44, 44, 44])
-    ax = dd.plot_fragility(curve)
+    ax = curve.plot()
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
     assert any("separated" in text for text in texts)
     assert not any("θ" in text for text in texts)
@@ -131,13 +132,13 @@ def test_fragility_without_a_fit_shows_the_bracket():
 
 def test_fragility_refuses_a_confidence_of_one(stripes):
     with pytest.raises(dd.InputError, match="level"):
-        dd.plot_fragility(stripes.fit(), level=1.0)
+        stripes.fit().plot(level=1.0)
 
 
 def test_typology_shows_every_wall_and_the_mean(records):
     walls = [dd.OneSidedWall(height=height, thickness=0.25) for height in (1.2, 1.8, 2.4)]
     people = dd.typology(dd.Population(walls), records, levels=LEVELS, progress=False)
-    ax = dd.plot_typology(people)
+    ax = people.plot()
     mean = line(ax, "weighted mean")
     np.testing.assert_allclose(mean.get_ydata(), people["all"].mean(mean.get_xdata()))
     grid = mean.get_xdata()
@@ -145,9 +146,9 @@ def test_typology_shows_every_wall_and_the_mean(records):
     # Walls, edges of the band and median, mean, lognormal
     assert len(thin) == 3 + 3 + 1 + people["all"].fit.has_fit
     np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people["all"].mean_fraction)
-    assert dd.plot_typology(people, mechanism="one_sided").get_title(loc="left") == "one-sided"
+    assert people["one_sided"].plot().get_title(loc="left") == "one-sided"
     with pytest.raises(dd.InputError, match="must be one of"):
-        dd.plot_typology(people, mechanism="two_block")
+        people["two_block"].plot()
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
@@ -194,30 +195,91 @@ def test_one_block_turns_about_its_toe():
 
 
 def test_wall_is_drawn_at_its_peak(motion):
-    ax = dd.plot_wall(motion)
-    np.testing.assert_allclose(line(ax, "hinge").get_xydata(), shape(motion.wall, peak_rotation(motion)).hinges)
+    ax = motion.plot_peak()
+    np.testing.assert_allclose(line(ax, "hinge").get_xydata(), shape(motion.wall, motion.peak_rotation).hinges)
     assert ax.get_aspect() == 1.0
     assert f"EDP = {motion.edp:.3g}" in ax.get_title(loc="left")
 
 
 def test_one_sided_walls_do_not_turn_inwards(wall):
     with pytest.raises(dd.InputError, match="must not be negative"):
-        dd.plot_wall(wall, rotation=-0.01)
+        wall.plot(rotation=-0.01)
 
 
 @pytest.mark.slow
 def test_animation_follows_the_motion(motion, tmp_path):
-    animation = dd.animate_history(motion, frames_per_second=2, speed=4.0)
+    animation = motion.animate(frames_per_second=2, speed=4.0)
     animation.save(tmp_path / "motion.gif", writer="pillow")
     assert (tmp_path / "motion.gif").stat().st_size > 10_000
     with pytest.raises(dd.InputError, match="must be positive"):
-        dd.animate_history(motion, speed=0.0)
+        motion.animate(speed=0.0)
 
 
 def command(*arguments, folder):
     return subprocess.run(
         [sys.executable, "-m", "dondolo", *map(str, arguments)], cwd=folder, capture_output=True, text=True, check=False
     )
+
+
+def test_results_draw_themselves():
+    """One way to draw: methods, of which the axes come first and the options are named."""
+    assert [name for name in dd.__all__ if name.startswith(("plot", "draw", "animate"))] == []
+    methods = {
+        (name, method): getattr(getattr(dd, name), method)
+        for name in dd.__all__
+        if isinstance(getattr(dd, name), type)
+        for method in dir(getattr(dd, name))
+        if method.startswith("plot")
+    }
+    drawn = {name for name, _ in methods}
+    assert drawn >= {"Cloud", "Fragility", "Incremental", "IntensityComparison", "OverturningSpectrum", "Population"}
+    assert drawn >= {"PopulationCurve", "Response", "Risk", "Stripes", "Typology", "OneSidedWall"}
+    for method in methods.values():
+        _, ax, *options = inspect.signature(method).parameters.values()
+        assert (ax.name, ax.default) == ("ax", None)
+        assert all(option.kind is option.KEYWORD_ONLY for option in options)
+
+
+@pytest.mark.parametrize("ax", ["mine", 3, [], [None, None], "panels"])
+def test_wrong_axes(ax, wall, motion, stripes):
+    if ax == "panels":
+        ax = plt.subplots(3)[1]
+    for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
+        with pytest.raises(dd.InputError, match=r"^ax: must be an Axes of Matplotlib$"):
+            draw(ax)
+    for draw in (motion.plot, dd.Population([wall]).plot):
+        with pytest.raises(dd.InputError, match=r"^ax: must be 2 Axes of Matplotlib$"):
+            draw(ax)
+
+
+def test_axes_are_returned(wall, motion, stripes):
+    _, ax = plt.subplots()
+    for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
+        assert draw(ax) is ax
+    _, axes = plt.subplots(1, 2, squeeze=False)
+    assert list(dd.Population([wall]).plot(axes)) == list(axes.flat)
+
+
+@pytest.mark.parametrize(
+    ("draw", "message"),
+    [
+        (lambda wall, motion, stripes: wall.plot(rotation="wide"), "rotation = 'wide': must be a number"),
+        (lambda wall, motion, stripes: wall.plot(rotation=4.0), "rotation"),
+        (lambda wall, motion, stripes: wall.plot(rotation=np.nan), "rotation"),
+        (lambda wall, motion, stripes: motion.animate(speed="fast"), "speed = 'fast': must be a number"),
+        (lambda wall, motion, stripes: stripes.fit().plot(level="most"), "level = 'most': must be a number"),
+        (lambda wall, motion, stripes: stripes.plot_damage_states(edp="low"), "edp: must be numbers"),
+        (lambda wall, motion, stripes: stripes.plot_damage_states(edp=[2.0]), "edp = 2: must be positive and at most"),
+    ],
+)
+def test_wrong_options(draw, message, wall, motion, stripes):
+    with pytest.raises(dd.InputError, match=message):
+        draw(wall, motion, stripes)
+
+
+def test_titles_of_curves(stripes):
+    assert stripes.fit().plot().get_title(loc="left") == "parapet"
+    assert stripes.fit().plot(label="one of several").get_title(loc="left") == ""
 
 
 @pytest.mark.slow
@@ -237,6 +299,18 @@ def test_command_draws_the_executables_files(case, figures, executable, root, tm
         picture = imread(tmp_path / "out" / f"{case}_{figure}.png")
         assert picture.shape[0] > 300
         assert np.ptp(picture) > 0.5
+
+
+@pytest.mark.slow
+def test_command_draws_the_damage_states_of_a_wall(executable, root, tmp_path):
+    case = (root / "data/cases/parapet.nml").read_text().replace("../records", str(root / "data/records"))
+    (tmp_path / "case.nml").write_text(case.replace("&stripes", "&stripes edp_thresholds = 0.1, 0.4"))
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
+    assert dd.read_results(tmp_path / "out/parapet").edp_thresholds == [0.1, 0.4, 1.0]
+    done = command("plot", "out/parapet", folder=tmp_path)
+    assert done.stdout == "".join(
+        f"drawn: out/parapet_{name}.png\n" for name in ("stripes", "fragility", "damage_states")
+    )
 
 
 def test_results_read_back_are_those_of_a_run(executable, root, tmp_path):
@@ -267,13 +341,13 @@ def test_help_lists_the_commands(tmp_path):
 
 def test_plots_of_names_that_look_like_formulas(records, tmp_path):
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="cost $x_{$")
-    figure = dd.plot_history(dd.simulate(wall, records[6]))[0].figure
+    figure = dd.simulate(wall, records[6]).plot()[0].figure
     figure.savefig(tmp_path / "history.png")
 
 
 def test_the_collapse_limit_is_where_it_was_set(wall, records):
     stripes = dd.multiple_stripe(wall, records[:3], [0.1], solver=dd.Solver(edp_limit=0.3), progress=False)
-    assert line(dd.plot_stripes(stripes), "collapse limit").get_ydata()[0] == 0.3
+    assert line(stripes.plot(), "collapse limit").get_ydata()[0] == 0.3
 
 
 def test_results_do_not_believe_the_title(executable, root, tmp_path):

@@ -278,7 +278,7 @@ def test_many_walls_take_linear_time(tmp_path):
 
 def test_figure(tmp_path):
     for by in ("mechanism", "group"):
-        above, below = dd.plot_population(PEOPLE, by)
+        above, below = PEOPLE.plot(by=by)
         labels = above.get_legend_handles_labels()[1]
         expected = {
             "mechanism": ["one_sided (2)", "two_block (1)", "free_standing (1)"],
@@ -289,7 +289,7 @@ def test_figure(tmp_path):
         sums = {"mechanism": [2.0, 2.0, 5.0], "group": [4.0, 5.0, 0.0]}
         assert [value.sum() for value in values] == sums[by]
         above.figure.savefig(tmp_path / "figure.png")
-    again = dd.plot_population(PEOPLE, axes=dd.plot_population(PEOPLE[:1]))
+    again = PEOPLE.plot(PEOPLE[:1].plot())
     assert len(again) == 2
     with pytest.raises(dd.InputError, match="by = 'colour'"):
-        dd.plot_population(PEOPLE, "colour")
+        PEOPLE.plot(by="colour")

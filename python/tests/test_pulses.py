@@ -257,7 +257,7 @@ def test_two_blocks():
     )
     assert result.overturned.any()
     assert result.amplitude_ratio[0] == pytest.approx(0.1 * 9.81 / wall.trigger_acceleration)
-    assert "trigger" in dd.plot_overturning_spectrum(result).get_ylabel()
+    assert "trigger" in result.plot().get_ylabel()
     plt.close("all")
 
 
@@ -297,7 +297,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
         ({"polarity": "both"}, "polarity = 'both': must be one of"),
         ({"solver": dd.Solver(edp_limit=50.0)}, "edp_limit = 50"),
         ({"tolerance": 0.0}, "tolerance = 0: must lie between"),
-        ({"threads": 1.5}, "threads = 1.5: must be a whole number, between 0 and 4096"),
+        ({"threads": 1.5}, "threads = 1.5: must be a whole number, between 0 and 1024"),
         ({"solver": dd.Solver(engine="magic")}, "engine = 'magic'"),
         ({"pulse": lambda amplitude, frequency: 3.0}, "pulse: must return a Record, not float"),
         ({"pulse": lambda amplitude, frequency: dd.Record([0.0, 0.0], 1.0)}, "pulse: is zero at 0.5 Hz"),
@@ -318,7 +318,7 @@ def test_errors_of_spectra(spectrum, changes, words):
 
 
 def test_plot(spectrum):
-    ax = dd.plot_overturning_spectrum(spectrum)
+    ax = spectrum.plot()
     assert r"\omega_p / p" in ax.get_xlabel()
     assert r"\tan\alpha" in ax.get_ylabel()
     assert ax.get_ylim()[1] == spectrum.amplitude_ratio[-1]
@@ -333,5 +333,5 @@ def test_plot(spectrum):
     assert "overturns after impacts" in labels
     plt.close("all")
     _, mine = plt.subplots()
-    assert dd.plot_overturning_spectrum(spectrum, mine) is mine
+    assert spectrum.plot(mine) is mine
     plt.close("all")

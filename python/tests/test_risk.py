@@ -603,7 +603,7 @@ def test_figure(hazard, curve, endless):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         risk = dd.mean_annual_frequency(curve, hazard)
-    above, middle, below = dd.plot_risk(risk)
+    above, middle, below = risk.plot()
     x = above.get_lines()[0].get_xdata()
     np.testing.assert_allclose(above.get_lines()[0].get_ydata(), hazard(x))
     np.testing.assert_allclose(middle.get_lines()[0].get_ydata(), curve(x))

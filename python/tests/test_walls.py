@@ -7,7 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
-from dondolo.analysis.drawing import shape
+from dondolo.walls.drawing import shape
 from hypothesis import given
 from hypothesis import strategies as st
 

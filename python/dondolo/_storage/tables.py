@@ -83,7 +83,7 @@ def frame(table: Table) -> Any:
     return pd.DataFrame(table)
 
 
-def choose(tables: Mapping[str, Any], name: str) -> Table:
+def choose(tables: Mapping[Any, Any], name: str) -> Table:
     """One of several tables of an object, made when it is asked for."""
     one_of("table", name, tables)
     table: Table = tables[name]()

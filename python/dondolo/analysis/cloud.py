@@ -48,7 +48,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -64,6 +64,9 @@ from dondolo.curves.regression import Logistic, Regression, logistic_regression,
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -207,6 +210,24 @@ class Cloud(Shown):
             return float(np.exp((np.log(threshold) - self.intercept) / self.slope)), self.sigma / self.slope
         low, median, high = (self._crossing(p, threshold) for p in (_LOW, 0.5, _HIGH))
         return median, 0.5 * float(np.log(high / low))
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the points, the line fitted to those that rock, and the probability of collapse.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            EDP against intensity, on logarithmic axes. Collapses are drawn above the limit, walls that do not move at
+            the bottom. The probability of collapse has an axis of its own, to the right.
+        """
+        from dondolo.analysis.plots_cloud import draw_cloud
+
+        return draw_cloud(self, ax)
 
     def _threshold(self, edp: float | None) -> float:
         threshold = self.edp_limit if edp is None else as_number("edp", edp)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,8 +17,12 @@ from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.figures.style import Panels
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Levels of an analysis reach so many dispersions from the median, where 0.6 % and 99.4 % collapse
 _REACH = 2.5
@@ -65,6 +69,25 @@ class IntensityComparison:
     def best(self) -> str:
         """The measure with the smallest dispersion."""
         return self.ims[int(np.argmin(self.ratio))]
+
+    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+        """Draw the curves of all measures on one scale, and their dispersions.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Probability of collapse against scale factor over its median, for an amplitude the intensity over its
+            median: the steeper, the more efficient; and the dispersions with 95 % intervals, the most efficient measure
+            at the top.
+        """
+        from dondolo.analysis.plots_efficiency import draw_comparison
+
+        return draw_comparison(self, ax)
 
     def _table(self) -> tables.Table:
         return {

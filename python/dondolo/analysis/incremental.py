@@ -38,7 +38,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -49,6 +49,9 @@ from dondolo._storage import tables
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Shares of the histories that fractiles are given for
 SHARES = (0.16, 0.50, 0.84)
@@ -70,6 +73,9 @@ class FirstCollapseFragility(Fragility):
 
     def _facts(self) -> list[tuple[str, str]]:
         return [fact for fact in super()._facts() if fact[0] != "log likelihood"]
+
+
+_Table = Literal["records", "fractiles"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -174,7 +180,27 @@ class Incremental(Shown):
             wall=self.stripes.wall,
         )
 
-    def _tables(self) -> dict[str, Any]:
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw a line for each history, and their fractiles, bold.
+
+        As Vamvatsikos and Cornell (2002) draw them: a flat line is a collapse. A history that survives a level above
+        its first collapse has a circle there.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Level of intensity against EDP.
+        """
+        from dondolo.analysis.plots_stripes import draw_incremental
+
+        return draw_incremental(self, ax)
+
+    def _tables(self) -> dict[_Table, Any]:
         stripes = self.stripes
         none = np.where(np.isfinite(self.edp_fractiles), self.edp_fractiles, np.nan)
         return {
@@ -199,11 +225,11 @@ class Incremental(Shown):
             },
         }
 
-    def to_frame(self, table: str = "records") -> Any:
+    def to_frame(self, table: _Table = "records") -> Any:
         """One of the tables 'records' and 'fractiles' as a pandas DataFrame; what is infinite is empty."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "records") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
         comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)

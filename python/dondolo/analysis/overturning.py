@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +22,9 @@ from dondolo.records.record import Record
 from dondolo.records.suite import upload
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Rotation / capacity from which a wall counts as overturned
 _EDP_LIMIT = 5.0
@@ -74,6 +77,9 @@ class Window(NamedTuple):
     lower: float
     upper: float
     state: State
+
+
+_Table = Literal["map", "boundaries"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -155,7 +161,27 @@ class OverturningSpectrum(Shown):
         ends.append(float(self.amplitudes[-1]))
         return [Window(*window) for window in zip(ends, ends[1:], states, strict=False)]
 
-    def _tables(self) -> dict[str, Any]:
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw which amplitudes overturn, without and with impacts before, against the frequency of the pulse.
+
+        As Zhang and Makris (2001) draw it. Every frequency of the scan is a column, cut at the amplitudes where the
+        state changes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            a_p/(g tan alpha), the amplitude as a part of the trigger acceleration, against omega_p/p.
+        """
+        from dondolo.analysis.plots_overturning import draw_spectrum
+
+        return draw_spectrum(self, ax)
+
+    def _tables(self) -> dict[_Table, Any]:
         count = len(self.amplitudes)
         return {
             "map": lambda: {
@@ -174,11 +200,11 @@ class OverturningSpectrum(Shown):
             },
         }
 
-    def to_frame(self, table: str = "map") -> Any:
+    def to_frame(self, table: _Table = "map") -> Any:
         """One of the tables 'map' and 'boundaries' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "map") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "map") -> None:
         """Write one of the tables 'map' and 'boundaries'."""
         comments = [repr(self.wall), f"pulse: {self.pulse}, {self.polarity}", f"edp_limit = {self.edp_limit!r}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)

@@ -219,7 +219,8 @@ def new_request(
 
 def check_threads(threads: int) -> int:
     """A number of threads; 0 stands for all."""
-    return as_count("threads", threads, 0, 4096)
+    (row,) = (row for row in _binding.properties("job") if row.name == "threads")
+    return as_count("threads", threads, 0, int(row.largest))
 
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import functools
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,9 +16,14 @@ from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
 from dondolo.walls.wall import Wall, upload
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -67,6 +73,87 @@ class Response(Shown):
     after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
 
+    @property
+    def peak_rotation(self) -> float:
+        """Signed rotation at the peak [rad]; positive without a time history, which has the side."""
+        rotation = self.edp * self.wall.capacity_angle
+        if self.rotation is None:
+            return rotation
+        return float(np.copysign(rotation, self.rotation[np.argmax(np.abs(self.rotation))]))
+
+    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+        """Draw the motion: ground acceleration above, rotation / capacity below, impacts marked.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Acceleration [g] and rotation / capacity against time [s].
+
+        Raises
+        ------
+        DondoloError
+            The response has no time history.
+        """
+        from dondolo.analysis.plots_response import draw_history
+
+        return draw_history(self, ax)
+
+    def plot_peak(self, ax: Axes | None = None) -> Axes:
+        """Draw the wall at the peak of the motion, and dashed at rest: `Wall.plot` at `peak_rotation`.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Metres, to scale.
+        """
+        from dondolo.walls.drawing import draw_wall
+
+        return draw_wall(self.wall, self.peak_rotation, ax, f", EDP = {self.edp:.3g}")
+
+    def animate(self, *, frames_per_second: float = 25, speed: float = 1.0) -> FuncAnimation:
+        """Animate the motion: the wall beside its rotation.
+
+        Parameters
+        ----------
+        frames_per_second : float
+            Frames per second of the film, at least 1.
+        speed : float
+            Seconds of motion per second of film.
+
+        Returns
+        -------
+        FuncAnimation
+            Save it with Matplotlib's writers: ``animation.save("wall.gif", writer="pillow")``, or an MP4 where ffmpeg
+            is installed. Keep a reference to it while it is shown.
+
+        Raises
+        ------
+        DondoloError
+            The response has no time history.
+        InputError
+            A speed that is not positive.
+        """
+        from dondolo.analysis import plots_response
+
+        return plots_response.animate(self, frames_per_second, speed)
+
+    def _motion(self) -> tuple[FloatArray, FloatArray, FloatArray, np.ndarray[Any, np.dtype[np.bool_]]]:
+        """Time, ground acceleration, rotation, and which rows are just after an impact."""
+        columns = self.time, self.ground_acceleration, self.rotation, self.after_impact
+        if any(column is None for column in columns):
+            raise DondoloError("this response has no time history: simulate with history=True")
+        return columns  # type: ignore[return-value]
+
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
             ("wall", self.wall.name),
@@ -88,8 +175,7 @@ class Response(Shown):
         return facts
 
     def _table(self) -> tables.Table:
-        if self.time is None or self.rotation is None:
-            raise DondoloError("this response has no time history: simulate with history=True")
+        self._motion()
         return history_table(self)
 
     def to_frame(self) -> Any:

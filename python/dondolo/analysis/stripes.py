@@ -6,7 +6,7 @@ import dataclasses
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,6 +23,11 @@ from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall, upload, walls_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_Table = Literal["histories", "stripes", "walls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -161,6 +166,49 @@ class Stripes(Shown):
         _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw every history: EDP against intensity, collapses set apart above.
+
+        Figure 4a of Nale et al.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            EDP against the level of intensity.
+        """
+        from dondolo.analysis.plots_stripes import draw_stripes
+
+        return draw_stripes(self, ax)
+
+    def plot_damage_states(self, ax: Axes | None = None, *, edp: Sequence[float] | None = None) -> Axes:
+        """Draw the fitted curve of each damage state, collapse the boldest.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        edp : sequence of float, optional
+            Rotation / capacity of the states, as for `fit`; 0.1, 0.4 and 1 times `edp_limit` if left out.
+
+        Returns
+        -------
+        Axes
+            Probability to reach each state against intensity.
+
+        Raises
+        ------
+        InputError
+            A threshold that is not positive, or above `edp_limit`.
+        """
+        from dondolo.analysis.plots_stripes import draw_damage_states
+
+        return draw_damage_states(self, ax, edp)
+
     def _state(self, edp: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
         self.exceedances(edp)
@@ -170,7 +218,7 @@ class Stripes(Shown):
         """The histories as a curve keeps them."""
         return Sample(self.levels, self.collapsed, self.record_index, self.record_names[: self.records])
 
-    def _tables(self) -> dict[str, Any]:
+    def _tables(self) -> dict[_Table, Any]:
         return {
             "histories": lambda: histories_table(self),
             "stripes": lambda: stripes_table(
@@ -184,11 +232,11 @@ class Stripes(Shown):
             "walls": lambda: walls_table([self.wall]),
         }
 
-    def to_frame(self, table: str = "histories") -> Any:
+    def to_frame(self, table: _Table = "histories") -> Any:
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "histories") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "histories") -> None:
         """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
         comments = [
             repr(self.wall),

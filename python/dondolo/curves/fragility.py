@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +17,11 @@ from dondolo._storage import tables
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloError, InputError
+from dondolo.figures import style
 from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Interval = tuple[float, float]
 
@@ -226,6 +230,46 @@ class Fragility(Shown):
         if self.sample is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
         return resample(self.sample, draw_records(self.sample.records, n, seed, events))
+
+    def plot(
+        self,
+        ax: Axes | None = None,
+        *,
+        level: float = 0.95,
+        label: str | None = None,
+        color: str = style.BLUE,
+        linestyle: str = "-",
+        marker: str = "o",
+    ) -> Axes:
+        """Draw the curve with its confidence band, and the fractions of collapse it was fitted to.
+
+        Figure 4b of Nale et al. The bars of the fractions are Clopper and Pearson's exact binomial intervals. Without a
+        fit only the fractions and the bracket of the median are drawn.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        level : float
+            Confidence of band and bars.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes; median and dispersion if left out.
+        color, linestyle, marker : str
+            Of the curve and its fractions, to distinguish several.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity.
+
+        Raises
+        ------
+        InputError
+            A confidence beyond 0 and 1.
+        """
+        from dondolo.curves.plots import draw_fragility
+
+        return draw_fragility(self, ax, level, label, color, linestyle, marker)
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import one_of
+from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._fortran import _binding
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
@@ -52,6 +52,12 @@ class StoredResults:
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
+
+    @property
+    def edp_thresholds(self) -> list[float]:
+        """Damage states that the case names [rotation / capacity], if there are several."""
+        thresholds = self.run.setting("stripes", "edp_thresholds", [])
+        return as_array("edp_thresholds", thresholds).tolist() if len(thresholds) > 1 else []
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:

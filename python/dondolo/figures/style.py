@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from dondolo._fortran import _binding
 from dondolo.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+# Several axes of one figure
+Panels = NDArray[np.object_]
 
 # Okabe and Ito (2008), Color universal design
 BLUE = "#0072B2"
@@ -71,6 +78,28 @@ def new_axes(rows: int = 1, size: tuple[float, float] = (6.0, 4.0), columns: int
     figure = plt.figure(figsize=size, dpi=_DPI, layout="constrained")
     with plt.rc_context(RC):
         return figure.subplots(rows, columns, **options)
+
+
+def axes(ax: Axes | None, size: tuple[float, float] = (6.0, 4.0)) -> Axes:
+    """The axes given, or those of a new figure."""
+    if ax is None:
+        return new_axes(size=size)  # type: ignore[no-any-return]
+    one: Axes = panels([ax], 1, size)[0]
+    return one
+
+
+def panels(ax: Iterable[Axes] | None, rows: int, size: tuple[float, float], columns: int = 1, **options: Any) -> Panels:
+    """The axes given, as many as needed, or those of a new figure."""
+    from matplotlib.axes import Axes
+
+    if ax is None:
+        return np.atleast_1d(new_axes(rows, size, columns, **options))
+    count = rows * columns
+    given = np.ravel(np.asarray(ax, dtype=object))
+    if len(given) != count or not all(isinstance(one, Axes) for one in given):
+        several = "an Axes" if count == 1 else f"{count} Axes"
+        raise InputError(f"ax: must be {several} of Matplotlib")
+    return given
 
 
 def legend(ax: Axes, **options: Any) -> None:

@@ -6,7 +6,7 @@ import functools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,11 +16,15 @@ from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.members import Members
 from dondolo.errors import DondoloError
+from dondolo.figures.style import mechanism_name
 from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
 from dondolo.populations.flags import Flags
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.walls.population import Population
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
@@ -168,6 +172,25 @@ class PopulationCurve(Group, MeanCurve):
         curves = [(curve.status, curve.theta, curve.beta) for curve in source.curves]
         return _binding.curve_of_population(population, curves, (self.mechanism, self.group), x, q, members)
 
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the curves of the walls, thin, with their weighted mean and fractiles.
+
+        Figure 5 of Nale et al.: the red line is the typological curve.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity.
+        """
+        from dondolo.populations.plots import draw_curve
+
+        return draw_curve(self, ax)
+
     def risk(self, hazard: HazardCurve) -> Risk:
         """Mean annual frequency of collapse of a wall drawn by weight, as `mean_annual_frequency`.
 
@@ -239,6 +262,12 @@ class PopulationCurve(Group, MeanCurve):
             flags = Flags.of_counts(source.exceedances, source.histories)
         mechanism, group = self.mechanism, self.group
         return resample_population(source.population, flags, self.levels, n, seed, over, mechanism, group, events)
+
+    def _title(self) -> str:
+        """Mechanism and group."""
+        grouped = any(self._source.population.groups)
+        group = f", group {self.group}" if self.group else ", population" if grouped else ""
+        return mechanism_name(self.mechanism) + group
 
     def __repr__(self) -> str:
         where = f", group {self.group!r}" if self.group else ""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -25,6 +25,11 @@ from dondolo.populations.curve import Group, IntArray, PopulationCurve, Source
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_Table = Literal["typology", "fragility", "stripes", "walls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -166,7 +171,110 @@ class Typology(Shown):
             _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
-    def _tables(self) -> dict[str, Any]:
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the curve of the whole population: ``typology["all"].plot()``.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity.
+        """
+        return self["all"].plot(ax)
+
+    def plot_combination(self, ax: Axes | None = None, *, group: str = "") -> Axes:
+        """Draw the mean curve of each mechanism, and that of all together with its fractiles.
+
+        A thin line beside a mean curve is the lognormal with the parameters of the legend.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        group : str
+            Only the walls of this group; '' for the whole population.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity: of a mechanism, if it can occur; of all, in series, each with its
+            probability of occurrence.
+
+        Raises
+        ------
+        InputError
+            There is no such group.
+        """
+        from dondolo.populations.plots import draw_combination
+
+        return draw_combination(self, ax, group)
+
+    def plot_groups(self, ax: Axes | None = None, *, mechanism: str = "all") -> Axes:
+        """Draw the mean curve of each group beside that of the population.
+
+        A thin line beside a mean curve is the lognormal with the parameters of the legend.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        mechanism : str
+            Only the walls of this mechanism; groups without it are left out.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity.
+
+        Raises
+        ------
+        InputError
+            The population has no groups, or no such mechanism.
+        """
+        from dondolo.populations.plots import draw_groups
+
+        return draw_groups(self, ax, mechanism)
+
+    def plot_damage_states(
+        self,
+        ax: Axes | None = None,
+        *,
+        edp: Sequence[float] | None = None,
+        mechanism: str = "all",
+        group: str = "",
+    ) -> Axes:
+        """Draw the mean curve of each damage state, collapse the boldest.
+
+        A thin line beside a mean curve is the lognormal with the parameters of the legend.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        edp : sequence of float, optional
+            Which of `edp_thresholds`; all if left out.
+        mechanism, group : str
+            Only the walls of this mechanism, of this group, as in ``typology[mechanism, group]``.
+
+        Returns
+        -------
+        Axes
+            Probability to reach each state against intensity.
+
+        Raises
+        ------
+        InputError
+            There is no such threshold, mechanism or group.
+        """
+        from dondolo.populations.plots import draw_damage_states
+
+        return draw_damage_states(self, ax, edp, mechanism, group)
+
+    def _tables(self) -> dict[_Table, Any]:
         return {
             "typology": lambda: typology_table(self),
             "fragility": self._curves_table,
@@ -181,11 +289,11 @@ class Typology(Shown):
         walls = [wall for wall in self.walls for _ in states]
         return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
-    def to_frame(self, table: str = "typology") -> Any:
+    def to_frame(self, table: _Table = "typology") -> Any:
         """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: str = "typology") -> None:
+    def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
         comments = [
@@ -228,8 +336,8 @@ class Typology(Shown):
             for table in self._tables():
                 part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
                 self.to_csv(part, table)
-        for table in ("histories", "history"):
-            remove_old(start.with_name(f"{start.name}_{table}.csv"), "# dondolo ")
+        for other in ("histories", "history"):
+            remove_old(start.with_name(f"{start.name}_{other}.csv"), "# dondolo ")
 
     def _run_file(self, gravity: float) -> RunFile:
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}

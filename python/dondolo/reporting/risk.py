@@ -20,7 +20,6 @@ _YEARS = 50.0
 def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str, Any], list[str]]:
     """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
     from dondolo.risk.frequency import mean_annual_frequency
-    from dondolo.risk.plots import plot_risk
 
     population = isinstance(results, Typology)
     if population:
@@ -69,9 +68,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         "years": f"{_YEARS:g}",
         "frequency": frequency,
         "is_sure": f"{low:.3g}" == f"{high:.3g}",
-        "figure": figure(
-            lambda: plot_risk(risk), f"Hazard, fragility and the intensities that the risk comes from: {frequency}."
-        ),
+        "figure": figure(risk.plot, f"Hazard, fragility and the intensities that the risk comes from: {frequency}."),
         "frequencies": Table.of(frequencies),
         "deaggregation": Table.of(deaggregation),
         "above": [number(bound, 3) for bound in risk.above],

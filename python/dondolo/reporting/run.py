@@ -124,9 +124,7 @@ def _of_files(stored: StoredResults) -> Run:
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]
     run.warnings = list(dict.fromkeys([*stored.run.warnings, *more]))
-    thresholds = stored.run.setting("stripes", "edp_thresholds", [])
-    if len(thresholds) > 1:
-        run.thresholds = [float(edp) for edp in thresholds]
+    run.thresholds = stored.edp_thresholds or run.thresholds
     return run
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -54,26 +53,24 @@ def summary(people: Typology) -> dict[str, Any]:
 
 def curves(people: Typology) -> dict[str, Any]:
     """Figures of the curves, and of the damage states with those that cross."""
-    from dondolo.populations.plots import plot_combination, plot_damage_states, plot_groups, plot_typology
-
     of_all = [curve for curve in people.groups if not curve.group]
     found: dict[str, Any] = dict.fromkeys(("combination", "groups", "states", "crossings"))
     if len(of_all) > 1:
         alt = "Mean fragility curve of each mechanism and of all together. " + _in_words(of_all)
-        found["combination"] = figure(lambda: plot_combination(people), alt)
+        found["combination"] = figure(people.plot_combination, alt)
     found["mechanisms"] = []
     for curve in sorted(of_all, key=lambda one: one.mechanism == "all"):
         name = mechanism_name(curve.mechanism)
         alt = f"Fragility curves of {counted(curve.walls, 'wall')}, {name}, their mean and fractiles. "
-        drawn = figure(partial(plot_typology, people, mechanism=curve.mechanism), alt + _in_words([curve]))
+        drawn = figure(people[curve.mechanism].plot, alt + _in_words([curve]))
         found["mechanisms"].append((name[0].upper() + name[1:], drawn))
     if grouped := [curve for curve in combined(people) if curve.group]:
         alt = "Mean fragility curve of each group beside that of the population. " + _in_words(grouped)
-        found["groups"] = figure(lambda: plot_groups(people), alt)
+        found["groups"] = figure(people.plot_groups, alt)
     if len(people.edp_thresholds) > 1:
         alt = "Probability to reach each damage state. "
         alt += _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
-        found["states"] = figure(lambda: plot_damage_states(people), alt)
+        found["states"] = figure(people.plot_damage_states, alt)
         found["crossings"] = _crossings(people)
     return found
 

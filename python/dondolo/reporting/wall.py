@@ -49,9 +49,6 @@ def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
 
 def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> dict[str, Any]:
     """Figures of the histories, the curve and the damage states."""
-    from dondolo.analysis.plots import plot_fragility, plot_stripes
-    from dondolo.populations.plots import plot_damage_states
-
     unit = blank_unit(stripes.im)
     counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
     levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
@@ -60,14 +57,12 @@ def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> d
         fit = f"median {curve.theta:.3g}{unit}, dispersion {curve.beta:.3g}"
     return {
         "stripes": figure(
-            lambda: plot_stripes(stripes),
+            stripes.plot,
             f"Largest rotation over capacity of every history at every level. Collapses: {levels}.",
         ),
-        "fragility": figure(
-            lambda: plot_fragility(curve, stripes), f"Fractions of collapse and fitted fragility curve: {fit}."
-        ),
+        "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {fit}."),
         "states": figure(
-            lambda: plot_damage_states(stripes, edp=thresholds),
+            lambda: stripes.plot_damage_states(edp=thresholds),
             f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
         )
         if len(thresholds) > 1
@@ -143,14 +138,11 @@ def motion_summary(motion: Response) -> dict[str, Any]:
 
 def motion(motion: Response) -> dict[str, Any]:
     """Figures of a motion."""
-    from dondolo.analysis.drawing import plot_wall
-    from dondolo.analysis.plots import plot_history
-
     outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
     alt = f"Ground acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s."
     return {
         "record": motion.record.name,
         "scale": f"{motion.scale:.4g}",
-        "history": None if motion.time is None else figure(lambda: plot_history(motion), alt),
-        "wall": figure(lambda: plot_wall(motion), f"The wall at its largest rotation: {outcome}."),
+        "history": None if motion.time is None else figure(motion.plot, alt),
+        "wall": figure(motion.plot_peak, f"The wall at its largest rotation: {outcome}."),
     }

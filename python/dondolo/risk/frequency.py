@@ -47,9 +47,9 @@ seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic h
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,9 +60,13 @@ from dondolo._fortran import _binding
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.errors import DondoloError, InputError
+from dondolo.figures.style import Panels
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
 from dondolo.risk.walls import WallFrequencies, wall_frequencies
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Curve = Fragility | MeanCurve | Callable[[Any], Any]
 
@@ -264,6 +268,24 @@ class Risk(Shown):
             curve_at = functools.partial(probability, self.fragility)
             parts, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
+
+    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+        """Draw the hazard, the fragility, and the intensities that the risk comes from.
+
+        Parameters
+        ----------
+        ax : three Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of three Axes
+            Annual frequency of exceedance, probability of collapse and share of the risk a unit of ln IM, against
+            intensity on a logarithmic axis.
+        """
+        from dondolo.risk.plots import draw_risk
+
+        return draw_risk(self, ax)
 
     def _facts(self) -> list[tuple[str, str]]:
         of = " of one wall" if self._of_function else ""

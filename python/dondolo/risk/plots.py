@@ -1,43 +1,25 @@
-"""Figures of risk: Matplotlib axes in, axes out."""
+"""Figure of a risk."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dondolo.figures import style
-from dondolo.risk.frequency import between, probability
+from dondolo.risk.frequency import Risk, between, probability
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from dondolo.risk.frequency import Risk
 
 # Points of a curve; enough for a smooth line
 _POINTS = 401
 
 
-def plot_risk(risk: Risk, axes: Sequence[Axes] | None = None) -> Any:
-    """Draw the hazard, the fragility, and which intensities the risk comes from.
-
-    Parameters
-    ----------
-    risk : Risk
-        Result of `mean_annual_frequency`.
-    axes : three Axes, optional
-        Where to draw; a new figure if left out.
-
-    Returns
-    -------
-    ndarray of three Axes
-        Annual frequency of exceedance, probability of collapse and share of the risk a unit of ln IM, against
-        intensity on a logarithmic axis.
-    """
-    if axes is None:
-        axes = style.new_axes(3, (6.0, 6.6), sharex=True, height_ratios=(2, 2, 2))
-    above, middle, below = axes
+def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
+    """Draw the hazard, the fragility, and the intensities that the risk comes from."""
+    axes = above, middle, below = style.panels(ax, 3, (6.0, 6.6), sharex=True, height_ratios=(2, 2, 2))
     hazard = risk.hazard
     ends = np.log(hazard.im_levels[[0, -1]])
     if hazard.endless:
@@ -65,7 +47,7 @@ def plot_risk(risk: Risk, axes: Sequence[Axes] | None = None) -> Any:
     below.set_xlim(grid[0], grid[-1])
     below.set_xlabel(style.im_label(hazard.im))
     _plain_ticks(below)
-    return np.asarray([above, middle, below])
+    return axes
 
 
 def _plain_ticks(ax: Axes) -> None:

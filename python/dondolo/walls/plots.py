@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, get_args
 
 import numpy as np
 
-from dondolo.errors import InputError
+from dondolo._base.arguments import one_of
 from dondolo.figures import style
+from dondolo.walls.population import Kind, Population
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-    from dondolo.walls.population import Population
 
 _COLOURS = (style.RED, style.BLUE, style.BLACK, style.GREY)
 _MARKERS = "osDv^<>P"
@@ -22,34 +21,10 @@ _SLENDERNESS = (5, 10, 20, 40)
 _BINS = 30
 
 
-def plot_population(population: Population, by: str = "mechanism", axes: Sequence[Axes] | None = None) -> Any:
-    """Draw the walls of a population: thickness against height above, trigger accelerations below.
-
-    Parameters
-    ----------
-    population : Population
-        The walls.
-    by : {'mechanism', 'group'}
-        What is told apart.
-    axes : two Axes, optional
-        Where to draw; a new figure if left out.
-
-    Returns
-    -------
-    ndarray of two Axes
-        Thickness against height [m], with lines of equal slenderness; and the weight of what begins to rock in an
-        interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
-
-    Raises
-    ------
-    InputError
-        There is nothing of that name to tell apart.
-    """
-    if by not in ("mechanism", "group"):
-        raise InputError(f"by = {by!r}: must be one of 'mechanism', 'group'")
-    if axes is None:
-        axes = style.new_axes(2, (6.4, 6.0), height_ratios=(3, 2))
-    above, below = axes
+def draw_population(population: Population, ax: Iterable[Axes] | None, by: Kind) -> style.Panels:
+    """Draw thickness against height above, trigger accelerations below."""
+    one_of("by", by, get_args(Kind))
+    axes = above, below = style.panels(ax, 2, (6.4, 6.0), height_ratios=(3, 2))
     keys = np.array(population.groups if by == "group" else [wall.mechanism for wall in population.walls])
     height = np.array([wall.height for wall in population.walls])
     thickness = np.array([wall.thickness for wall in population.walls])
@@ -100,4 +75,4 @@ def plot_population(population: Population, by: str = "mechanism", axes: Sequenc
     below.set_xlabel("trigger acceleration [g]")
     below.set_ylabel("weight")
     style.legend(below, loc="upper left", bbox_to_anchor=(1.09, 1.0))
-    return np.asarray([above, below])
+    return axes

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,10 +19,17 @@ from dondolo._base.shown import Shown, html_of
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo.errors import InputError
+from dondolo.figures.style import Panels
 from dondolo.walls.wall import Wall, wall_from, walls_table
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Name that Fortran gives a wall without one
 _UNNAMED = "wall"
+
+#: What distinguishes walls in a figure
+Kind = Literal["mechanism", "group"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -237,6 +244,31 @@ class Population(Shown):
 
     def _repr_html_(self) -> str:
         return html_of("Population", [*self._facts(), *self._ranges()])
+
+    def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism") -> Panels:
+        """Draw the walls: thickness against height above, trigger accelerations below.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+        by : {'mechanism', 'group'}
+            Property that distinguishes the walls.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Thickness against height [m], with lines of equal slenderness; and the weight of what begins to rock in an
+            interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
+
+        Raises
+        ------
+        InputError
+            No such property.
+        """
+        from dondolo.walls.plots import draw_population
+
+        return draw_population(self, ax, by)
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights.

@@ -6,15 +6,19 @@ import copy
 import dataclasses
 from collections.abc import Iterable, Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, one_of
+from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
+from dondolo.errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # What the package exports of the walls: a new mechanism is added here alone
 __all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
@@ -209,6 +213,35 @@ class Wall:
         """
         energy: FloatArray = _binding.wall_terms(upload((self,)), rotation)[5]
         return energy
+
+    def plot(self, ax: Axes | None = None, *, rotation: float | None = None) -> Axes:
+        """Draw the wall at rest (dashed) and rotated, with the hinges it rotates about.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        rotation : float, optional
+            Signed rotation, of the lower block for two-block walls [rad]; half the capacity if left out.
+
+        Returns
+        -------
+        Axes
+            Metres, to scale.
+
+        Raises
+        ------
+        InputError
+            A rotation that the wall cannot have.
+        """
+        from dondolo.walls.drawing import draw_wall
+
+        angle = 0.5 * self.capacity_angle if rotation is None else as_number("rotation", rotation)
+        if not self.two_sided and angle < 0.0:
+            raise InputError(f"rotation = {angle:g}: a one-sided wall rotates outwards only, it must not be negative")
+        # Asked for what it weighs there, a wall refuses rotations that it cannot have.
+        self.terms(abs(angle))
+        return draw_wall(self, angle, ax)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""

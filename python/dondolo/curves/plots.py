@@ -1,0 +1,82 @@
+"""Figure of a fragility curve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dondolo._base.arguments import tails
+from dondolo._fortran import _binding
+from dondolo.curves.fragility import Fragility
+from dondolo.figures import curves, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def draw_fragility(
+    fragility: Fragility, ax: Axes | None, level: float, label: str | None, color: str, linestyle: str, marker: str
+) -> Axes:
+    """Draw a curve with its confidence band, and the fractions of collapse with Clopper and Pearson's intervals."""
+    from scipy.stats import beta as beta_distribution
+
+    lower, upper = tails(level)
+    ax = style.axes(ax)
+    x, z, n = (np.asarray(part, dtype=float) for part in (fragility.levels, fragility.collapses, fragility.histories))
+    counted = n > 0.0
+    x, z, n = x[counted], z[counted], n[counted]
+    fraction = z / n
+    low = np.where(z > 0.0, beta_distribution.ppf(lower, z, n - z + 1.0), 0.0)
+    high = np.where(z < n, beta_distribution.ppf(upper, z + 1.0, n - z), 1.0)
+    # Counts are those of the walls that can collapse, the curve is that of all.
+    fraction, low, high = (fragility.saturation * part for part in (fraction, low, high))
+    ax.errorbar(
+        x,
+        fraction,
+        (fraction - low, high - fraction),
+        linestyle="none",
+        marker=marker,
+        markersize=4.5,
+        color=style.BLACK if label is None else color,
+        elinewidth=0.8,
+        capsize=2,
+        label=f"fractions, {100.0 * level:.4g} % intervals" if label is None else None,
+        zorder=3,
+    )
+    grid = curves.grid(x)
+    right = grid[-1]
+    if fragility.has_fit:
+        band = np.asarray(fragility.interval(grid, level=level))
+        text = f"{100.0 * level:.4g} % band" if label is None else None
+        ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
+        unit = f" {_binding.unit_of(fragility.im)}".rstrip()
+        text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
+        ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
+    else:
+        ax.axvspan(
+            fragility.bracket[0],
+            min(fragility.bracket[1], right),
+            color=style.LIGHT,
+            alpha=0.6,
+            linewidth=0.0,
+            label=f"median somewhere here ({fragility.status})",
+            zorder=0,
+        )
+    ax.set_xlim(0.0, right)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(fragility.im))
+    ax.set_ylabel("probability of collapse")
+    if fragility.wall is not None and label is None:
+        ax.set_title(fragility.wall.name, loc="left", parse_math=False)
+    style.legend(ax, loc="upper left" if label is None else "lower right")
+    return ax
+
+
+def parameters(fit: Fragility) -> str:
+    """Median and dispersion for a legend."""
+    if not fit.has_fit:
+        return f"no fit ({fit.status.replace('_', ' ')})"
+    unit = f" {_binding.unit_of(fit.im)}".rstrip()
+    times = f", times {fit.saturation:.2g}" if fit.saturation < 1.0 else ""
+    return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}{times}"

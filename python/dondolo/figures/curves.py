@@ -1,0 +1,55 @@
+"""What figures of fragility curves have in common: grid, looks of the lines, limits and legend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo.figures import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Points of a curve; enough for a smooth line
+POINTS = 301
+# What tells lines apart in grey
+LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
+_MARKERS = "osD^v<>"
+
+
+def grid(levels: ArrayLike) -> NDArray[np.float64]:
+    """Levels at which a curve is drawn."""
+    right = 1.05 * float(np.max(levels))
+    return np.linspace(right / POINTS, right, POINTS)
+
+
+def axes(ax: Axes | None, rows: int) -> Axes:
+    """The axes given, or those of a new figure with room for so many rows of a legend below."""
+    return style.axes(ax, (6.0, 3.8 + 0.19 * rows))
+
+
+def state_looks(thresholds: Sequence[float]) -> Iterator[tuple[float, dict[str, Any], dict[str, Any]]]:
+    """Each damage state, its line and its marks: the more severe, the darker and bolder."""
+    import matplotlib.pyplot as plt
+
+    count = len(thresholds)
+    colors = plt.get_cmap("viridis")(np.linspace(0.85, 0.0, count))
+    for i, (threshold, color) in enumerate(zip(sorted(thresholds), colors, strict=True)):
+        bold = 1.2 + 1.4 * (i + 1) / count
+        look = {"color": color, "linewidth": bold, "linestyle": LINES[(count - 1 - i) % len(LINES)]}
+        yield threshold, look, {"color": color, "linestyle": "none", "marker": _MARKERS[i % 7], "markersize": 4}
+
+
+def finish(ax: Axes, im: str, x: NDArray[np.float64], title: str, ylabel: str = "probability of collapse") -> Axes:
+    """Limits, labels, title and a legend below."""
+    ax.set_xlim(0.0, x[-1])
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(im))
+    ax.set_ylabel(ylabel)
+    ax.set_title(title, loc="left", parse_math=False)
+    longest = max(map(len, ax.get_legend_handles_labels()[1]))
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=1 if longest > 36 else 2)
+    return ax
