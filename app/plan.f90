@@ -66,8 +66,9 @@ contains
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
          & trim(list(case%stripes%levels))//case%stripes%scaling%unit_after_blank()
-      if (size(case%stripes%thresholds) > 1) &
-         & write (output_unit, '(a)') 'EDP thresholds:'//trim(list(case%stripes%thresholds))
+      if (size(case%stripes%thresholds) > 1) then
+         write (output_unit, '(a)') 'EDP thresholds:'//trim(list(case%stripes%thresholds))
+      end if
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
@@ -140,8 +141,9 @@ contains
          call print_head(name_width)
          do i = survey%first, min(survey%last, survey%first + shown_rows - 1)
             call reader%next(member, found, error)
-            if (.not. found .and. .not. allocated(error)) &
-               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (.not. found .and. .not. allocated(error)) then
+               call raise_failure(error, case%population_path()//': has changed while it was read')
+            end if
             if (allocated(error)) exit
             call print_row(member%wall, name_width)
          end do

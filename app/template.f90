@@ -123,8 +123,9 @@ contains
       end if
       comment = comment//trim(property%meaning)
       if (len_trim(property%unit) > 0) comment = comment//', '//trim(property%unit)
-      if (len_trim(property%zero) > 0 .and. index(property%meaning, '0:') == 0) &
-         & comment = comment//'; 0: '//trim(property%zero)
+      if (len_trim(property%zero) > 0 .and. index(property%meaning, '0:') == 0) then
+         comment = comment//'; 0: '//trim(property%zero)
+      end if
       if (len_trim(property%more) > 0) comment = comment//': '//trim(property%more)
       count = number_of_choices(property%choices)
       if (count > 0) comment = comment//': '//join(property%choices(:count))

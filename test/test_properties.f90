@@ -57,8 +57,9 @@ contains
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'N/m2', 'm/s2']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
-            if (property%required .or. property%optional) &
-               & call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
+            if (property%required .or. property%optional) then
+               call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
+            end if
             call check(property%smallest <= property%largest, what//': a range')
             if (number_of_choices(property%choices) > 0) call check(property%kind == is_text, what//': choices of a text')
             do m = 1, number_of_choices(property%owners)
@@ -103,8 +104,9 @@ contains
             call refuse(name, property, '''nonsense'', 1', 'must be')
             if (property%kind == is_logical) cycle
             if (property%positive) call refuse(name, property, '0', 'must be positive')
-            if (property%smallest > -no_limit .and. .not. property%positive) &
-               & call refuse(name, property, to_text(nint(property%smallest) - 1), 'must ')
+            if (property%smallest > -no_limit .and. .not. property%positive) then
+               call refuse(name, property, to_text(nint(property%smallest) - 1), 'must ')
+            end if
             if (property%largest < 1.0e9_wp) call refuse(name, property, to_text(nint(property%largest) + 1), 'must ')
          end associate
       end do
@@ -191,8 +193,9 @@ contains
       case (is_text)
          text = '''else'''
          if (property%name == 'im') text = '''pgv'''
-         if (number_of_choices(property%choices) > 0) &
-            & text = ''''//trim(property%choices(number_of_choices(property%choices)))//''''
+         if (number_of_choices(property%choices) > 0) then
+            text = ''''//trim(property%choices(number_of_choices(property%choices)))//''''
+         end if
       case (is_logical)
          text = '.true.'
       case (is_list)

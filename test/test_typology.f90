@@ -92,8 +92,9 @@ contains
       allocate (roster%row(4*size(walls)))
       do i = 1, size(walls)
          associate (wall => walls(i))
-            if (len(wall%group) > 0 .and. number_of_group(roster%groups, wall%group) == 0) &
-               & call roster%groups%add(wall%group)
+            if (len(wall%group) > 0 .and. number_of_group(roster%groups, wall%group) == 0) then
+               call roster%groups%add(wall%group)
+            end if
             do m = 1, size(wall%p_occ)
                roster%count = roster%count + 1
                roster%row(roster%count) = roster_row_type(m > 1, findloc(mechanism_names == wall%mechanism(m), .true., &
@@ -498,8 +499,9 @@ contains
          where (u > 0.9_wp) numbers = 1.0_wp
          where (u > 0.4_wp .and. u < 0.5_wp) weights = 0.0_wp
          weights(1) = 0.5_wp
-         if (any(abs(fractiles_of(numbers, weights) - sorted_fractiles(numbers, weights)) > 0.0_wp)) &
-            & wrong = wrong + 1
+         if (any(abs(fractiles_of(numbers, weights) - sorted_fractiles(numbers, weights)) > 0.0_wp)) then
+            wrong = wrong + 1
+         end if
       end do
       call check(wrong == 0, to_text(wrong)//' of 300 samples differ from sorting')
    end subroutine test_fractiles_by_sorting

@@ -52,11 +52,11 @@ module dondolo_handles
    !> Bits of a handle that number its slot
    integer, parameter :: slot_bits = 32
 
-   type(chunk_type), save, target :: chunk(chunks)
+   type(chunk_type), target :: chunk(chunks)
 
    !> Slots that are free, those used last at the end, and how many there are
-   integer, allocatable, save :: free_slots(:)
-   integer, save :: free_count = 0, slot_count = 0
+   integer, allocatable :: free_slots(:)
+   integer :: free_count = 0, slot_count = 0
 
 contains
 

@@ -103,8 +103,9 @@ contains
       end if
       level_size = self%measure%level_size(wall%gravity)
       if (self%name == 'pga/a0') level_size = wall%mechanism%trigger_acceleration()
-      if (self%name == 'p*pgv/a0') &
-         & level_size = wall%mechanism%trigger_acceleration()/wall%mechanism%frequency_parameter()
+      if (self%name == 'p*pgv/a0') then
+         level_size = wall%mechanism%trigger_acceleration()/wall%mechanism%frequency_parameter()
+      end if
       scale = 0.0_wp
       if (value > 0.0_wp) scale = level*level_size/value
       if (self%measure%power() == 2) scale = sqrt(scale)

@@ -158,8 +158,9 @@ contains
             before = levels(j)
          end if
          p(i) = below
-         if (j < size(levels) .and. x(i) > before) &
-            & p(i) = below + (fractions(j + 1) - below)*(x(i) - before)/(levels(j + 1) - before)
+         if (j < size(levels) .and. x(i) > before) then
+            p(i) = below + (fractions(j + 1) - below)*(x(i) - before)/(levels(j + 1) - before)
+         end if
       end do
    end function interpolated
 

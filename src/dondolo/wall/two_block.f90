@@ -151,8 +151,9 @@ contains
       real(wp), parameter :: right_angle = acos(0.0_wp)
 
       q = self%lower%alpha + right_angle
-      if (self%upper%radius < self%lower%radius) &
-         & q = self%lower%alpha + asin(self%upper%radius/self%lower%radius)
+      if (self%upper%radius < self%lower%radius) then
+         q = self%lower%alpha + asin(self%upper%radius/self%lower%radius)
+      end if
    end function geometric_end
 
    !> Rotation at which G - Q vanishes: alpha1, or less where an overburden pushes out before

@@ -202,8 +202,9 @@ contains
       if (allocated(error)) return
       group = namelist%group('solver')
       call check_limit(case%solver%solver, case%wall%mechanism, error)
-      if (.not. allocated(error)) &
-         & call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
+      if (.not. allocated(error)) then
+         call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
+      end if
       call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall

@@ -96,8 +96,9 @@ contains
             end if
             call survey%scales%look(plan, study%suite%records)
             call survey%oddities%look(member%wall)
-            if (reader%row >= rows(1) .and. reader%row <= rows(2)) &
-               & survey%histories = survey%histories + size(plan%scale)
+            if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
+               survey%histories = survey%histories + size(plan%scale)
+            end if
          end if
          call problems%take(error)
       end do

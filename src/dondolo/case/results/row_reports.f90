@@ -44,8 +44,9 @@ contains
          do i = 1, population%rows() + 1
             if (allocated(error)) exit
             call reader%next(member, found, error)
-            if (.not. allocated(error) .and. (found .neqv. i <= population%rows())) &
-               & call raise_failure(error, case%population_path()//': has changed while it was read')
+            if (.not. allocated(error) .and. (found .neqv. i <= population%rows())) then
+               call raise_failure(error, case%population_path()//': has changed while it was read')
+            end if
             if (allocated(error) .or. .not. found) exit
             row%histories = population%histories(i)
             row%reached = population%reached(:, :, i)

@@ -90,8 +90,9 @@ contains
       call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
       do i = 1, case%survey%rows
          if (.not. allocated(error)) call reader%next(member, found, error)
-         if (.not. allocated(error) .and. .not. found) &
-            & call raise_failure(error, case%population_path()//': has changed while it was read')
+         if (.not. allocated(error) .and. .not. found) then
+            call raise_failure(error, case%population_path()//': has changed while it was read')
+         end if
          if (allocated(error)) exit
          associate (curve => results%population%curve(size(case%stripes%thresholds), i))
             call fits%look(curve, member%wall%name())

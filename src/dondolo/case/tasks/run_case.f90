@@ -89,13 +89,15 @@ contains
          return
       end if
       call check_size(case%population_path(), case%survey%histories, error)
-      if (.not. allocated(error)) &
-         & call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      if (.not. allocated(error)) then
+         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      end if
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
          call reader%next(member, found, error)
-         if (.not. found .and. .not. allocated(error)) &
-            & call raise_failure(error, case%population_path()//': has changed while it was read')
+         if (.not. found .and. .not. allocated(error)) then
+            call raise_failure(error, case%population_path()//': has changed while it was read')
+         end if
          if (.not. allocated(error)) call plan_wall(member%wall)
       end do
       call reader%close()
