@@ -224,14 +224,15 @@ contains
       !> Position of its last character
       integer, intent(out) :: finish
 
-      character(len=1), parameter :: tab = achar(9)
+      integer, parameter :: blank = iachar(' '), tab = 9
 
-      ! Loops, for SCAN and VERIFY take several times longer on short words
+      ! Loops, for SCAN and VERIFY take several times longer on short words; and codes, for gfortran calls LEN_TRIM to
+      ! compare a character with a blank
       do first = at, last
-         if (self%text(first:first) /= ' ' .and. self%text(first:first) /= tab) exit
+         if (iachar(self%text(first:first)) /= blank .and. iachar(self%text(first:first)) /= tab) exit
       end do
       do finish = first, last - 1
-         if (self%text(finish + 1:finish + 1) == ' ' .or. self%text(finish + 1:finish + 1) == tab) exit
+         if (iachar(self%text(finish + 1:finish + 1)) == blank .or. iachar(self%text(finish + 1:finish + 1)) == tab) exit
       end do
    end subroutine next_word
 

@@ -416,13 +416,15 @@ contains
       integer, intent(out) :: cells
 
       integer :: at, begin, finish
+      logical :: by_blanks
 
+      by_blanks = separator == ' '
       first(1) = 1
       last(1) = 0
       cells = 0
       at = text%first(line)
       do while (cells < most_cells .and. at <= text%last(line))
-         if (separator == ' ') then
+         if (by_blanks) then
             call text%next_word(at, text%last(line), begin, finish)
             if (begin > text%last(line)) return
          else
