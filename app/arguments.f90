@@ -219,7 +219,7 @@ contains
       if (ok) then
          arguments%threads = number
       else
-         call raise_input(error, '--threads '//value//': must be a whole number between 0 (all) and '// &
+         call raise_input(error, '--threads '//value//': must be an integer between 0 (all) and '// &
             & to_text(largest_threads))
       end if
    end subroutine take_threads

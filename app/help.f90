@@ -14,7 +14,7 @@ module dondolo_help
       & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
       & '   dondolo --walls A:B CASE.nml run rows A to B of a population only, into a file of counts', &
       & '   dondolo --merge CASE.nml COUNTS ...', &
-      & '                                take such files together and write the result files', &
+      & '                                merge part files and write the result files', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
       & '   dondolo --version            print the version, and the build variant for this processor', &
@@ -32,7 +32,7 @@ module dondolo_help
       & '   &stripes      the intensity measure and its levels (tasks stripes and typology)', &
       & '   &solver       tolerances and the rotation that counts as collapse', &
       & '   &history      which record, and how strong (task history)', &
-      & 'Groups &stripes and &history may stand in any case: a task checks both and uses what it needs, so that', &
+      & 'Groups &stripes and &history are allowed in any case: a task checks both and uses what it needs, so that', &
       & 'one file serves to run the stripes of a wall and to look at one of its histories.', &
       & 'Paths in a case are relative to the case, those of the results to the current folder.', &
       & '', &

@@ -21,7 +21,7 @@ contains
       !> Task
       character(len=*), intent(in) :: task
 
-      call print_line('! A case of dondolo. What is not marked as required may be left out; its default stands here.')
+      call print_line('! A case of dondolo. What is not marked as required may be left out; its default is shown.')
       call print_line('! Lists of texts are what is allowed. An exclamation mark begins a comment.')
       call print_group('job', task)
       if (task == 'typology') then

@@ -447,9 +447,9 @@ refused "unknown option" '--fast: no such option; there are --check' --fast good
 refused "unknown short option" '-q: no such option' -q good.nml
 refused "two cases" 'people.nml: one case at a time, good.nml was given before' good.nml people.nml
 refused "threads without a number" '--threads: a number must follow' good.nml --threads
-refused "threads with a word" '--threads many: must be a whole number between 0 (all) and 1024' --threads many good.nml
-refused "negative threads" '--threads -1: must be a whole number' --threads -1 good.nml
-refused "empty threads" '--threads : must be a whole number' --threads= good.nml
+refused "threads with a word" '--threads many: must be an integer between 0 (all) and 1024' --threads many good.nml
+refused "negative threads" '--threads -1: must be an integer' --threads -1 good.nml
+refused "empty threads" '--threads : must be an integer' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
 refused "two actions" '--version: cannot go together with --check' --check --version
 refused "template with a case" '--template takes no case' good.nml --template
@@ -468,7 +468,7 @@ refused "a case of 1 MB" 'long.nml: has 1048583 bytes: must be at most 1048576' 
 rm long.nml
 head -c 3000 /dev/urandom >noise.nml
 check "noise: exit code" equal "$(run noise.nml; echo $rc)" 2
-refused "an accelerogram for a case" 'stands outside a group: must be &name ... /' records/r1.txt
+refused "an accelerogram for a case" 'is outside a group: must be &name ... /' records/r1.txt
 
 # --- wrong cases: what is changed (sed), what must be said ---------------------------------------------------------
 
@@ -538,11 +538,11 @@ s/one_sided'/one_sided' restitution_factor = 3/|bad.nml: &wall: restitution_fact
 s/task = 'stripes'/task = 'stripe'/|bad.nml: &job: task = 'stripe': must be one of 'history', 'stripes', 'typology'
 s/task = 'stripes'/task = ''/|bad.nml: &job: task = '': must be one of
 s/task = 'stripes'/task = 'typology'/|bad.nml: &population: must be given for task = 'typology'
-s/threads = 2/threads = 2.0/|bad.nml: &job: threads = 2.0: must be a whole number
-s/threads = 2/threads = '2'/|bad.nml: &job: threads = '2': must be a whole number without quotes
+s/threads = 2/threads = 2.0/|bad.nml: &job: threads = 2.0: must be an integer
+s/threads = 2/threads = '2'/|bad.nml: &job: threads = '2': must be an integer without quotes
 s/threads = 2/threads = -1/|bad.nml: &job: threads = -1: must lie between 0 (all) and 1024
 s/threads = 2/threads = 5000/|bad.nml: &job: threads = 5000: must lie between 0 (all) and 1024
-s/threads = 2/threads = 99999999999/|bad.nml: &job: threads = 99999999999: must be a whole number of at most 2147483647
+s/threads = 2/threads = 99999999999/|bad.nml: &job: threads = 99999999999: must be an integer of at most 2147483647
 s/output = .*/output = ''/|bad.nml: &job: output = '': must not be empty
 s/output = .*/output = 'out\/'/|bad.nml: &job: output = 'out/': must end in the beginning of a file's name
 s/output = .*/output = 'good.nml\/x'/|bad.nml: &job: output = 'good.nml/x': the folder good.nml/ cannot be made
@@ -550,7 +550,7 @@ s/output = .*/output = '\/proc\/x\/y'/|bad.nml: &job: output = '/proc/x/y': the 
 s/output = .*/output = '\/proc\/y'/|bad.nml: &job: output = '/proc/y': the file /proc/y_histories.csv.part cannot be written
 s/'It''s a wall'/'It's a wall'/|bad.nml: line 4: the quote before
 s/name = 'wall, one'/name = 'wall, one/|bad.nml: line 9: the quote before 'wall, one' is not closed on its line
-s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: paths and other texts must stand in quotes
+s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: quote paths and other strings
 s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'records/none.csv': there is no file records/none.csv
 s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
 s/'records.records.csv'/'records\\records.csv'/|bad.nml: &records: catalogue = 'records\records.csv': there is no file records\records.csv (paths are relative to the case); folders must be separated by /, not \
@@ -598,16 +598,16 @@ s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8)
 8,13d|bad.nml: &wall: must be given for task = 'stripes' (line 3)
 14,17d|bad.nml: &records: catalogue: must be given
 18,22d|bad.nml: &stripes: levels: must be given
-13d|bad.nml: &wall: not closed: a / must stand before &records in line 13
-$d|bad.nml: &solver: not closed: a / must stand at its end
-s/^! a wall/a wall/|bad.nml: line 1: a stands outside a group: must be &name ... /
+13d|bad.nml: &wall: not closed: a / is missing before &records in line 13
+$d|bad.nml: &solver: not closed: a / is missing at its end
+s/^! a wall/a wall/|bad.nml: line 1: a is outside a group: must be &name ... /
 s/^&wall/\& wall/|bad.nml: line 8: an & without the name of a group
 s/^   threads = 2/   2 = threads/|bad.nml: &job: output (line 5): a second = follows it
 s/^   threads = 2/   ,, threads = 2/|bad.nml: &job: output (line 5): a value is missing before a comma
 s/^(&stripes)/\&history record = 5 \/\n\1/|bad.nml: &history: record = 5: must lie between 1 and 4, the number of records
 s/^(&stripes)/\&history record = 0 \/\n\1/|bad.nml: &history: record = 0: must lie between 1 and 4
 s/^(&stripes)/\&history record = 'r9' \/\n\1/|bad.nml: &history: record = 'r9': no such record; there are 'r1', 'r2', 'r3', 'r4'
-s/^(&stripes)/\&history record = 1.5 \/\n\1/|bad.nml: &history: record = 1.5: must be a whole number
+s/^(&stripes)/\&history record = 1.5 \/\n\1/|bad.nml: &history: record = 1.5: must be an integer
 s/^(&stripes)/\&history scale = 1, im_level = 2 \/\n\1/|bad.nml: &history: im_level: give either scale or im_level
 s/^(&stripes)/\&history scale = -1 \/\n\1/|bad.nml: &history: scale = -1: must be positive
 s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: must be positive
@@ -617,9 +617,9 @@ TABLE
 
 # Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029
 for bytes in '\x1b' '\xc2\x85' '\xe2\x80\xa8' '\xe2\x80\xa9'; do
-   bad "s/wall, one/a${bytes}b/" "must stand on one line, without control characters"
-   bad "s/It''s a wall/a${bytes}b/" "must stand on one line, without control characters"
-   bad "s/out.deep.wall/a${bytes}b/" "must stand on one line, without control characters"
+   bad "s/wall, one/a${bytes}b/" "must be one line without control characters"
+   bad "s/It''s a wall/a${bytes}b/" "must be one line without control characters"
+   bad "s/out.deep.wall/a${bytes}b/" "must be one line without control characters"
 done
 
 # Output that would replace or hide what is there
@@ -645,11 +645,11 @@ catalogue "no column file" 'name,dt_s,units\nr1.txt,0.01,g\n' "records/bad.csv: 
 catalogue "no records" 'file,dt_s,units\n' 'records/bad.csv: no records'
 catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/bad.csv: line 2: dt_s = '0,01': must be a number"
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
-catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' stands there twice"
+catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' is a duplicate"
 catalogue "a name of two lines" 'file,dt_s,units,name\nr1.txt,0.01,g,"a\n# collapsed: 1"\n' \
-   "records/bad.csv: line 2: name = 'a # collapsed: 1': must stand on one line, without control characters"
+   "records/bad.csv: line 2: name = 'a # collapsed: 1': must be one line without control characters"
 catalogue "a name with a line separator" 'file,dt_s,units,name\nr1.txt,0.01,g,a\0342\0200\0250b\n' \
-   "records/bad.csv: line 2: name = 'a   b': must stand on one line"
+   "records/bad.csv: line 2: name = 'a   b': must be one line"
 printf '1\n2\nx\n' >records/broken.txt
 catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
 rm records/broken.txt records/bad.csv
@@ -684,7 +684,7 @@ check "population: everything wrong at once" equal "$(cut -c 1-40 stderr | tr '\
    "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;dondolo: walls.csv: line 5: thickness = ;"
 check "population: everything wrong at once: exit code" equal "$rc" 2
 people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1\n" \
-   "walls.csv: line 2: name = 'a [2Jb': must stand on one line, without control characters"
+   "walls.csv: line 2: name = 'a [2Jb': must be one line without control characters"
 awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3"; for (i = 1; i <= 100000; i++) print "w" i ",one_sided,3,0.3" }' \
    >walls.csv
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
@@ -760,9 +760,9 @@ done
 refused "--walls behind the end" '--walls 7:9: the population has 2 rows' --walls 7:9 people.nml
 refused "--merge without files" '--merge: the files of counts must follow the case' --merge people.nml
 refused "--merge with --walls" '--walls: cannot go together with --merge' --walls 1:2 --merge people.nml x
-refused "--merge: a row is missing" '--merge: row 1 of 2 stands in none of the files' --merge people.nml out/people_walls_2-2.counts
-refused "--merge: the case itself" 'people.nml: is no file of counts of dondolo' --merge people.nml people.nml
-refused "--merge: a folder" 'records: is no file of counts of dondolo' --merge people.nml records
+refused "--merge: a row is missing" '--merge: row 1 of 2 is missing from the files' --merge people.nml out/people_walls_2-2.counts
+refused "--merge: the case itself" 'people.nml: not a dondolo counts file' --merge people.nml people.nml
+refused "--merge: a folder" 'records: not a dondolo counts file' --merge people.nml records
 refused "--merge: a pipe" 'pipe: no such file, or nothing in it' --merge people.nml pipe
 refused "--merge: nothing" 'none: no such file, or nothing in it' --merge people.nml none
 rm -rf out walls.csv pipe

@@ -88,7 +88,7 @@ contains
       call check(.not. group%has_text('whole'), 'a number is no text')
       call check(group%has_text('text'), 'a text is one')
       call group%get_integer('number', whole, error)
-      call check_error(error, scratch//'/a.nml: &job: number = -1.5D-3: must be a whole number', &
+      call check_error(error, scratch//'/a.nml: &job: number = -1.5D-3: must be an integer', &
          & 'an integer from a real')
       call check(error%stat == status_input, 'wrong input')
       call group%get_text('number', text, error)
@@ -107,9 +107,9 @@ contains
 
       call suite('grammar')
       call check_refused('&a x = 1', '&a: not closed')
-      call check_refused('&a x = 1 &b y = 2 /', '&a: not closed: a / must stand before &b')
-      call check_refused('&a x = 1 / y = 2', 'y stands outside a group')
-      call check_refused('/', '/ stands outside a group')
+      call check_refused('&a x = 1 &b y = 2 /', '&a: not closed: a / is missing before &b')
+      call check_refused('&a x = 1 / y = 2', 'y is outside a group')
+      call check_refused('/', '/ is outside a group')
       call check_refused('&a x = 1,,2 /', 'x (line 1): a value is missing before a comma')
       call check_refused('&a x = , 1 /', 'a value is missing before a comma')
       call check_refused('&a x = /', 'x (line 1): no value follows its =')

@@ -177,7 +177,7 @@ contains
       call read_record(file, record, error, units='m/s2', channel='2')
       call check_close(record%pga(), 2.0_wp, 0.0_wp, 'a name goes before a number')
       call read_record(file, record, error, units='m/s2', channel='2 (2)')
-      call check_close(record%pga(), 5.0_wp, 0.0_wp, 'a name that stands there twice gets its number')
+      call check_close(record%pga(), 5.0_wp, 0.0_wp, 'a name that is a duplicate gets its number')
       call write_file(scratch//'/three.txt', 'a,b (N/S)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
       call check_error(error, 'units = ''N/S'': must be one of', 'brackets that hold no units')

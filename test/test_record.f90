@@ -232,7 +232,7 @@ contains
          & 'commas need decimal points)')
       call check_csv('a,,b,'//lf, ': line 1: column 2 has no name')
       call check_csv('a,b,'//lf//'1,2,3'//lf, ': line 2: cell 3 = ''3'': its column has no name')
-      call check_csv('# x'//lf//'a,b,A'//lf, ': line 2: column ''A'' stands there twice')
+      call check_csv('# x'//lf//'a,b,A'//lf, ': line 2: column ''A'' is a duplicate')
       call check_csv('', ': the file is empty')
       call check_csv('# only a remark'//lf, ': no header')
    end subroutine test_csv_errors
@@ -696,9 +696,9 @@ contains
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,,g'//lf, 'a.txt: the file does not state its time step')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,'//lf, 'a.txt: the file does not state its units')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,g'//lf//'sub/a.txt,.01,g'//lf, &
-         & 'bad.csv: line 3: record ''sub/a.txt'' stands there twice')
+         & 'bad.csv: line 3: record ''sub/a.txt'' is a duplicate')
       call check_catalogue('file,dt_s,units,name'//lf//'sub/a.txt,.01,g,x'//lf//'b.txt,,g,x'//lf, &
-         & 'bad.csv: line 3: record ''x'' stands there twice')
+         & 'bad.csv: line 3: record ''x'' is a duplicate')
       call write_file('folder/a.txt', '1'//lf//'2'//lf)
       call write_file('folder/a.NS', '1'//lf//'2'//lf)
       call write_file('folder/names.csv', 'file,dt_s,units,name'//lf//'sub/a.txt,.01,g,'//lf//'a.txt,.01,g,'//lf// &

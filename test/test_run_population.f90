@@ -120,8 +120,8 @@ contains
       call check_error(error, 'line 3: name = ''wall 2'': another wall has this name (line 2)', &
          & 'a wall without a name is no mechanism of the one before')
       if (allocated(error)) then
-         call check(index(error%message, 'line 4: name = ''a [1m'': must stand on one line') > 0, 'a control character')
-         call check(index(error%message, 'line 5: group = ''c d'': must stand on one line') > 0, 'a line end in a group')
+         call check(index(error%message, 'line 4: name = ''a [1m'': must be one line') > 0, 'a control character')
+         call check(index(error%message, 'line 5: group = ''c d'': must be one line') > 0, 'a line end in a group')
       end if
       call write_file('walls.csv', 'name,mechanism,height,thickness'//lf//',one_sided,3,0.25'//lf// &
          & 'wall 1,two_block,3,0.25'//lf)
@@ -395,10 +395,10 @@ contains
       call file%close()
       call write_file('out/rows.counts', 'name,mechanism,height,thickness'//lf)
       call look_into_store(file, path, exists, error)
-      call check_error(error, 'is no file of counts of dondolo', 'a short file of something else')
+      call check_error(error, 'not a dondolo counts file', 'a short file of something else')
       call write_file('out/rows.counts', repeat('name,mechanism,height,thickness'//lf, 9))
       call look_into_store(file, path, exists, error)
-      call check_error(error, 'is no file of counts of dondolo', 'a long one')
+      call check_error(error, 'not a dondolo counts file', 'a long one')
       call write_file('out/rows.counts', 'dondolo counts 1'//repeat(' ', 112))
       call look_into_store(file, path, exists, error)
       call check_error(error, 'rows.counts: was written by another version of dondolo', 'another format')
@@ -709,11 +709,11 @@ contains
       call some%add(paths%line(3)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)
-      call check_error(error, '--merge: row 2 of 7 stands in none of the files', 'a part missing')
+      call check_error(error, '--merge: row 2 of 7 is missing from the files', 'a part missing')
       call some%add(paths%line(2)%text)
       call some%add(paths%line(1)%text)
       call merge_anew(case, some, error)
-      call check_error(error, 'z_walls_6-7.counts: row 6 stands in another file too', 'a part twice')
+      call check_error(error, 'z_walls_6-7.counts: row 6 also occurs in another file', 'a part twice')
       call make_part(case, scratch//'/out/z_walls_2-5.counts', 2, 5, [2])
       call merge_anew(case, paths, error)
       call check_error(error, 'z_walls_2-5.counts: has 2 of 4 rows: run it again', 'a part not complete')

@@ -88,7 +88,7 @@ def _parser() -> argparse.ArgumentParser:
         help="write the curves of a run for OpenQuake",
         description="Write the fragility curves of a run, read from its CSV files, as a fragility model of OpenQuake, "
         "NRML 0.5: of a population the mean curves, one function a group and mechanism, with its damage states; of a "
-        "wall its curve. Where a mean curve had to be raised is told on stderr.",
+        "wall its curve. Where a mean curve had to be raised is reported on stderr.",
     )
     nrml.add_argument("prefix", help="what the names of the result files begin with, for example out/population")
     nrml.add_argument("-o", "--output", help="the file; PREFIX_fragility.xml if left out", metavar="FILE")

@@ -213,12 +213,12 @@ def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
         assert "\n" not in str(caught.value)
 
     path.write_text("height,thickness\n" * 1000)
-    refused(r"study\.counts: is no file of counts of dondolo, or its head is damaged")
+    refused(r"study\.counts: not a dondolo counts file, or its header is corrupt")
     path.write_bytes(b"dondolo counts 2" + bytes(1000))
     refused("was written by another version of dondolo")
     content = finished.read_bytes()
     path.write_bytes(content[:100] + b"x" + content[101:])
-    refused("is no file of counts of dondolo, or its head is damaged")
+    refused("not a dondolo counts file, or its header is corrupt")
     for wrong in (3, "", "a\0b", b"a"):
         with pytest.raises(dd.InputError, match=r"checkpoint = .*: must be the path of a file"):
             dd.typology(**study.arguments(checkpoint=wrong))
@@ -326,7 +326,7 @@ def test_blocks_change_nothing(whole, tmp_path):
     for block in (1, 59, 1000):
         assert of(dd.typology(**study.arguments(block=block)), tmp_path / str(block)) == whole
     for wrong in (0, 1.5, True):
-        with pytest.raises(dd.InputError, match=r"block = .*: must be a whole number, at least 1"):
+        with pytest.raises(dd.InputError, match=r"block = .*: must be an integer, at least 1"):
             dd.typology(**study.arguments(block=wrong))
 
 

@@ -150,7 +150,7 @@ def damaged(executable, root, tmp_path_factory):
         ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "no JSON: .*line"),
         ("history", "run.json", r'"impacts": ', '"impacts": 1.5, "i": ', "impacts = 1.5: must be of type int"),
         ("history", "run.json", r'^  "history": {$', '"none": {', "no 'history'"),
-        ("parapet", "run.json", r"dondolo run 1", "dondolo run 0", "no file of a run: format must be 'dondolo run 1'"),
+        ("parapet", "run.json", r"dondolo run 1", "dondolo run 0", "not a run file: format must be 'dondolo run 1'"),
         (
             "parapet",
             "run.json",
@@ -191,7 +191,7 @@ def test_a_cell_is_no_comment(people, tmp_path):
     # As a file of an earlier version may have it
     forged = path.read_text().replace('"b, with a comma"', "\"b\n# &job task = 'history'\"")
     path.write_text(forged)
-    with pytest.raises(dd.InputError, match=r"city_walls\.csv: line \d+: name: must stand on one line"):
+    with pytest.raises(dd.InputError, match=r"city_walls\.csv: line \d+: name: must be one line"):
         dd.read_results(tmp_path / "city")
 
 
@@ -230,7 +230,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
         lambda: dd.Population([wall], groups=[name]),
         lambda: dd.Population([wall], origin=[name]),
     ):
-        with pytest.raises(dd.InputError, match="must stand on one line, without control characters"):
+        with pytest.raises(dd.InputError, match="must be one line without control characters"):
             make()
     # What a table says is refused as well, and the name that a file gives its record is made plain.
     (tmp_path / "record.txt").write_text("0\n1\n0\n")
@@ -240,7 +240,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
     ):
         (tmp_path / table).write_bytes(f"{header}\n{row}\n".encode())
         read = dd.read_catalogue if table == "records.csv" else dd.read_population
-        refusal = "is UTF-16, or no text" if character == "\0" else "name = .*: must stand on one line"
+        refusal = "is UTF-16, or no text" if character == "\0" else "name = .*: must be one line"
         with pytest.raises(dd.InputError, match=f"{table}: line 2: {refusal}"):
             read(tmp_path / table)
     if character != "\0":

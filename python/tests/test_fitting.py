@@ -402,9 +402,9 @@ def test_one_record_cannot_be_drawn_from():
 
 @pytest.mark.parametrize("seed", [-1, "lucky", 1.5])
 def test_wrong_seeds(stripes, seed):
-    with pytest.raises(dd.InputError, match=r"seed = .*: must be a whole number, at least 0, a Generator or None"):
+    with pytest.raises(dd.InputError, match=r"seed = .*: must be an integer, at least 0, a Generator or None"):
         stripes.fit().bootstrap(5, seed=seed)
-    with pytest.raises(dd.InputError, match=r"n = 0: must be a whole number, at least 1"):
+    with pytest.raises(dd.InputError, match=r"n = 0: must be an integer, at least 1"):
         stripes.fit().bootstrap(0)
 
 

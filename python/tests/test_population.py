@@ -117,13 +117,13 @@ def test_shown():
         ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         (
             {"groups": ["x", "x", "a\nb", ""]},
-            "wall 'b, \"the\" #2': group: must stand on one line, without control characters",
+            "wall 'b, \"the\" #2': group: must be one line without control characters",
         ),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
         ({"groups": 5}, "groups = 5: must be a name for each wall"),
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
-        ({"origin": ["two\nlines"]}, "origin: must stand on one line, without control characters"),
+        ({"origin": ["two\nlines"]}, "origin: must be one line without control characters"),
         ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],
 )
@@ -146,7 +146,7 @@ def test_no_walls(walls, sentence):
 @pytest.mark.parametrize(
     ("order", "sentence"),
     [
-        ([0, 2, 1], "name = 'a': another wall has this name; mechanisms of one wall must stand one after the other"),
+        ([0, 2, 1], "name = 'a': another wall has this name; mechanisms of one wall must be on consecutive rows"),
         ([0, 0], "name = 'a': another wall of this name has the same mechanism"),
         ([0, 1, 0], "name = 'a': another wall of this name has the same mechanism"),
     ],

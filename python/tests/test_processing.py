@@ -38,7 +38,7 @@ def test_history_is_kept():
     assert own.processing[-1] == "doubled"
     assert own.dt == done.dt
     assert dd.Record([0.0, 1.0], 0.1, processing="one step").processing == ("one step",)
-    with pytest.raises(dd.InputError, match="processing: must stand on one line"):
+    with pytest.raises(dd.InputError, match="processing: must be one line"):
         dd.Record([0.0, 1.0], 0.1, processing=["one\ntwo"])
 
 
@@ -83,7 +83,7 @@ def test_velocity_is_that_of_the_chords():
     [
         ({"kind": "cubic"}, "kind = 'cubic': must be one of"),
         ({"kind": "linear", "order": 2}, "order = 2: only with kind 'velocity'"),
-        ({"kind": "velocity", "order": 0}, "order = 0: must be a whole number, between 1 and 8"),
+        ({"kind": "velocity", "order": 0}, "order = 0: must be an integer, between 1 and 8"),
     ],
 )
 def test_baseline_errors(arguments, words):
@@ -165,7 +165,7 @@ def test_taper_is_half_a_cosine(part):
         ((5.0, 1.0), "low = 5, high = 1 Hz: must increase"),
         ((None, None), "one of them must be given"),
         ((0.001, 20.0), "low = 0.001 Hz: its period must not exceed ten times"),
-        ((0.5, 20.0, {"order": 0}), "order = 0: must be a whole number, between 1 and 10"),
+        ((0.5, 20.0, {"order": 0}), "order = 0: must be an integer, between 1 and 10"),
         ((0.5, 20.0, {"taper": 0.6}), "taper = 0.6: must lie between 0 and 0.5"),
         (("a", 20.0), "low = 'a': must be a number"),
         ((0.5, 20.0, {"keep_padding": "no"}), "keep_padding = 'no': must be True or False"),
@@ -212,7 +212,7 @@ def test_polyphase_resampling():
     ("dt", "words"),
     [
         (0.0, "dt = 0 s: must be positive"),
-        (np.pi / 300.0, "ratio to the record's 0.01 s must be one of whole numbers"),
+        (np.pi / 300.0, "ratio to the record's 0.01 s must be a ratio of integers"),
         (30.0, "must not exceed the duration"),
         (1e-9, "must not be less than a thousandth of the record's 0.01 s"),
         (0.0095e-3, "must not be less than a thousandth of the record's 0.01 s"),

@@ -297,7 +297,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
         ({"polarity": "both"}, "polarity = 'both': must be one of"),
         ({"solver": dd.Solver(edp_limit=50.0)}, "edp_limit = 50"),
         ({"tolerance": 0.0}, "tolerance = 0: must lie between"),
-        ({"threads": 1.5}, "threads = 1.5: must be a whole number, between 0 and 1024"),
+        ({"threads": 1.5}, "threads = 1.5: must be an integer, between 0 and 1024"),
         ({"solver": dd.Solver(engine="magic")}, "engine = 'magic'"),
         ({"pulse": lambda amplitude, frequency: 3.0}, "pulse: must return a Record, not float"),
         ({"pulse": lambda amplitude, frequency: dd.Record([0.0, 0.0], 1.0)}, "pulse: is zero at 0.5 Hz"),

@@ -389,7 +389,7 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     for title, sentence in (
         (5, "title = 5: must be a text"),
         ("a\udc80b", r"title = 'a\\udc80b': must be a text"),
-        ("a\0b", "title: must stand on one line"),
+        ("a\0b", "title: must be one line"),
     ):
         with pytest.raises(dd.InputError, match=sentence):
             dd.report(stripes, path, title=title)

@@ -559,7 +559,7 @@ def test_published_hazard(content, warned, tmp_path):
         ("poe (%),investigation_time,pga\n81,50,0.05\n", "poe must be a probability between 0 and 1"),
         ("poe,investigation_time,pga\n0.8,0,0.05\n0.1,0,0.2\n", "investigation_time = 0: must be positive"),
         ("poe,TR,pga\n0.1,475,0.05\n", "one column must be .* there is return_period, poe"),
-        ("TR,return_period,pga\n30,30,0.05\n", "return_period stands there twice"),
+        ("TR,return_period,pga\n30,30,0.05\n", "return_period is a duplicate"),
         ("TR,pga,pgv\n30,0.05,0.05\n", "one column must be the levels of a measure, .* there is 'pga', 'pgv'"),
         ("TR,F0\n30,2.4\n", "one column must be the levels of a measure, .* there is none"),
         ("pga,remark\n0.1,2\n", "column 'remark': must be an intensity measure, ag, annual_frequency"),

@@ -196,9 +196,9 @@ def test_errors(mixed):
         ({"over": "stones"}, "over = 'stones': must name 'records', 'walls' or both"),
         ({"over": ()}, r"over = \(\): must name"),
         ({"over": 3}, "over = 3: must name"),
-        ({"seed": "a"}, "seed = 'a': must be a whole number"),
+        ({"seed": "a"}, "seed = 'a': must be an integer"),
         ({"events": ["a"] * 9}, "events: two at least are needed"),
-        ({"n": 0}, "n = 0: must be a whole number, at least 1"),
+        ({"n": 0}, "n = 0: must be an integer, at least 1"),
         ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
         ({"mechanism": "arch"}, "mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"),
     ):

@@ -33,7 +33,7 @@ def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
     allowed = f"at least {least}" if most is None else f"between {least} and {most}"
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):
-        raise InputError(f"{name} = {value!r}: must be a whole number, {allowed}")
+        raise InputError(f"{name} = {value!r}: must be an integer, {allowed}")
     return int(value)
 
 
@@ -82,7 +82,7 @@ def as_text(name: str, value: Any) -> bytes:
     if not isinstance(value, str):
         raise InputError(f"{name} = {value!r}: must be a text")
     if not value.isprintable() and any(unicodedata.category(character) in _UNPRINTED for character in value):
-        raise InputError(f"{name}: must stand on one line, without control characters")
+        raise InputError(f"{name}: must be one line without control characters")
     try:
         return value.encode()
     except UnicodeEncodeError:
@@ -108,7 +108,7 @@ def as_generator(seed: Any) -> np.random.Generator:
     try:
         return np.random.default_rng(seed)
     except (TypeError, ValueError):
-        raise InputError(f"seed = {seed!r}: must be a whole number, at least 0, a Generator or None") from None
+        raise InputError(f"seed = {seed!r}: must be an integer, at least 0, a Generator or None") from None
 
 
 def as_levels(x: ArrayLike) -> FloatArray:

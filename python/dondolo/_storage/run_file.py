@@ -129,7 +129,7 @@ def read_run_file(path: str) -> RunFile:
     except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: no JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise InputError(f"{path}: no file of a run: format must be '{FORMAT}'")
+        raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")
     try:
         work, history = _member(content, "work", dict, {}), _member(content, "history", dict, {})
         return RunFile(

@@ -116,5 +116,5 @@ class ResultFile:
         wrong = (values < least) | (values > np.iinfo(np.int32).max) | (values != np.floor(values))
         if wrong.any():
             i = int(np.argmax(wrong))
-            raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: must be a whole number, at least {least}")
+            raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: must be an integer, at least {least}")
         return values.astype(np.int32)

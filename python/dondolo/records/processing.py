@@ -121,7 +121,7 @@ def resample(record: Motion, dt: float) -> tuple[FloatArray, str, float]:
     up, down = part.numerator, part.denominator
     if not 0 < up <= _LARGEST_FACTOR or abs(ratio - up / down) > SAME_STEP * ratio:
         raise InputError(
-            f"dt = {step:g} s: its ratio to the record's {record.dt:g} s must be one of whole numbers up to "
+            f"dt = {step:g} s: its ratio to the record's {record.dt:g} s must be a ratio of integers up to "
             f"{_LARGEST_FACTOR}"
         )
     filtered = signal.resample_poly(values, up, down, padtype="line")

@@ -47,7 +47,7 @@ def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray,
             unused.append(title)
         elif name in (*_FREQUENCIES, "investigation_time"):
             if name in columns:
-                raise InputError(f"column {title!r}: {name} stands there twice")
+                raise InputError(f"column {title!r}: {name} is a duplicate")
             if unit and (name not in ("return_period", "investigation_time") or unit not in _YEARS):
                 raise InputError(f"column {title!r}: {name} must be {_unit_of(name)}")
             columns[name] = column

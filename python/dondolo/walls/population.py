@@ -388,8 +388,7 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
             continue
         if walls[i - 1].name != wall.name:
             raise InputError(
-                f"name = {wall.name!r}: another wall has this name; "
-                "mechanisms of one wall must stand one after the other"
+                f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows"
             )
         if wall.mechanism in (other.mechanism for other in walls[one:i]):
             raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")

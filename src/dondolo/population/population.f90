@@ -327,7 +327,7 @@ contains
          end if
          if (line > 0) then
             call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
-               & '); mechanisms of one wall must stand one after the other')
+               & '); mechanisms of one wall must be on consecutive rows')
             return
          end if
          self%wall = member

@@ -112,7 +112,7 @@ contains
          & status='old', iostat=stat)
       if (stat /= 0) then
          store%unit = 0
-         call raise_input(error, path//': is no file of counts of dondolo, or cannot be read')
+         call raise_input(error, path//': not a dondolo counts file, or unreadable')
          return
       end if
       if (.not. is_cut_head(store%unit, store%size)) then

@@ -130,7 +130,7 @@ contains
          end if
       end if
       if (bytes == 0) then
-         call raise_input(error, path//': is no file of counts of dondolo, or its head is damaged')
+         call raise_input(error, path//': not a dondolo counts file, or its header is corrupt')
          return
       end if
       identity%shape%keeps_histories = keeps == 1

@@ -136,7 +136,7 @@ contains
       call find_first(records, first)
       do row = 1, size(records)
          if (first(row) == row) cycle
-         call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' stands there twice')
+         call raise_input(error, places%line(row)%text//': record '''//records(row)%name//''' is a duplicate')
          return
       end do
    end subroutine name_records

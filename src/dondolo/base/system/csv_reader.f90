@@ -247,7 +247,7 @@ contains
    !> Take the row that was read as the names of the columns
    subroutine take_header(self, error)
       type(csv_reader_type), intent(inout) :: self
-      !> A name is empty or stands there twice
+      !> A name is empty or is a duplicate
       type(error_type), allocatable, intent(out) :: error
 
       type(name_index_type) :: names
@@ -265,7 +265,7 @@ contains
             end if
             call names%note(lower(row(i)%text), i, before)
             if (before > 0) then
-               call raise_input(error, self%place()//': column '''//row(i)%text//''' stands there twice')
+               call raise_input(error, self%place()//': column '''//row(i)%text//''' is a duplicate')
                return
             end if
          end do

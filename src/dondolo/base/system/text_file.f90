@@ -61,7 +61,7 @@ contains
       if (allocated(error)) return
       if (bytes >= int(huge(stat), int64)) then
          close (unit)
-         call raise_input(error, file//': larger than 2 GiB or no file')
+         call raise_input(error, file//': larger than 2 GiB, or not a regular file')
          return
       end if
       if (present(longest)) then
@@ -124,7 +124,7 @@ contains
       if (bytes >= 0) return
       close (unit)
       unit = 0
-      call raise_input(error, file//': larger than 2 GiB or no file')
+      call raise_input(error, file//': larger than 2 GiB, or not a regular file')
    end subroutine open_text
 
    !> Find the lines of a text

@@ -12,7 +12,7 @@ module dondolo_text
    public :: plain, must_be_plain, blanks
 
    !> What is said of a name that is not plain
-   character(len=*), parameter :: must_be_plain = 'must stand on one line, without control characters'
+   character(len=*), parameter :: must_be_plain = 'must be one line without control characters'
 
    !> Blank and tab
    character(len=*), parameter :: blanks = ' '//achar(9)

@@ -113,7 +113,7 @@ contains
       type(text_file_type), intent(in) :: text
       type(token_type), intent(in) :: tokens(:)
       type(namelist_type), intent(inout) :: namelist
-      !> Text outside groups, a group that is not closed or stands there twice
+      !> Text outside groups, a group that is not closed or is a duplicate
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: next
@@ -126,7 +126,7 @@ contains
       do while (tokens(at)%kind /= end_of_file)
          if (tokens(at)%kind /= group_begin) then
             call raise_input(error, text%place(tokens(at)%line)//': '//tokens(at)%typed// &
-               & ' stands outside a group: must be &name ... /')
+               & ' is outside a group: must be &name ... /')
             return
          end if
          next%file = text%file
@@ -172,11 +172,11 @@ contains
             group%variables = group%variables(:count)
             return
          case (group_begin)
-            call raise_input(error, group%place()//': not closed: a / must stand before '//tokens(at)%typed// &
+            call raise_input(error, group%place()//': not closed: a / is missing before '//tokens(at)%typed// &
                & ' in line '//to_text(tokens(at)%line))
             return
          case (end_of_file)
-            call raise_input(error, group%place()//': not closed: a / must stand at its end'//group%in_line(''))
+            call raise_input(error, group%place()//': not closed: a / is missing at its end'//group%in_line(''))
             return
          case (word)
             call take_variable(tokens, at, group, variable, error)

@@ -343,11 +343,11 @@ contains
       if (ok .and. .not. found%quoted) then
          value = number
       else if (ok) then
-         call self%refuse(name, 'must be a whole number without quotes', error)
+         call self%refuse(name, 'must be an integer without quotes', error)
       else if (verify(found%text, figures//'+-') == 0) then
-         call self%refuse(name, 'must be a whole number of at most '//to_text(huge(number)), error)
+         call self%refuse(name, 'must be an integer of at most '//to_text(huge(number)), error)
       else
-         call self%refuse(name, 'must be a whole number', error)
+         call self%refuse(name, 'must be an integer', error)
       end if
    end subroutine get_integer
 

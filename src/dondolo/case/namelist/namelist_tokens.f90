@@ -121,7 +121,7 @@ contains
          at = at + 1
          if (at <= len(line)) then
             if (index(blanks//'!&', line(at:at)) == 0) then
-               call raise_input(error, 'text right after a /: paths and other texts must stand in quotes')
+               call raise_input(error, 'text right after a /: quote paths and other strings')
                return
             end if
          end if

@@ -86,7 +86,7 @@ contains
          j = minloc(first, dim=1, mask=is_left)
          if (first(j) > done + 1) exit
          if (first(j) <= done) then
-            call raise_input(error, stores(j)%path//': row '//to_text(first(j))//' stands in another file too')
+            call raise_input(error, stores(j)%path//': row '//to_text(first(j))//' also occurs in another file')
             return
          end if
          is_left(j) = .false.
@@ -96,7 +96,7 @@ contains
       end do
       if (done < case%survey%rows) then
          call raise_input(error, '--merge: row '//to_text(done + 1)//' of '//to_text(case%survey%rows)// &
-            & ' stands in none of the files')
+            & ' is missing from the files')
          return
       end if
       call combine_rows(case, results, error)
