@@ -91,9 +91,7 @@ contains
 
    !> Run the work once, and keep what can be compared
    subroutine find_fingerprint(case, walls, fingerprint, error)
-      !> The work
       type(case_type), intent(in), target :: case
-      !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> What it gives
       type(outcome_type), intent(out) :: fingerprint
@@ -124,9 +122,7 @@ contains
 
    !> Time that the work takes, several times over
    subroutine measure(case, walls, copies, threads, seconds, error)
-      !> The work
       type(case_type), intent(in), target :: case
-      !> Its walls
       type(member_type), intent(in) :: walls(:)
       !> How many times over
       integer, intent(in) :: copies
@@ -183,7 +179,6 @@ contains
 
    !> Print what is measured, and of what
    subroutine print_head(case, walls, fingerprint, copies)
-      !> The work
       type(case_type), intent(in) :: case
       !> Number of its walls
       integer, intent(in) :: walls

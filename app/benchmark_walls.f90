@@ -65,7 +65,6 @@ contains
 
    !> The same walls several times over
    function repeat_walls(members, times) result(longer)
-      !> The walls
       type(member_type), intent(in) :: members(:)
       !> How many times they come
       integer, intent(in) :: times
@@ -80,9 +79,7 @@ contains
    !> Multiplications and additions of a step of the engine lanes, counted in its source (lane_step.inc); comparisons,
    !> events, and the search for the start of rocking are not counted
    integer function operations_per_step(case, wall)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The wall
       type(wall_type), intent(in) :: wall
 
       !> Of each degree of the polynomials a and b with four derivatives, and of all the rest

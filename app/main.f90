@@ -100,9 +100,7 @@ contains
 
    !> Write the reports, unless the run was one part of a population, and print the results at a glance
    subroutine finish_run(case, results, seconds, threads, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> Time of the computation [s]
       real(wp), intent(in) :: seconds
@@ -140,7 +138,6 @@ contains
    subroutine print_lines(kind, lines)
       !> What they are
       character(len=*), intent(in) :: kind
-      !> The lines
       type(lines_type), intent(in) :: lines
 
       integer :: i

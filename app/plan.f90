@@ -32,7 +32,6 @@ contains
 
    !> Print what would run
    subroutine print_plan(case, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
@@ -86,7 +85,6 @@ contains
       type(wall_warning_type), intent(in) :: oddities
       !> The records that would be run
       type(record_type), intent(in) :: records(:)
-      !> The case
       type(case_type), intent(in) :: case
       !> What there is to say of scale factors
       type(scale_warning_type), intent(in) :: scales
@@ -107,7 +105,6 @@ contains
 
    !> Print the one wall and its static quantities
    subroutine print_wall(wall)
-      !> The wall
       type(wall_type), intent(in) :: wall
 
       integer :: width
@@ -120,7 +117,6 @@ contains
 
    !> Print the first rows of the population
    subroutine print_population(case, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> The population has changed
       type(error_type), allocatable, intent(out) :: error
@@ -166,7 +162,6 @@ contains
 
    !> Print a wall and its static quantities
    subroutine print_row(wall, width)
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> Width of the column of names
       integer, intent(in) :: width
@@ -202,7 +197,6 @@ contains
 
    !> Print the records
    subroutine print_records(case)
-      !> The case
       type(case_type), intent(in) :: case
 
       type(lines_type) :: table

@@ -21,9 +21,7 @@ contains
 
    !> Print the results at a glance
    subroutine print_summary(case, results, paths, seconds, threads)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
       !> The files that were written
       type(lines_type), intent(in) :: paths
@@ -64,9 +62,7 @@ contains
 
    !> Print how much was computed, how fast, and how much of it took no work
    subroutine print_work(case, results, seconds, threads)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
       !> Time of the computation [s]
       real(wp), intent(in) :: seconds
@@ -114,9 +110,7 @@ contains
 
    !> Print the response of a time history
    subroutine print_history(case, results)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
 
       associate (response => results%response, record => case%suite%records(case%history%record))
@@ -143,9 +137,7 @@ contains
 
    !> Print the stripes of the one wall
    subroutine print_stripes(case, results)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
 
       character(len=:), allocatable :: head
@@ -181,9 +173,7 @@ contains
 
    !> Print a curve, or why there is none
    subroutine print_fit(case, curve)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The curve
       type(fragility_type), intent(in) :: curve
 
       if (curve%has_fit()) then
@@ -198,9 +188,7 @@ contains
 
    !> Levels at which 16, 50 and 84 % collapse
    pure function fractiles(case, curve, saturation) result(text)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The curve
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
@@ -223,9 +211,7 @@ contains
 
    !> Print the curves of a population
    subroutine print_curves(case, results)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
 
       character(len=30) :: name
@@ -256,9 +242,7 @@ contains
 
    !> Print the curves of the population: the fits, and the mean curve of all walls
    subroutine print_typology(case, results)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
 
       character(len=:), allocatable :: head, who
@@ -310,7 +294,6 @@ contains
 
    !> Make the head of a column of levels: the measure and its unit
    pure subroutine make_head(case, head)
-      !> The case
       type(case_type), intent(in) :: case
       !> Head, at least as wide as a number
       character(len=:), allocatable, intent(out) :: head

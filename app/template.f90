@@ -65,7 +65,6 @@ contains
 
    !> Does a property belong to a task, or to walls?
    logical function suits(property, task)
-      !> Property
       type(property_type), intent(in) :: property
       !> Task
       character(len=*), intent(in) :: task
@@ -75,7 +74,6 @@ contains
 
    !> A property and its value; behind an exclamation mark where it is not for the wall or the task as it stands
    subroutine make_assignment(property, task, text)
-      !> Property
       type(property_type), intent(in) :: property
       !> Task
       character(len=*), intent(in) :: task
@@ -102,7 +100,6 @@ contains
 
    !> What is said of a property
    subroutine make_comment(property, comment)
-      !> Property
       type(property_type), intent(in) :: property
       !> Required or not, owners, meaning, unit, choices, and the default where the template shows another value
       character(len=:), allocatable, intent(out) :: comment

@@ -137,6 +137,16 @@ def test_python_rooms(root):
     assert seen == set(rooms)
 
 
+def test_rooms_are_documented(root):
+    """The map of the sources names every room."""
+    page = (root / "docs/architecture.md").read_text()
+    folders = [path for path in root.glob("src/dondolo/*") if path.is_dir()]
+    folders += [path for path in root.glob("src/dondolo/*/*") if path.is_dir()]
+    folders += [path for path in root.glob("python/dondolo/*") if path.is_dir() and not path.name.startswith("__")]
+    assert len(folders) > 25
+    assert [path.name for path in folders if f"`{path.name}`" not in page] == []
+
+
 def test_types(root):
     """Every annotation holds: mypy in its strict mode."""
     pytest.importorskip("mypy", reason="mypy is not installed")

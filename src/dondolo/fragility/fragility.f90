@@ -54,7 +54,6 @@ contains
 
    !> Fit a lognormal fragility curve
    subroutine fit_fragility(fragility, levels, collapses, histories, error)
-      !> The curve
       type(fragility_type), intent(out) :: fragility
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
@@ -261,7 +260,6 @@ contains
 
    !> The levels between which collapse becomes more likely than survival
    pure subroutine set_bracket(fragility, levels, z, n)
-      !> The curve
       type(fragility_type), intent(inout) :: fragility
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
@@ -320,7 +318,6 @@ contains
 
    !> Is there a curve?
    elemental function has_fit(self)
-      !> The curve
       class(fragility_type), intent(in) :: self
       !> True if theta, beta and what follows from them have values
       logical :: has_fit
@@ -330,7 +327,6 @@ contains
 
    !> Standard error of ln theta
    elemental function se_ln_theta(self) result(se)
-      !> The curve
       class(fragility_type), intent(in) :: self
       !> Its standard error
       real(wp) :: se
@@ -340,7 +336,6 @@ contains
 
    !> Standard error of beta
    elemental function se_beta(self) result(se)
-      !> The curve
       class(fragility_type), intent(in) :: self
       !> Its standard error
       real(wp) :: se

@@ -44,7 +44,6 @@ contains
 
    !> Make a scaling of its name
    subroutine new_scaling(scaling, typed, error)
-      !> The scaling
       type(scaling_type), intent(out) :: scaling
       !> One of scaling_names, with numbers for the periods; upper and lower case are the same
       character(len=*), intent(in) :: typed
@@ -84,13 +83,11 @@ contains
 
    !> Factor that scales a record to a level
    pure function factor(self, level, value, wall) result(scale)
-      !> The scaling
       class(scaling_type), intent(in) :: self
       !> Level, in its unit
       real(wp), intent(in) :: level
       !> Value of the measure for the record as it stands
       real(wp), intent(in) :: value
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> The factor; 0 for a record without motion
       real(wp) :: scale
@@ -113,7 +110,6 @@ contains
 
    !> Does the factor depend on the wall, beyond its gravity?
    pure logical function needs_wall(self)
-      !> The scaling
       class(scaling_type), intent(in) :: self
 
       needs_wall = any(wall_names == self%name)
@@ -121,7 +117,6 @@ contains
 
    !> Length of the unit
    pure integer function unit_length(self)
-      !> The scaling
       class(scaling_type), intent(in) :: self
 
       unit_length = 0
@@ -130,7 +125,6 @@ contains
 
    !> Unit of the levels
    pure function unit(self)
-      !> The scaling
       class(scaling_type), intent(in) :: self
       !> Unit; empty for a number
       character(len=unit_length(self)) :: unit
@@ -140,7 +134,6 @@ contains
 
    !> The unit as it follows a number or a name
    pure function unit_after_blank(self) result(text)
-      !> The scaling
       class(scaling_type), intent(in) :: self
       !> A blank and the unit; empty where there is none
       character(len=unit_length(self) + min(unit_length(self), 1)) :: text
@@ -150,7 +143,6 @@ contains
 
    !> What it is, in words filled up with blanks
    pure function words_of(self) result(words)
-      !> The scaling
       class(scaling_type), intent(in) :: self
       !> Words
       character(len=100) :: words
@@ -167,7 +159,6 @@ contains
 
    !> What it is, in words
    pure function title(self)
-      !> The scaling
       class(scaling_type), intent(in) :: self
       !> Words
       character(len=len_trim(words_of(self))) :: title

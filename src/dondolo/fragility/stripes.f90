@@ -47,9 +47,7 @@ contains
 
    !> Run a multiple stripe analysis of one wall
    subroutine multiple_stripe(stripes, wall, study, error, progress)
-      !> Result
       type(stripes_type), intent(out) :: stripes
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
@@ -66,7 +64,6 @@ contains
    subroutine plan_stripes(stripes, wall, study, error)
       !> Result; the responses have room but no values
       type(stripes_type), intent(out) :: stripes
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
@@ -96,9 +93,7 @@ contains
 
    !> What can be told of a plan's work before it is run: histories, sample intervals, and which histories never move
    pure function planned_work(stripes, wall, study) result(work)
-      !> The plan
       type(stripes_type), intent(in) :: stripes
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
@@ -129,7 +124,6 @@ contains
    subroutine run_histories(stripes, wall, study, threads, first, last, progress)
       !> The plan; the responses of these histories are set
       type(stripes_type), intent(inout) :: stripes
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
@@ -159,7 +153,6 @@ contains
    subroutine run_part(ensemble, wall, study, threads, range, progress)
       !> The histories and their responses
       type(ensemble_type), intent(out) :: ensemble
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
@@ -188,7 +181,6 @@ contains
    pure integer function histories_of(study, wall) result(histories)
       !> What the wall is tried with
       type(study_type), intent(in) :: study
-      !> The wall
       type(wall_type), intent(in) :: wall
 
       histories = size(study%suite%records)
@@ -199,7 +191,6 @@ contains
    pure logical function runs_twice(study, wall)
       !> What the wall is tried with
       type(study_type), intent(in) :: study
-      !> The wall
       type(wall_type), intent(in) :: wall
 
       runs_twice = study%polarity == 'both' .and. .not. wall%mechanism%two_sided
@@ -209,7 +200,6 @@ contains
    pure subroutine choose_polarities(study, wall, record, polarity)
       !> What the wall is tried with
       type(study_type), intent(in) :: study
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> Record of each history of a stripe
       integer, allocatable, intent(out) :: record(:)
@@ -228,7 +218,6 @@ contains
 
    !> Collapses in each stripe
    pure function collapses(self) result(counts)
-      !> Stripes
       class(stripes_type), intent(in) :: self
       !> Number of collapses at each level
       integer :: counts(size(self%levels))
@@ -242,7 +231,6 @@ contains
 
    !> Histories that reach a threshold in each stripe
    pure function exceedances(self, threshold) result(counts)
-      !> Stripes
       class(stripes_type), intent(in) :: self
       !> Threshold, rotation / capacity, at most the limit
       real(wp), intent(in) :: threshold

@@ -53,9 +53,7 @@ contains
 
    !> Make a study, with collapse as its only damage state
    subroutine new_study(study, suite, scaling, levels, polarity, solver, threads)
-      !> The study
       type(study_type), intent(out) :: study
-      !> The accelerograms
       type(suite_type), intent(in), target :: suite
       !> What they are scaled by
       type(scaling_type), intent(in) :: scaling
@@ -80,9 +78,7 @@ contains
 
    !> Check what does not depend on the records: levels, polarity, and whether the solver can follow the wall
    subroutine check(self, wall, error)
-      !> The study
       class(study_type), intent(in) :: self
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
@@ -100,9 +96,7 @@ contains
 
    !> Factor that scales a record to a level for a wall
    pure real(wp) function scale_to(self, wall, record, level) result(scale)
-      !> The study
       class(study_type), intent(in) :: self
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> Number of the record
       integer, intent(in) :: record
@@ -114,9 +108,7 @@ contains
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(self, wall, error)
-      !> The study
       class(study_type), intent(in) :: self
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> The first that is, at the highest level
       type(error_type), allocatable, intent(out) :: error

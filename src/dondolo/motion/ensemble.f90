@@ -38,9 +38,7 @@ contains
    subroutine run_ensemble(ensemble, mechanism, suite, solver, threads, progress)
       !> The histories: records and factors are given, results and counts set
       type(ensemble_type), intent(inout) :: ensemble
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Accelerograms
       type(suite_type), intent(in) :: suite
       !> Engine, tolerances and limit; whether errors are to be estimated
       type(solver_type), intent(in) :: solver
@@ -65,9 +63,7 @@ contains
    subroutine run_queue(queue, mechanism, suite, solver, threads, work)
       !> The histories, and their results
       type(queue_type), intent(inout) :: queue
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Accelerograms
       type(suite_type), intent(in) :: suite
       !> Engine, tolerances and limit
       type(solver_type), intent(in) :: solver
@@ -129,9 +125,7 @@ contains
 
    !> Check that an engine can compute a mechanism
    subroutine check_engine(solver, mechanism, error)
-      !> Settings
       type(solver_type), intent(in) :: solver
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The engine lanes was asked for, and cannot; or a build variant that there is not
       type(error_type), allocatable, intent(out) :: error

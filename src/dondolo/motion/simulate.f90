@@ -22,15 +22,12 @@ contains
 
    !> The motion of a wall, at rest at the start
    subroutine simulate(mechanism, record, scale, solver, response, trace)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
       real(wp), intent(in) :: scale
       !> Engine ('lanes' only without a trace), tolerances and limit; whether the error of the EDP is to be estimated
       type(solver_type), intent(in) :: solver
-      !> Result
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
@@ -57,9 +54,7 @@ contains
 
    !> Check that an engine can compute one history
    subroutine check_history(solver, mechanism, with_trace, error)
-      !> Settings
       type(solver_type), intent(in) :: solver
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Is its time history wanted?
       logical, intent(in) :: with_trace

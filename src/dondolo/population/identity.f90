@@ -45,7 +45,6 @@ contains
       integer, intent(in) :: first
       !> Last row that is to be run
       integer, intent(in) :: last
-      !> The identity
       type(identity_type), intent(out) :: identity
 
       associate (key => identity%key)
@@ -68,9 +67,7 @@ contains
 
    !> Add the settings of the computation that change results
    subroutine add_solver(key, solver)
-      !> The identity
       type(study_key_type), intent(inout) :: key
-      !> The settings
       type(solver_type), intent(in) :: solver
 
       type(group_settings_type) :: settings
@@ -92,7 +89,6 @@ contains
 
    !> Fingerprint of accelerograms
    pure function records_fingerprint(suite) result(text)
-      !> The accelerograms
       type(suite_type), intent(in) :: suite
       !> Fingerprint
       character(len=16) :: text

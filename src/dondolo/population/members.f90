@@ -58,9 +58,7 @@ contains
 
    !> The members of a curve; those of no weight are left out
    subroutine choose_members(members, population, mechanism, group)
-      !> The members
       type(members_type), intent(out) :: members
-      !> The population
       type(population_counts_type), intent(in) :: population
       !> One of mechanism_names; any other name, such as 'all': the walls as a whole
       character(len=*), intent(in) :: mechanism
@@ -88,7 +86,6 @@ contains
 
    !> Weighted mean of the probabilities
    pure function mean(self, p)
-      !> The members
       class(members_type), intent(in) :: self
       !> Probabilities of the population (x, columns)
       real(wp), intent(in) :: p(:, :)
@@ -109,7 +106,6 @@ contains
 
    !> Weighted fractiles of the probabilities
    pure function fractiles(self, p, shares)
-      !> The members
       class(members_type), intent(in) :: self
       !> Probabilities of the population (x, columns)
       real(wp), intent(in) :: p(:, :)

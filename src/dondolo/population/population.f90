@@ -126,7 +126,6 @@ contains
 
    !> Open a population
    subroutine open_population(self, file, error, gravity, is_checked)
-      !> The reader
       class(population_reader_type), intent(inout) :: self
       !> Path of the table
       character(len=*), intent(in) :: file
@@ -160,7 +159,6 @@ contains
 
       !> Columns of numbers, 0 where the table has none of the name
       function number_columns(properties) result(columns)
-         !> Properties
          type(property_type), intent(in) :: properties(:)
          !> Their columns
          integer, allocatable :: columns(:)
@@ -173,9 +171,7 @@ contains
 
    !> Read the next row; after an error the rows behind it can be read
    subroutine next(self, member, found, error)
-      !> The reader
       class(population_reader_type), intent(inout) :: self
-      !> The row
       type(member_type), intent(out) :: member
       !> Was there a row, right or wrong?
       logical, intent(out) :: found
@@ -218,7 +214,6 @@ contains
 
    !> Pass over rows
    subroutine skip(self, rows, error)
-      !> The reader
       class(population_reader_type), intent(inout) :: self
       !> Number of rows
       integer, intent(in) :: rows
@@ -352,7 +347,6 @@ contains
 
    !> Close it before its end is reached
    subroutine close_population(self)
-      !> The reader
       class(population_reader_type), intent(inout) :: self
 
       call self%table%close()

@@ -55,7 +55,6 @@ contains
    subroutine new_population_counts(population, roster, levels, states, error)
       !> The population, with no histories
       type(population_counts_type), intent(out) :: population
-      !> Its rows
       type(roster_type), intent(in) :: roster
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
@@ -84,7 +83,6 @@ contains
 
    !> Number of rows
    pure integer function rows(self)
-      !> The population
       class(population_counts_type), intent(in) :: self
 
       rows = size(self%histories)
@@ -92,7 +90,6 @@ contains
 
    !> Number of walls
    pure integer function walls(self)
-      !> The population
       class(population_counts_type), intent(in) :: self
 
       walls = size(self%first) - 1
@@ -128,7 +125,6 @@ contains
 
    !> Fit the curves of a wall
    subroutine fit_wall(self, number, state, error)
-      !> The population
       class(population_counts_type), intent(inout) :: self
       !> Number of the wall
       integer, intent(in) :: number

@@ -53,9 +53,7 @@ contains
 
    !> Take a wall into the sums of a group
    subroutine sum_wall(group, wall, levels, p)
-      !> The group
       type(group_type), intent(inout) :: group
-      !> The wall
       type(wall_curves_type), intent(in) :: wall
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
@@ -82,7 +80,6 @@ contains
 
    !> Take a wall or one of its mechanisms into the sums of a curve
    pure subroutine sum_row(sums, weight, occurrence, fraction, p, histories, fit)
-      !> The sums
       type(sums_type), intent(inout) :: sums
       !> Its weight, positive
       real(wp), intent(in) :: weight
@@ -94,7 +91,6 @@ contains
       real(wp), intent(in) :: p(:)
       !> Its histories of a stripe
       integer, intent(in) :: histories
-      !> Its lognormal
       type(fragility_type), intent(in) :: fit
 
       real(wp) :: part, distance
@@ -117,7 +113,6 @@ contains
 
    !> Has a group a curve of all mechanisms, beside that of its only one?
    pure logical function has_all(self)
-      !> The group
       class(group_type), intent(in) :: self
 
       has_all = size(self%mechanism) > 1 .or. self%uncertain
@@ -146,7 +141,6 @@ contains
 
    !> Add a mechanism to a group
    subroutine add_mechanism(group, name, levels)
-      !> The group
       type(group_type), intent(inout) :: group
       !> Name of the mechanism
       character(len=*), intent(in) :: name
@@ -165,7 +159,6 @@ contains
 
    !> Sums of nothing
    pure subroutine begin_sums(sums, name, levels)
-      !> The sums
       type(sums_type), intent(out) :: sums
       !> Name of the mechanism
       character(len=*), intent(in) :: name

@@ -42,9 +42,7 @@ contains
 
    !> Add a row that was read
    subroutine add(self, member)
-      !> The rows
       class(roster_type), intent(inout) :: self
-      !> The new one
       type(member_type), intent(in) :: member
 
       type(roster_row_type), allocatable :: more(:)
@@ -64,7 +62,6 @@ contains
 
    !> First row of each wall, and behind them the number of rows + 1
    pure function first_rows(self) result(first)
-      !> The rows
       class(roster_type), intent(in) :: self
       !> Rows
       integer, allocatable :: first(:)

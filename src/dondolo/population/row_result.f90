@@ -105,7 +105,6 @@ contains
 
    !> Histories that reach each state
    pure function reached(self, shape)
-      !> The row
       class(row_result_type), intent(in) :: self
       !> How many levels and states there are
       type(shape_type), intent(in) :: shape
@@ -128,7 +127,6 @@ contains
 
    !> A row as bytes: what was computed, flags, and of the histories that are kept edp, time of the peak and impacts
    pure subroutine pack_row(row, bytes)
-      !> The row
       type(row_result_type), intent(in) :: row
       !> Bytes, as many as bytes_of_row says
       character(len=*), intent(out) :: bytes

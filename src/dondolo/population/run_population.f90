@@ -62,11 +62,9 @@ contains
 
    !> Read the next rows that a store lacks
    subroutine read_block(reader, table, store, most, members, numbers, error)
-      !> The table
       type(population_reader_type), intent(inout) :: reader
       !> Its path
       character(len=*), intent(in) :: table
-      !> The store
       type(store_type), intent(in) :: store
       !> How many at most
       integer, intent(in) :: most

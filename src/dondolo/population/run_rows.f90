@@ -24,7 +24,6 @@ contains
    subroutine run_rows(study, members, rows, error, done, total, progress)
       !> What their walls are tried with
       type(study_type), intent(in) :: study
-      !> The rows
       type(member_type), intent(in) :: members(:)
       !> What came of them; their numbers in the population are not set
       type(row_result_type), allocatable, intent(out) :: rows(:)
@@ -88,7 +87,6 @@ contains
    subroutine run_row(study, wall, row, error, threads)
       !> What its wall is tried with
       type(study_type), intent(in) :: study
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> What came of it
       type(row_result_type), intent(out) :: row

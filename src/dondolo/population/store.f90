@@ -61,7 +61,6 @@ contains
 
    !> Open a store, with what an earlier run has left in it; nothing is written
    subroutine open_store(store, path, identity, error)
-      !> The store
       type(store_type), intent(out) :: store
       !> Path of its file, which need not be there; empty: in memory
       character(len=*), intent(in) :: path
@@ -92,7 +91,6 @@ contains
 
    !> Look into a file: what it is for, and which rows it has
    subroutine look_into_store(store, path, exists, error)
-      !> The store
       type(store_type), intent(out) :: store
       !> Path of its file
       character(len=*), intent(in) :: path
@@ -128,7 +126,6 @@ contains
 
    !> Make room for the places of all rows, none of which is there
    subroutine make_room(store, error)
-      !> The store
       type(store_type), intent(inout) :: store
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
@@ -162,9 +159,7 @@ contains
 
    !> Note a row that stands at the end of the file
    subroutine note_row(store, row, bytes)
-      !> The store
       type(store_type), intent(inout) :: store
-      !> The row
       type(row_result_type), intent(in) :: row
       !> Its length
       integer(int64), intent(in) :: bytes
@@ -177,7 +172,6 @@ contains
 
    !> Is a row there?
    pure logical function has(self, row)
-      !> The store
       class(store_type), intent(in) :: self
       !> Number of the row
       integer, intent(in) :: row
@@ -187,7 +181,6 @@ contains
 
    !> Are all rows there?
    pure logical function is_complete(self)
-      !> The store
       class(store_type), intent(in) :: self
 
       is_complete = self%done == size(self%place)
@@ -195,7 +188,6 @@ contains
 
    !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off
    subroutine claim(self, error)
-      !> The store
       class(store_type), intent(inout) :: self
       !> The file cannot be written, or another run is writing it
       type(error_type), allocatable, intent(out) :: error
@@ -243,7 +235,6 @@ contains
    subroutine put(self, rows, error)
       !> The store, claimed
       class(store_type), intent(inout) :: self
-      !> The rows
       type(row_result_type), intent(in) :: rows(:)
       !> They cannot be written whole, or another run writes the file too
       type(error_type), allocatable, intent(out) :: error
@@ -307,11 +298,9 @@ contains
 
    !> Read a row
    subroutine read_row(self, number, row, error)
-      !> The store
       class(store_type), intent(inout) :: self
       !> Number of the row, which is there
       integer, intent(in) :: number
-      !> The row
       type(row_result_type), intent(out) :: row
       !> The file has changed
       type(error_type), allocatable, intent(out) :: error
@@ -337,7 +326,6 @@ contains
 
    !> End putting in and reading; a store that has all rows gets them in their order
    subroutine close_store(self)
-      !> The store
       class(store_type), intent(inout) :: self
 
       logical :: ok
@@ -395,7 +383,6 @@ contains
 
    !> Remove it
    subroutine remove(self)
-      !> The store
       class(store_type), intent(inout) :: self
 
       call self%close()

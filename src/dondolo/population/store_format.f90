@@ -155,7 +155,6 @@ contains
 
    !> A row as it stands in a file
    subroutine pack_entry(row, entry)
-      !> The row
       type(row_result_type), intent(in) :: row
       !> Its bytes, as many as bytes_of_entry says
       character(len=*), intent(out) :: entry
@@ -174,7 +173,6 @@ contains
       integer(int64), intent(in) :: place
       !> How many numbers there are of a row
       type(shape_type), intent(in) :: shape
-      !> The row
       type(row_result_type), intent(out) :: row
       !> Its length in the file; 0: there is none, or not all of it
       integer(int64), intent(out) :: bytes

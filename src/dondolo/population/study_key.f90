@@ -32,7 +32,6 @@ contains
 
    !> Add a setting
    subroutine add(self, name, value)
-      !> The identity
       class(study_key_type), intent(inout) :: self
       !> Name of the setting
       character(len=*), intent(in) :: name
@@ -44,7 +43,6 @@ contains
 
    !> Value of a setting
    pure subroutine get(self, name, value)
-      !> The identity
       class(study_key_type), intent(in) :: self
       !> Name of the setting
       character(len=*), intent(in) :: name
@@ -64,7 +62,6 @@ contains
 
    !> Give a setting another value
    subroutine replace(self, name, value)
-      !> The identity
       class(study_key_type), intent(inout) :: self
       !> Name of the setting, which is there
       character(len=*), intent(in) :: name

@@ -128,7 +128,6 @@ contains
 
    !> Which of the curves is that of the whole population, all mechanisms together
    pure integer function whole_population(typologies)
-      !> The curves
       type(typology_type), intent(in) :: typologies(:)
 
       do whole_population = 1, size(typologies) - 1
@@ -171,7 +170,6 @@ contains
       type(typology_type), intent(out) :: curve
       !> Name of the group
       character(len=*), intent(in) :: group
-      !> The sums
       type(sums_type), intent(in) :: sums
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)

@@ -73,7 +73,6 @@ contains
 
    !> Can the wall do anything but collapse by one mechanism?
    pure logical function is_mixed(self)
-      !> The wall
       class(wall_curves_type), intent(in) :: self
 
       is_mixed = size(self%p_occ) > 1 .or. any(self%p_occ < 1.0_wp)
@@ -81,7 +80,6 @@ contains
 
    !> Probability that any mechanism can occur: what the probability of collapse tends to
    pure real(wp) function occurrence(self)
-      !> The wall
       class(wall_curves_type), intent(in) :: self
 
       real(wp) :: certain(1, size(self%p_occ)), whole(1)
@@ -93,7 +91,6 @@ contains
 
    !> Histories of a stripe of the wall as a whole: no more than its mechanisms have
    pure integer function combined_histories(self)
-      !> The wall
       class(wall_curves_type), intent(in) :: self
 
       combined_histories = minval(self%histories)
@@ -101,7 +98,6 @@ contains
 
    !> Fractions of collapse of the mechanisms, if they can occur, and of the wall as a whole
    pure function fractions(self) result(f)
-      !> The wall
       class(wall_curves_type), intent(in) :: self
       !> Fractions (levels, mechanisms and last the wall)
       real(wp) :: f(size(self%fraction, 1), size(self%p_occ) + 1)
@@ -114,7 +110,6 @@ contains
    !> fit takes part with its fractions: between the levels they are interpolated linearly, from 0 at x = 0; above the
    !> highest level they stay
    pure function probabilities(self, levels, x) result(p)
-      !> The wall
       class(wall_curves_type), intent(in) :: self
       !> Levels of intensity of the fractions
       real(wp), intent(in) :: levels(:)

@@ -143,7 +143,6 @@ contains
 
    !> The first record that has the name of each
    subroutine find_first(records, first)
-      !> The records
       type(record_type), intent(in) :: records(:)
       !> Number of the first record of the same name
       integer, intent(out) :: first(:)
@@ -161,7 +160,6 @@ contains
    subroutine read_row(table, record, error)
       !> The catalogue, with a row
       type(csv_reader_type), intent(in) :: table
-      !> The record
       type(record_type), intent(out) :: record
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error

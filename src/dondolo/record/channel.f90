@@ -26,7 +26,6 @@ contains
 
    !> Make a record of a channel
    subroutine as_record(text, samples, number, record, error, dt, units)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(in) :: samples
@@ -73,7 +72,6 @@ contains
 
    !> Give every channel a name of its own: an empty name, or one that stands there before, gets the channel's number
    subroutine name_channels(channels)
-      !> The channels
       type(channel_type), intent(inout) :: channels(:)
 
       integer :: i, other
@@ -199,9 +197,7 @@ contains
 
    !> The largest value must be the one that the header states, if it states one
    subroutine check_peak(text, channel, factor, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> The channel
       type(channel_type), intent(in) :: channel
       !> Size of the unit of its values [m/s2]
       real(wp), intent(in) :: factor
@@ -253,7 +249,6 @@ contains
 
    !> Names of channels, for messages
    pure subroutine list_names(channels, names)
-      !> Channels
       type(channel_type), intent(in) :: channels(:)
       !> Their names in quotes, separated by commas
       character(len=:), allocatable, intent(out) :: names

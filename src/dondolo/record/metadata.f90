@@ -43,7 +43,6 @@ contains
 
    !> Set the value of a key: a new entry at the end, or another value for the entry there is
    pure subroutine set(self, key, value)
-      !> Metadata
       class(metadata_type), intent(inout) :: self
       !> Key; upper and lower case are the same
       character(len=*), intent(in) :: key
@@ -72,7 +71,6 @@ contains
 
    !> Length of the value of a key
    pure integer function value_length(self, key)
-      !> Metadata
       class(metadata_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
@@ -86,7 +84,6 @@ contains
 
    !> Value of a key
    pure function get(self, key) result(value)
-      !> Metadata
       class(metadata_type), intent(in) :: self
       !> Key; upper and lower case are the same
       character(len=*), intent(in) :: key
@@ -98,7 +95,6 @@ contains
 
    !> Set all entries of another list
    pure subroutine include(self, other)
-      !> Metadata
       class(metadata_type), intent(inout) :: self
       !> What to set
       type(metadata_type), intent(in) :: other
@@ -112,7 +108,6 @@ contains
 
    !> Number of entries
    pure function count_entries(self) result(count)
-      !> Metadata
       class(metadata_type), intent(in) :: self
       !> How many
       integer :: count
@@ -123,7 +118,6 @@ contains
 
    !> Number of the entry of a key
    pure function find(self, key) result(i)
-      !> Metadata
       class(metadata_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key

@@ -41,7 +41,6 @@ contains
 
    !> Make a record and check that it can be one
    subroutine new_record(record, acceleration, dt, name, error)
-      !> The record
       type(record_type), intent(out) :: record
       !> Ground acceleration at equal steps [m/s2]
       real(wp), intent(in) :: acceleration(:)
@@ -76,7 +75,6 @@ contains
 
    !> Peak ground acceleration [m/s2]
    elemental function pga(self)
-      !> The record
       class(record_type), intent(in) :: self
       !> max |a| [m/s2]
       real(wp) :: pga
@@ -89,7 +87,6 @@ contains
 
    !> Time of the last sample [s]
    pure function duration(self)
-      !> The record
       class(record_type), intent(in) :: self
       !> (n - 1) dt [s]
       real(wp) :: duration

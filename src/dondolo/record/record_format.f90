@@ -49,7 +49,6 @@ contains
 
    !> Read numbers separated by blanks, tabs and line ends, from a line to the end of the file
    subroutine read_block(text, first_line, count, values, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the first number
       integer, intent(in) :: first_line
@@ -95,7 +94,6 @@ contains
    !>
    !> Every line but the last is full; blanks at the end of a line may be missing.
    subroutine read_fixed(text, first_line, count, width, per_line, values, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the first number; the block ends (count - 1)/per_line lines later
       integer, intent(in) :: first_line
@@ -147,7 +145,6 @@ contains
 
    !> The duration that a header states must be that of the values
    subroutine check_duration(text, line, stated, channel, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the duration
       integer, intent(in) :: line
@@ -184,7 +181,6 @@ contains
    subroutine raise_at(error, text, line, message)
       !> Error to allocate
       type(error_type), allocatable, intent(out) :: error
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line

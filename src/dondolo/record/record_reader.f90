@@ -83,7 +83,6 @@ contains
    subroutine read_samples(file, text, samples, error, format)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> Its text
       type(text_file_type), intent(out) :: text
       !> What it says
       type(samples_type), intent(out) :: samples

@@ -35,7 +35,6 @@ contains
    pure subroutine new_record_set(set, records)
       !> Their samples together
       type(record_set_type), intent(out) :: set
-      !> The records
       type(record_type), intent(in) :: records(:)
 
       integer :: i, j, k, samples, blocks, n
@@ -74,7 +73,6 @@ contains
 
    !> The next sample that, scaled, lies outside a range
    pure integer function next_outside(self, record, first, scale, low, high) result(sample)
-      !> The set
       class(record_set_type), intent(in) :: self
       !> Number of the record
       integer, intent(in) :: record

@@ -29,7 +29,6 @@ contains
 
    !> A table of records
    function record_table(records, gravity, measure, unit, values) result(table)
-      !> The records
       type(record_type), intent(in) :: records(:)
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
@@ -74,7 +73,6 @@ contains
 
    !> What looks odd about a record
    subroutine find_problems(record, gravity, problems)
-      !> The record
       type(record_type), intent(in) :: record
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
@@ -147,7 +145,6 @@ contains
 
    !> Event and station of a record, as far as its file names them and they fit
    pure function origin(record)
-      !> The record
       type(record_type), intent(in) :: record
       !> Event (or date) and station, empty if neither is known
       character(len=widest) :: origin

@@ -49,7 +49,6 @@ contains
 
    !> Make a suite
    subroutine new_suite(suite, records)
-      !> The suite
       type(suite_type), intent(out) :: suite
       !> Accelerograms, one at least; they are moved into the suite
       type(record_type), allocatable, intent(inout) :: records(:)
@@ -61,9 +60,7 @@ contains
 
    !> Compute the values of a measure and keep them
    subroutine measure(self, im, threads)
-      !> The suite
       class(suite_type), intent(inout) :: self
-      !> The measure
       type(measure_type), intent(in) :: im
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
@@ -88,9 +85,7 @@ contains
 
    !> Values of a measure for the records as they stand: those that are kept, or computed now
    function values(self, im, threads)
-      !> The suite
       class(suite_type), intent(in) :: self
-      !> The measure
       type(measure_type), intent(in) :: im
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
@@ -109,9 +104,7 @@ contains
 
    !> Place of a measure among those that are kept; 0: it is not there
    integer function place_of(suite, im) result(place)
-      !> The suite
       class(suite_type), intent(in) :: suite
-      !> The measure
       type(measure_type), intent(in) :: im
 
       integer :: is_complete
@@ -127,9 +120,7 @@ contains
 
    !> Compute the values of a measure
    function computed(records, im, threads) result(values)
-      !> Accelerograms
       type(record_type), intent(in) :: records(:)
-      !> The measure
       type(measure_type), intent(in) :: im
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads

@@ -18,7 +18,6 @@ contains
 
    !> Make the mechanism of a free-standing wall
    subroutine new_free_standing(mechanism, block, restitution, gravity, error)
-      !> The mechanism
       type(free_standing_type), intent(out) :: mechanism
       !> The wall as one block
       type(block_type), intent(in) :: block

@@ -40,7 +40,6 @@ module dondolo_mechanism
       !> The terms of the equation of motion
       pure subroutine terms_interface(self, q, j, c, g, l, load)
          import :: mechanism_type, wp
-         !> The mechanism
          class(mechanism_type), intent(in) :: self
          !> Rotation [rad]
          real(wp), intent(in) :: q
@@ -59,7 +58,6 @@ module dondolo_mechanism
       !> Potential energy of gravity and of carried loads
       pure function potential_interface(self, q) result(v)
          import :: mechanism_type, wp
-         !> The mechanism
          class(mechanism_type), intent(in) :: self
          !> Rotation [rad]
          real(wp), intent(in) :: q
@@ -70,7 +68,6 @@ module dondolo_mechanism
       !> A rotation that is a property of the mechanism
       pure function rotation_interface(self) result(q)
          import :: mechanism_type, wp
-         !> The mechanism
          class(mechanism_type), intent(in) :: self
          !> Rotation [rad]
          real(wp) :: q
@@ -82,7 +79,6 @@ contains
 
    !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 2)
    pure function trigger_acceleration(self) result(a)
-      !> The mechanism
       class(mechanism_type), intent(in) :: self
       !> Trigger acceleration [m/s2]
       real(wp) :: a
@@ -96,7 +92,6 @@ contains
    !> Frequency parameter, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block
    !> (docs/theory.md, section 2)
    pure function frequency_parameter(self) result(p)
-      !> The mechanism
       class(mechanism_type), intent(in) :: self
       !> p [rad/s]
       real(wp) :: p

@@ -18,7 +18,6 @@ contains
 
    !> Make the mechanism of a one-sided wall
    subroutine new_one_sided(mechanism, block, restitution, gravity, error)
-      !> The mechanism
       type(one_sided_type), intent(out) :: mechanism
       !> The wall as one block
       type(block_type), intent(in) :: block

@@ -34,9 +34,7 @@ contains
 
    !> Take the geometry of a block and the gravity it stands in
    pure subroutine take_block(self, block, gravity)
-      !> The mechanism
       class(single_block_type), intent(inout) :: self
-      !> The block
       type(block_type), intent(in) :: block
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -50,7 +48,6 @@ contains
 
    !> Terms of equation (1)
    pure subroutine terms(self, q, j, c, g, l, load)
-      !> The mechanism
       class(single_block_type), intent(in) :: self
       !> Rotation [rad]
       real(wp), intent(in) :: q
@@ -74,7 +71,6 @@ contains
 
    !> Potential energy V = M g R cos(alpha - q)
    pure function potential(self, q) result(v)
-      !> The mechanism
       class(single_block_type), intent(in) :: self
       !> Rotation [rad]
       real(wp), intent(in) :: q
@@ -86,7 +82,6 @@ contains
 
    !> The rotation at which the centroid is level with the corner: the block lies on the ground long before
    pure function geometric_end(self) result(q)
-      !> The mechanism
       class(single_block_type), intent(in) :: self
       !> Rotation [rad]
       real(wp) :: q

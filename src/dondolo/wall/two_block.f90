@@ -41,7 +41,6 @@ contains
 
    !> Make the mechanism of a two-block wall
    subroutine new_two_block(mechanism, lower, upper, overburden, eccentricity, restitution, gravity, error)
-      !> The mechanism
       type(two_block_type), intent(out) :: mechanism
       !> Block below the intermediate hinge
       type(block_type), intent(in) :: lower
@@ -76,7 +75,6 @@ contains
 
    !> Terms of equation (3), in the forms without 0/0 at q = alpha1
    pure subroutine terms(self, q, j, c, g, l, load)
-      !> The mechanism
       class(two_block_type), intent(in) :: self
       !> Rotation of the lower block [rad]
       real(wp), intent(in) :: q
@@ -121,7 +119,6 @@ contains
 
    !> Potential energy of both blocks and of the overburden
    pure function potential(self, q) result(v)
-      !> The mechanism
       class(two_block_type), intent(in) :: self
       !> Rotation of the lower block [rad]
       real(wp), intent(in) :: q
@@ -143,7 +140,6 @@ contains
 
    !> The rotation at which the upper block lies flat, R1 sin(q - alpha1) = R2
    pure function geometric_end(self) result(q)
-      !> The mechanism
       class(two_block_type), intent(in) :: self
       !> Rotation [rad]
       real(wp) :: q
@@ -184,9 +180,7 @@ contains
    !> Equation (4) of Nale et al. with its lost term restored and centroidal inertias (docs/theory.md,
    !> section 3): balance of angular momentum of both blocks about the new base hinge
    pure function two_block_sorrentino(lower, upper) result(eta)
-      !> Lower block
       type(block_type), intent(in) :: lower
-      !> Upper block
       type(block_type), intent(in) :: upper
       !> Ratio of the angular velocities after and before an impact
       real(wp) :: eta
@@ -207,9 +201,7 @@ contains
    !> Inelastic impact of the two-body chain with the horizontal impulse of the top support
    !> (docs/theory.md, section 3)
    pure function two_block_impulse(lower, upper) result(eta)
-      !> Lower block
       type(block_type), intent(in) :: lower
-      !> Upper block
       type(block_type), intent(in) :: upper
       !> Ratio of the angular velocities after and before an impact
       real(wp) :: eta

@@ -42,7 +42,6 @@ contains
 
    !> Length of a text of a wall
    pure integer function text_length(wall, property)
-      !> The wall
       class(wall_type), intent(in) :: wall
       !> Name of the property
       character(len=*), intent(in) :: property
@@ -52,7 +51,6 @@ contains
 
    !> Name of a wall
    pure function name(self)
-      !> The wall
       class(wall_type), intent(in) :: self
       !> Its name
       character(len=text_length(self, 'name')) :: name
@@ -62,7 +60,6 @@ contains
 
    !> Name of a wall's mechanism
    pure function mechanism_name(self)
-      !> The wall
       class(wall_type), intent(in) :: self
       !> One of mechanism_names
       character(len=text_length(self, 'mechanism')) :: mechanism_name
@@ -72,7 +69,6 @@ contains
 
    !> Make a wall and check all that is said of it
    subroutine new_wall(wall, input, error, gravity)
-      !> The wall
       type(wall_type), intent(out) :: wall
       !> What is said of it
       type(wall_input_type), intent(in) :: input

@@ -33,7 +33,6 @@ contains
 
    !> Add an integer
    pure subroutine add_integer(self, number)
-      !> Fingerprint
       class(fingerprint_type), intent(inout) :: self
       !> The integer
       integer(int32), intent(in) :: number
@@ -43,7 +42,6 @@ contains
 
    !> Add reals, bit by bit
    pure subroutine add_reals(self, numbers)
-      !> Fingerprint
       class(fingerprint_type), intent(inout) :: self
       !> The reals
       real(wp), intent(in) :: numbers(:)
@@ -62,7 +60,6 @@ contains
 
    !> Add a text, four characters at a time
    pure subroutine add_text(self, text)
-      !> Fingerprint
       class(fingerprint_type), intent(inout) :: self
       !> The text
       character(len=*), intent(in) :: text
@@ -83,7 +80,6 @@ contains
 
    !> The fingerprint as a text of 16 hexadecimal digits
    pure function text(self)
-      !> Fingerprint
       class(fingerprint_type), intent(in) :: self
       !> Its text
       character(len=16) :: text

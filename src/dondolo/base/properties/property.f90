@@ -85,7 +85,6 @@ contains
 
    !> Place of a property in a table, 0 if it has none of this name
    pure integer function find_property(table, name)
-      !> Table
       type(property_type), intent(in) :: table(:)
       !> Name in lower case, not empty
       character(len=*), intent(in) :: name
@@ -99,7 +98,6 @@ contains
 
    !> Does a mechanism or a task have a property?
    pure logical function has_owner(property, owner)
-      !> Property
       type(property_type), intent(in) :: property
       !> Name of the mechanism or the task
       character(len=*), intent(in) :: owner
@@ -116,7 +114,6 @@ contains
 
    !> Column of a property in tables of results: its name and its unit
    pure function column_name(property) result(column)
-      !> Property
       type(property_type), intent(in) :: property
       !> Name of the column, such as density_kg_m3; blanks after it
       character(len=len(property%column)) :: column
@@ -170,7 +167,6 @@ contains
    !> 'positive' or 'less' where one of them cannot be reached, choices, owners, column (empty where it has none) and
    !> meaning, with a tab between two; entries with several names have blanks between
    subroutine describe_property(property, line)
-      !> Property
       type(property_type), intent(in) :: property
       !> Its line
       character(len=:), allocatable, intent(out) :: line
@@ -221,7 +217,6 @@ contains
 
    !> Default of a property as it stands in a namelist, without the quotes of a text; empty where it has none
    pure subroutine default_text(property, text)
-      !> Property
       type(property_type), intent(in) :: property
       !> Text
       character(len=:), allocatable, intent(out) :: text
@@ -245,7 +240,6 @@ contains
 
    !> What is allowed of a number, if it is not
    pure subroutine check_number(property, value, allowed)
-      !> Property
       type(property_type), intent(in) :: property
       !> Its value
       real(wp), intent(in) :: value
@@ -281,7 +275,6 @@ contains
 
    !> What is allowed of a text, if it is not
    pure subroutine check_word(property, word, allowed)
-      !> Property
       type(property_type), intent(in) :: property
       !> Its value
       character(len=*), intent(in) :: word

@@ -68,7 +68,6 @@ module dondolo_settings
       !> The table of properties
       subroutine table_interface(self, table)
          import :: property_type, settings_type
-         !> Settings
          class(settings_type), intent(in) :: self
          !> Their table, which stays as it is
          type(property_type), pointer, intent(out) :: table(:)
@@ -77,7 +76,6 @@ module dondolo_settings
       !> Place of a property in the table, 0 if it has none of this name
       pure integer function find_interface(self, name)
          import :: settings_type
-         !> Settings
          class(settings_type), intent(in) :: self
          !> Name of the property, in lower case
          character(len=*), intent(in) :: name
@@ -98,7 +96,6 @@ contains
 
    !> Settings without a value
    subroutine new_settings(settings, table)
-      !> Settings
       type(group_settings_type), intent(out) :: settings
       !> Their table
       type(property_type), target, intent(in) :: table(:)
@@ -108,7 +105,6 @@ contains
 
    !> The table of the settings of a group
    subroutine get_group_table(self, table)
-      !> Settings
       class(group_settings_type), intent(in) :: self
       !> Their table
       type(property_type), pointer, intent(out) :: table(:)
@@ -118,7 +114,6 @@ contains
 
    !> Place of a property in the table of a group
    pure integer function find_in_group(self, name) result(at)
-      !> Settings
       class(group_settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -128,7 +123,6 @@ contains
 
    !> Place of a property that has a value
    pure integer function place(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -142,7 +136,6 @@ contains
 
    !> Has a property a value?
    pure logical function has(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -152,7 +145,6 @@ contains
 
    !> A number
    pure real(wp) function number(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -166,7 +158,6 @@ contains
 
    !> Yes or no
    pure logical function holds(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -176,7 +167,6 @@ contains
 
    !> Length of a text
    pure integer function word_length(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -191,7 +181,6 @@ contains
 
    !> A text
    pure function word(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -203,7 +192,6 @@ contains
 
    !> Has a property a text for a value?
    pure logical function has_word(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -217,7 +205,6 @@ contains
 
    !> A list of numbers
    pure function list(self, name)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -233,7 +220,6 @@ contains
 
    !> Make room, and note a name that is not there
    subroutine prepare(self, name, at)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property
       character(len=*), intent(in) :: name
@@ -258,7 +244,6 @@ contains
 
    !> Set a number
    subroutine set_number(self, name, value)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -273,7 +258,6 @@ contains
 
    !> Set a whole number
    subroutine set_integer(self, name, value)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -285,7 +269,6 @@ contains
 
    !> Set yes or no
    subroutine set_logical(self, name, value)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -297,7 +280,6 @@ contains
 
    !> Set a text; one of several choices is the same in lower case and without blanks at its end
    subroutine set_word(self, name, value)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -319,7 +301,6 @@ contains
 
    !> Set a list of numbers
    subroutine set_list(self, name, values)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -336,7 +317,6 @@ contains
 
    !> Take a value away
    subroutine clear(self, name)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
@@ -351,7 +331,6 @@ contains
 
    !> Give properties without a value their defaults
    subroutine fill(self, owner)
-      !> Settings
       class(settings_type), intent(inout) :: self
       !> Mechanism or task: only what it has; all if absent
       character(len=*), intent(in), optional :: owner
@@ -409,7 +388,6 @@ contains
 
    !> Length of a value as it stands in messages
    pure integer function value_length(self, at)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Place of a property that has a value
       integer, intent(in) :: at
@@ -423,7 +401,6 @@ contains
 
    !> A value as it stands in messages
    pure function value_text(self, at) result(text)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Place of a property that has a value
       integer, intent(in) :: at
@@ -439,7 +416,6 @@ contains
 
    !> Check what is there against the table: `name = value: what is allowed`
    subroutine check(self, problems, label, owner)
-      !> Settings
       class(settings_type), intent(in) :: self
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems

@@ -12,7 +12,6 @@ contains
 
    !> Add all values that change results to a fingerprint, each with its name; how many a list has is part of it
    subroutine add_settings(fingerprint, settings)
-      !> Fingerprint
       type(fingerprint_type), intent(inout) :: fingerprint
       !> Settings of a group, or of a wall
       class(settings_type), intent(in) :: settings

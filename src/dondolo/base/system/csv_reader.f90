@@ -78,7 +78,6 @@ contains
 
    !> Open a table and read its header
    subroutine open_table(self, file, error)
-      !> The reader
       class(csv_reader_type), intent(inout) :: self
       !> Path of the file
       character(len=*), intent(in) :: file
@@ -135,7 +134,6 @@ contains
 
    !> What is not as RFC 4180 has it in a table
    pure function peculiarities(self) result(text)
-      !> The reader
       class(csv_reader_type), intent(in) :: self
       !> ', this, that'
       character(len=100) :: text
@@ -149,7 +147,6 @@ contains
 
    !> Length of the note
    pure integer function note_length(self)
-      !> The reader
       class(csv_reader_type), intent(in) :: self
 
       note_length = len_trim(peculiarities(self))
@@ -158,7 +155,6 @@ contains
 
    !> How the table was read, where it is not as RFC 4180 has it
    pure function note(self)
-      !> The reader
       class(csv_reader_type), intent(in) :: self
       !> 'file: ...', empty if there is nothing to say
       character(len=note_length(self)) :: note
@@ -240,7 +236,6 @@ contains
 
    !> Note the separators of a row that may be the header
    subroutine count_separators(self, row)
-      !> The reader
       type(csv_reader_type), intent(inout) :: self
       !> Text of the row
       character(len=*), intent(in) :: row
@@ -251,7 +246,6 @@ contains
 
    !> Take the row that was read as the names of the columns
    subroutine take_header(self, error)
-      !> The reader
       type(csv_reader_type), intent(inout) :: self
       !> A name is empty or stands there twice
       type(error_type), allocatable, intent(out) :: error
@@ -380,7 +374,6 @@ contains
 
    !> Number of a column from its name
    pure integer function column(self, name)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
       !> Name, in upper or lower case; there is none with number 0
       character(len=*), intent(in) :: name
@@ -392,7 +385,6 @@ contains
 
    !> Length of the place
    pure integer function place_length(self)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
 
       place_length = len(self%lines%file//': line '//to_text(self%line))
@@ -400,7 +392,6 @@ contains
 
    !> Where the row is, for messages
    pure function place(self)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
       !> 'file: line 7'
       character(len=place_length(self)) :: place
@@ -410,7 +401,6 @@ contains
 
    !> Length of a cell
    pure integer function cell_length(self, column)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
       !> Number of the column, or 0
       integer, intent(in) :: column
@@ -421,7 +411,6 @@ contains
 
    !> A cell of the row as text
    pure function get_text(self, column) result(text)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
       !> Number of the column; 0 gives an empty text
       integer, intent(in) :: column
@@ -433,7 +422,6 @@ contains
 
    !> A cell of the row as a number
    subroutine get_real(self, column, value, error)
-      !> Reader
       class(csv_reader_type), intent(in) :: self
       !> Number of the column, from 1
       integer, intent(in) :: column
@@ -452,7 +440,6 @@ contains
 
    !> Close the file before the end is reached
    subroutine close_table(self)
-      !> Reader
       class(csv_reader_type), intent(inout) :: self
 
       call self%lines%close()

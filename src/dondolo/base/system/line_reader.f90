@@ -42,7 +42,6 @@ contains
 
    !> Open a file
    subroutine open_reader(self, file, error)
-      !> The reader
       class(line_reader_type), intent(inout) :: self
       !> Path
       character(len=*), intent(in) :: file
@@ -63,7 +62,6 @@ contains
 
    !> Read the next line: lines end in LF or CRLF
    subroutine next(self, line, found, error)
-      !> The reader
       class(line_reader_type), intent(inout) :: self
       !> The line without its end; what may follow the last line, such as NUL or Ctrl-Z, is dropped from it
       character(len=:), allocatable, intent(out) :: line
@@ -108,7 +106,6 @@ contains
 
    !> Read the next chunk behind what was not given out yet
    subroutine refill(self, error)
-      !> The reader
       class(line_reader_type), intent(inout) :: self
       !> The file cannot be read
       type(error_type), allocatable, intent(out) :: error
@@ -131,7 +128,6 @@ contains
 
    !> Close the file: there are no more lines; nothing happens if it is not open
    subroutine close_reader(self)
-      !> The reader
       class(line_reader_type), intent(inout) :: self
 
       if (self%unit /= 0) close (self%unit)

@@ -280,7 +280,6 @@ contains
 
    !> Open a file
    subroutine open_writer(self, path, ok, append)
-      !> The file
       class(writer_type), intent(inout) :: self
       !> Path
       character(len=*), intent(in) :: path
@@ -299,7 +298,6 @@ contains
 
    !> Write a text
    subroutine write_text(self, text, ok)
-      !> The file
       class(writer_type), intent(inout) :: self
       !> Text, with its line ends
       character(len=*), intent(in) :: text
@@ -314,7 +312,6 @@ contains
 
    !> Give what was written to the system: it then outlives the process
    subroutine flush_writer(self, ok)
-      !> The file
       class(writer_type), intent(inout) :: self
       !> Set to false when it could not be written; left alone otherwise
       logical, intent(inout) :: ok
@@ -324,7 +321,6 @@ contains
 
    !> Keep the file for this writer until it is closed or the process ends
    subroutine lock(self, is_taken)
-      !> The file
       class(writer_type), intent(inout) :: self
       !> Another writer has it. A file system without locks refuses none
       logical, intent(out) :: is_taken
@@ -338,7 +334,6 @@ contains
 
    !> Close the file; nothing happens if it is not open
    subroutine close_writer(self, ok)
-      !> The file
       class(writer_type), intent(inout) :: self
       !> Set to false when what was written last did not reach the disk; left alone otherwise
       logical, intent(inout) :: ok

@@ -47,7 +47,6 @@ contains
    subroutine read_text_file(file, text, error, longest)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> Its text
       type(text_file_type), intent(out) :: text
       !> The file is missing, unreadable, empty or too large, for the memory too
       type(error_type), allocatable, intent(out) :: error
@@ -165,7 +164,6 @@ contains
 
    !> Number of lines
    pure function lines(self)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Number of lines; empty lines after the last text do not count
       integer :: lines
@@ -175,7 +173,6 @@ contains
 
    !> Length of a line
    pure integer function line_length(self, i)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Number of the line
       integer, intent(in) :: i
@@ -186,7 +183,6 @@ contains
 
    !> The text of one line
    pure function line(self, i)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Number of the line; one that there is not gives an empty text
       integer, intent(in) :: i
@@ -198,7 +194,6 @@ contains
 
    !> Length of the place of a line
    pure integer function place_length(self, i)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Number of the line
       integer, intent(in) :: i
@@ -208,7 +203,6 @@ contains
 
    !> Where a line is, for messages
    pure function place(self, i)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Number of the line
       integer, intent(in) :: i
@@ -220,7 +214,6 @@ contains
 
    !> The next word of a line: what stands between blanks and tabs
    pure subroutine next_word(self, at, last, first, finish)
-      !> Text file
       class(text_file_type), intent(in) :: self
       !> Position from which to look
       integer, intent(in) :: at
@@ -231,14 +224,15 @@ contains
       !> Position of its last character
       integer, intent(out) :: finish
 
-      character(len=1), parameter :: tab = achar(9)
+      integer, parameter :: blank = iachar(' '), tab = 9
 
-      ! Loops, for SCAN and VERIFY take several times longer on short words
+      ! Loops, for SCAN and VERIFY take several times longer on short words; and codes, for gfortran calls LEN_TRIM to
+      ! compare a character with a blank
       do first = at, last
-         if (self%text(first:first) /= ' ' .and. self%text(first:first) /= tab) exit
+         if (iachar(self%text(first:first)) /= blank .and. iachar(self%text(first:first)) /= tab) exit
       end do
       do finish = first, last - 1
-         if (self%text(finish + 1:finish + 1) == ' ' .or. self%text(finish + 1:finish + 1) == tab) exit
+         if (iachar(self%text(finish + 1:finish + 1)) == blank .or. iachar(self%text(finish + 1:finish + 1)) == tab) exit
       end do
    end subroutine next_word
 

@@ -108,7 +108,6 @@ contains
 
    !> Note something that is wrong in what the user gave
    subroutine note(self, message)
-      !> The problems
       class(problems_type), intent(inout) :: self
       !> Sentence for the user
       character(len=*), intent(in) :: message
@@ -121,7 +120,6 @@ contains
 
    !> Take an error, if there is one
    subroutine take(self, error)
-      !> The problems
       class(problems_type), intent(inout) :: self
       !> The error; not allocated afterwards
       type(error_type), allocatable, intent(inout) :: error
@@ -141,7 +139,6 @@ contains
 
    !> Report them, if there are any
    subroutine raise(self, error)
-      !> The problems
       class(problems_type), intent(in) :: self
       !> Wrong input: all sentences that there is room for, and how many more there are
       type(error_type), allocatable, intent(out) :: error

@@ -26,7 +26,6 @@ contains
 
    !> Add a line
    subroutine add(self, text)
-      !> Lines
       class(lines_type), intent(inout) :: self
       !> Text of the new line
       character(len=*), intent(in) :: text

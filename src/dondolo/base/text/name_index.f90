@@ -29,7 +29,6 @@ contains
 
    !> Look a name up, and note it if it is new
    subroutine note(self, name, line, known)
-      !> The names
       class(name_index_type), intent(inout) :: self
       !> A name
       character(len=*), intent(in) :: name
@@ -72,7 +71,6 @@ contains
 
    !> The place of a key, or the free one that it would take
    pure integer function place_of(self, key) result(place)
-      !> The names
       type(name_index_type), intent(in) :: self
       !> Key
       integer(int64), intent(in) :: key
@@ -85,7 +83,6 @@ contains
 
    !> Make room for more names
    subroutine make_room(self, places)
-      !> The names
       type(name_index_type), intent(inout) :: self
       !> Number of places, a power of two
       integer, intent(in) :: places

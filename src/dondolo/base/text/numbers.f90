@@ -130,14 +130,15 @@ contains
       !> Position of its last character that is no blank
       integer, intent(out) :: last
 
-      character(len=1), parameter :: tab = achar(9)
+      integer, parameter :: blank = iachar(' '), tab = 9
 
-      ! Loops, for VERIFY takes longer than all the rest of a number
+      ! Loops, for VERIFY takes longer than all the rest of a number; and codes, for gfortran calls LEN_TRIM to compare a
+      ! character with a blank
       do last = len(text), 1, -1
-         if (text(last:last) /= ' ' .and. text(last:last) /= tab) exit
+         if (iachar(text(last:last)) /= blank .and. iachar(text(last:last)) /= tab) exit
       end do
       do first = 1, last
-         if (text(first:first) /= ' ' .and. text(first:first) /= tab) exit
+         if (iachar(text(first:first)) /= blank .and. iachar(text(first:first)) /= tab) exit
       end do
    end subroutine inner
 

@@ -97,7 +97,6 @@ contains
 
    !> The first names of a catalogue, as many as fit a message
    subroutine list_names(records, list)
-      !> The records
       type(record_type), intent(in) :: records(:)
       !> 'a', 'b', ... and 30 more
       character(len=:), allocatable, intent(out) :: list

@@ -109,7 +109,6 @@ contains
    subroutine make_grid(group, settings, stripes, error)
       !> The group as it stands in the file
       type(group_type), intent(in) :: group
-      !> Its values
       type(group_settings_type), intent(in) :: settings
       !> What is said of the stripes: equally spaced levels, both ends included
       type(stripes_input_type), intent(inout) :: stripes

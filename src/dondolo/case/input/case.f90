@@ -83,7 +83,6 @@ contains
    subroutine read_case(file, case, error, rows)
       !> Path of the namelist file
       character(len=*), intent(in) :: file
-      !> The case
       type(case_type), intent(out) :: case
       !> The first thing that is wrong; of a population, everything
       type(error_type), allocatable, intent(out) :: error
@@ -149,7 +148,6 @@ contains
 
    !> Check that the groups suit the task
    subroutine check_task(namelist, task, error)
-      !> The file
       type(namelist_type), intent(in) :: namelist
       !> The task
       character(len=*), intent(in) :: task
@@ -179,7 +177,6 @@ contains
 
    !> Make the wall, or find the population
    subroutine make_wall(namelist, input, case, error)
-      !> The file
       type(namelist_type), intent(in) :: namelist
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
@@ -211,9 +208,7 @@ contains
 
    !> Check what belongs together
    subroutine check_combinations(namelist, case, error)
-      !> The file
       type(namelist_type), intent(in) :: namelist
-      !> The case
       type(case_type), intent(inout) :: case
       !> What is missing
       type(error_type), allocatable, intent(out) :: error
@@ -294,9 +289,7 @@ contains
 
    !> Find the record of the time history, and measure the records where they are scaled to levels
    subroutine measure_case(namelist, case, error)
-      !> The file
       type(namelist_type), intent(in) :: namelist
-      !> The case
       type(case_type), intent(inout) :: case
       !> No such record
       type(error_type), allocatable, intent(out) :: error
@@ -311,9 +304,7 @@ contains
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(namelist, case, error)
-      !> The file
       type(namelist_type), intent(in) :: namelist
-      !> The case
       type(case_type), intent(in), target :: case
       !> A scale that is too large
       type(error_type), allocatable, intent(out) :: error
@@ -347,7 +338,6 @@ contains
 
    !> Are records scaled to levels?
    pure logical function is_scaled(self)
-      !> The case
       class(case_type), intent(in) :: self
 
       is_scaled = self%job%task /= 'history' .or. allocated(self%history%im_level)
@@ -357,7 +347,6 @@ contains
    subroutine make_study(self, study, threads)
       !> The case, which must outlive the study
       class(case_type), intent(in), target :: self
-      !> The study
       type(study_type), intent(out) :: study
       !> Number of threads instead of the case's
       integer, intent(in), optional :: threads
@@ -375,7 +364,6 @@ contains
 
    !> Factor on the record of the time history, with the sign of its polarity
    function history_scale(self) result(scale)
-      !> The case
       class(case_type), intent(in) :: self
       !> The factor
       real(wp) :: scale
@@ -411,9 +399,7 @@ contains
 
    !> The case as namelist text: every value in force, and no group that the task does not use
    subroutine echo(self, echoed)
-      !> The case
       class(case_type), intent(in) :: self
-      !> The echo
       type(echo_type), intent(out) :: echoed
 
       type(group_settings_type) :: settings
@@ -441,7 +427,6 @@ contains
 
    !> Paths of the files it is made of
    subroutine inputs(self, paths)
-      !> The case
       class(case_type), intent(in) :: self
       !> The namelist file, the catalogue, the population
       type(lines_type), intent(out) :: paths

@@ -137,7 +137,6 @@ contains
    subroutine fingerprint_lines(file, fingerprint, error)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> Fingerprint
       type(fingerprint_type), intent(out) :: fingerprint
       !> It cannot be read
       type(error_type), allocatable, intent(out) :: error

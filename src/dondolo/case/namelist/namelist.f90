@@ -66,7 +66,6 @@ contains
 
    !> A group from its name
    function group(self, name) result(found)
-      !> Namelist file
       class(namelist_type), intent(in) :: self
       !> Name in lower case
       character(len=*), intent(in) :: name
@@ -86,7 +85,6 @@ contains
 
    !> Refuse groups that do not exist
    subroutine check_groups(self, names, error)
-      !> Namelist file
       class(namelist_type), intent(in) :: self
       !> Names of the groups that exist, in lower case
       character(len=*), intent(in) :: names(:)
@@ -113,9 +111,7 @@ contains
    subroutine take_groups(text, tokens, namelist, error)
       !> The file, for messages
       type(text_file_type), intent(in) :: text
-      !> Tokens
       type(token_type), intent(in) :: tokens(:)
-      !> Namelist file
       type(namelist_type), intent(inout) :: namelist
       !> Text outside groups, a group that is not closed or stands there twice
       type(error_type), allocatable, intent(out) :: error
@@ -155,11 +151,9 @@ contains
 
    !> Put tokens together to the variables of a group
    subroutine take_variables(tokens, at, group, error)
-      !> Tokens
       type(token_type), intent(in) :: tokens(:)
       !> The token after the name of the group, then the one after its end
       integer, intent(inout) :: at
-      !> The group
       type(group_type), intent(inout) :: group
       !> What does not fit
       type(error_type), allocatable, intent(out) :: error
@@ -206,13 +200,11 @@ contains
 
    !> Take one variable: name = value, value, ...
    subroutine take_variable(tokens, at, group, variable, error)
-      !> Tokens
       type(token_type), intent(in) :: tokens(:)
       !> The name, then the token after the last value
       integer, intent(inout) :: at
       !> The group, for messages
       type(group_type), intent(in) :: group
-      !> The variable
       type(variable_type), intent(out) :: variable
       !> What does not fit
       type(error_type), allocatable, intent(out) :: error

@@ -78,7 +78,6 @@ contains
 
    !> Length of the place
    pure integer function place_length(self)
-      !> Group
       class(group_type), intent(in) :: self
 
       place_length = len(self%file//': &'//self%name)
@@ -86,7 +85,6 @@ contains
 
    !> Where the group is, for messages
    pure function place(self)
-      !> Group
       class(group_type), intent(in) :: self
       !> 'file: &group'
       character(len=place_length(self)) :: place
@@ -96,7 +94,6 @@ contains
 
    !> Line of a variable, or else of the group; 0 where the file does not have the group
    pure integer function line_of(self, name)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case; empty for the group
       character(len=*), intent(in) :: name
@@ -110,7 +107,6 @@ contains
 
    !> Length of the text of in_line
    pure integer function in_line_length(self, name)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case; empty for the group
       character(len=*), intent(in) :: name
@@ -121,7 +117,6 @@ contains
 
    !> In which line a variable is, for the end of a message; the line of the group where the variable was not given
    pure function in_line(self, name) result(text)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case; empty for the group
       character(len=*), intent(in) :: name
@@ -133,7 +128,6 @@ contains
 
    !> Put the place of what is wrong around the sentences of an error, each of which begins with the name of a variable
    pure subroutine locate(self, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Error to extend; left alone when not allocated
       type(error_type), allocatable, intent(inout) :: error
@@ -157,7 +151,6 @@ contains
 
    !> Number of a variable in the group
    pure function position(self, name)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case
       character(len=*), intent(in) :: name
@@ -173,7 +166,6 @@ contains
 
    !> Was a variable given?
    pure function has(self, name)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case
       character(len=*), intent(in) :: name
@@ -185,7 +177,6 @@ contains
 
    !> Was a variable given in quotes?
    pure function has_text(self, name)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name in lower case
       character(len=*), intent(in) :: name
@@ -201,7 +192,6 @@ contains
 
    !> Refuse variables that the group does not have
    subroutine check_names(self, names, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Names of its variables
       character(len=*), intent(in) :: names(:)
@@ -221,7 +211,6 @@ contains
 
    !> Refuse the value of a variable: 'file: &group: name = value: what is allowed (line 7)'
    subroutine refuse(self, name, allowed, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of a variable that was given
       character(len=*), intent(in) :: name
@@ -244,13 +233,11 @@ contains
 
    !> Find the one value of a variable that takes one
    subroutine single(self, name, found, value, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
       !> It was given
       logical, intent(out) :: found
-      !> Its value
       type(value_type), intent(out) :: value
       !> It was given several values
       type(error_type), allocatable, intent(out) :: error
@@ -290,7 +277,6 @@ contains
 
    !> Take a text
    subroutine get_text(self, name, value, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -315,7 +301,6 @@ contains
 
    !> Take a real number
    subroutine get_real(self, name, value, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -340,7 +325,6 @@ contains
 
    !> Take an integer
    subroutine get_integer(self, name, value, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -369,7 +353,6 @@ contains
 
    !> Take a list of real numbers
    subroutine get_reals(self, name, values, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -405,7 +388,6 @@ contains
 
    !> Take a yes or no, in the words that Fortran's namelists have for it
    subroutine get_logical(self, name, value, error)
-      !> Group
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -430,7 +412,6 @@ contains
 
    !> The number that a value is
    pure subroutine to_real(value, number, ok)
-      !> Value
       type(value_type), intent(in) :: value
       !> Its number
       real(wp), intent(out) :: number
@@ -443,7 +424,6 @@ contains
 
    !> What to say of a value that should be a number
    pure function not_a_number(value) result(allowed)
-      !> Value
       type(value_type), intent(in) :: value
       !> What is allowed, filled up with blanks
       character(len=80) :: allowed

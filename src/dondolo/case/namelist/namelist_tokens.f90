@@ -40,7 +40,6 @@ contains
 
    !> Cut a text into tokens; the last one is the end of the file
    subroutine cut(text, tokens, error)
-      !> Text
       type(text_file_type), intent(in) :: text
       !> Its tokens
       type(token_type), allocatable, intent(out) :: tokens(:)
@@ -161,7 +160,6 @@ contains
       character(len=*), intent(in) :: line
       !> Position of the opening quote, then of what follows the closing one
       integer, intent(inout) :: at
-      !> The token
       type(token_type), intent(inout) :: token
       !> The quote is not closed
       type(error_type), allocatable, intent(out) :: error

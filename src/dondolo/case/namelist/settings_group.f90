@@ -42,7 +42,6 @@ contains
       type(group_type), intent(in) :: group
       !> A property that it gives
       type(property_type), intent(in) :: property
-      !> Settings
       class(settings_type), intent(inout) :: settings
       !> It is of the wrong type
       type(error_type), allocatable, intent(out) :: error
@@ -101,7 +100,6 @@ contains
    subroutine echo_settings(name, settings, echo, owner, beside, last)
       !> Name of the group
       character(len=*), intent(in) :: name
-      !> Settings
       class(settings_type), intent(in) :: settings
       !> Echo to add to
       type(echo_type), intent(inout) :: echo
@@ -128,7 +126,6 @@ contains
 
       !> Add a property that has a value
       subroutine add(property)
-         !> The property
          type(property_type), intent(in) :: property
 
          character(len=:), allocatable :: variable

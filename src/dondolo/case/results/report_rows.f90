@@ -69,7 +69,6 @@ contains
 
    !> Name and mechanism of a wall
    pure subroutine make_wall_cells(wall, cells)
-      !> The wall
       type(wall_type), intent(in) :: wall
       !> Two cells
       character(len=:), allocatable, intent(out) :: cells
@@ -149,7 +148,6 @@ contains
       character(len=*), intent(in) :: cells
       !> Intensity measure
       character(len=*), intent(in) :: im
-      !> The curve
       type(fragility_type), intent(in) :: curve
       !> Its EDP threshold
       real(wp), intent(in) :: threshold
@@ -167,7 +165,6 @@ contains
 
    !> A curve of the population at a level
    pure subroutine make_typology_row(typology, im, level, threshold, row)
-      !> The curve
       type(typology_type), intent(in) :: typology
       !> Intensity measure
       character(len=*), intent(in) :: im
@@ -205,7 +202,6 @@ contains
       real(wp), intent(in) :: level
       !> Factor on the record
       real(wp), intent(in) :: scale
-      !> The response
       type(response_type), intent(in) :: response
       !> Row
       character(len=:), allocatable, intent(out) :: row

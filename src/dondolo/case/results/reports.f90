@@ -32,7 +32,6 @@ contains
 
    !> Try, before anything is computed, whether the reports of a case can be written
    subroutine check_reports(case, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> They cannot
       type(error_type), allocatable, intent(out) :: error
@@ -67,9 +66,7 @@ contains
 
    !> Write the reports of a case; those of an earlier run that they do not replace are removed
    subroutine write_reports(case, results, paths, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> The files that were written
       type(lines_type), intent(out) :: paths
@@ -110,13 +107,10 @@ contains
 
    !> Write one table
    subroutine write_table(case, results, name, files, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
-      !> Files
       type(result_files_type), intent(inout) :: files
       !> A file that is read again has changed
       type(error_type), allocatable, intent(out) :: error
@@ -134,11 +128,8 @@ contains
 
    !> Comment lines: which program, which case, what was computed, and what to beware of
    subroutine write_head(case, results, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       type(echo_type) :: echo
@@ -190,11 +181,8 @@ contains
 
    !> Curves of the population
    subroutine write_typology(case, results, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: line
@@ -214,11 +202,8 @@ contains
 
    !> The time history
    subroutine write_history(case, results, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       real(wp) :: capacity

@@ -84,7 +84,6 @@ contains
 
    !> Try to write one file; a file that is there already is left alone
    subroutine try(writer, path, ok)
-      !> Writer
       type(writer_type), intent(inout) :: writer
       !> Path
       character(len=*), intent(in) :: path
@@ -128,7 +127,6 @@ contains
 
    !> Remove folders that were made, the deepest first
    subroutine remove_folders(made)
-      !> The folders
       type(lines_type), intent(in) :: made
 
       integer :: i

@@ -68,7 +68,6 @@ contains
 
    !> The engines that have run, with the build variant; counts that were merged may be of another than this one
    subroutine name_engines_that_ran(self, text)
-      !> Results
       class(results_type), intent(in) :: self
       !> See name_engines
       character(len=:), allocatable, intent(out) :: text
@@ -82,7 +81,6 @@ contains
 
    !> Remove the stores
    subroutine remove_stores(self)
-      !> Results
       class(results_type), intent(inout) :: self
 
       integer :: i

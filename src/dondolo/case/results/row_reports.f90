@@ -21,9 +21,7 @@ contains
 
    !> Write one table of a population
    subroutine write_rows(case, results, name, files, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
@@ -63,7 +61,6 @@ contains
 
    !> Histories of a row of a population
    subroutine read_histories(results, number, row, error)
-      !> Results
       type(results_type), intent(inout) :: results
       !> Number of the row
       integer, intent(in) :: number
@@ -84,7 +81,6 @@ contains
 
    !> Write one table of the one wall of a case
    subroutine write_one_row(case, row, name, files, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> Counts of the wall, with all its histories
       type(row_counts_type), intent(in) :: row
@@ -105,11 +101,9 @@ contains
 
    !> Names of the columns of a table
    subroutine write_names(case, name, files)
-      !> The case
       type(case_type), intent(in) :: case
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: line
@@ -133,15 +127,11 @@ contains
 
    !> Lines of a wall, or of one of its mechanisms, in a table
    subroutine write_row(case, member, row, name, files, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The wall
       type(member_type), intent(in) :: member
-      !> Its counts
       type(row_counts_type), intent(in) :: row
       !> What the name of the file ends with
       character(len=*), intent(in) :: name
-      !> Files
       type(result_files_type), intent(inout) :: files
       !> Its histories cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
@@ -163,13 +153,9 @@ contains
 
    !> All histories of a row
    subroutine write_histories(case, member, row, files, error)
-      !> The case
       type(case_type), intent(in), target :: case
-      !> The row
       type(member_type), intent(in) :: member
-      !> Its counts
       type(row_counts_type), intent(in) :: row
-      !> Files
       type(result_files_type), intent(inout) :: files
       !> They cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
@@ -196,13 +182,9 @@ contains
 
    !> Histories of a row that reach each threshold at every level
    subroutine write_stripes(case, member, row, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The row
       type(member_type), intent(in) :: member
-      !> Its counts
       type(row_counts_type), intent(in) :: row
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: cells, line
@@ -220,13 +202,9 @@ contains
 
    !> Curves of a row
    subroutine write_fragility(case, member, row, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The row
       type(member_type), intent(in) :: member
-      !> Its counts
       type(row_counts_type), intent(in) :: row
-      !> Files
       type(result_files_type), intent(inout) :: files
 
       character(len=:), allocatable :: cells, line

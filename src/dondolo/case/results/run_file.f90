@@ -25,9 +25,7 @@ contains
 
    !> Write the file of the run
    subroutine write_run(case, results, files)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(in) :: results
       !> Files; this one was begun
       type(result_files_type), intent(inout) :: files

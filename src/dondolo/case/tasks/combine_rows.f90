@@ -17,7 +17,6 @@ contains
 
    !> Curves of the population, and what there is to warn of
    subroutine combine_rows(case, results, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> Its results: the stores are there; counts, curves and warnings are set
       type(results_type), intent(inout) :: results
@@ -72,7 +71,6 @@ contains
 
    !> Go through the rows and their names: what there is to say of the curves, and those that are shown
    subroutine look_at_rows(case, results, fits, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> Its results: the rows that are shown are set
       type(results_type), intent(inout) :: results

@@ -25,9 +25,7 @@ contains
 
    !> Run the rows of a population that the case asks for, or those that an earlier run has left
    subroutine run_population_case(case, results, error, team, progress)
-      !> The case
       type(case_type), intent(in), target :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
@@ -59,7 +57,6 @@ contains
 
    !> Take the stores that hold the parts of a population together
    subroutine merge_population(case, paths, results, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> Paths of the stores, in any order
       type(lines_type), intent(in) :: paths
@@ -107,7 +104,6 @@ contains
 
    !> Look into stores that are to be merged
    subroutine look_into_parts(case, paths, stores, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> Paths of the stores
       type(lines_type), intent(in) :: paths
@@ -145,7 +141,6 @@ contains
 
    !> Path of the store: that of a part stays, that of a whole population is there while it runs
    pure function store_path(case) result(path)
-      !> The case
       type(case_type), intent(in) :: case
       !> Path
       character(len=len(case%job%output) + 40) :: path
@@ -157,7 +152,6 @@ contains
 
    !> What the store of a case is for
    subroutine make_identity(case, identity)
-      !> The case
       type(case_type), intent(in), target :: case
       !> Its study and rows
       type(identity_type), intent(out) :: identity
@@ -172,7 +166,6 @@ contains
 
    !> Look for the store that an earlier run has left
    subroutine find_start(case, store, error)
-      !> The case
       type(case_type), intent(in) :: case
       !> The store; empty if there was none
       type(store_type), intent(out) :: store
@@ -188,9 +181,7 @@ contains
 
    !> Begin to put rows into a store
    subroutine begin(case, store, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The store
       type(store_type), intent(inout) :: store
       !> It cannot be written
       type(error_type), allocatable, intent(out) :: error
@@ -208,9 +199,7 @@ contains
 
    !> Check that the table is still the one that was surveyed; if not, what was computed may be of either
    subroutine check_table(case, store, error)
-      !> The case
       type(case_type), intent(in) :: case
-      !> The store
       type(store_type), intent(inout) :: store
       !> It is not; the store is removed
       type(error_type), allocatable, intent(out) :: error

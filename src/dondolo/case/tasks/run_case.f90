@@ -29,9 +29,7 @@ contains
 
    !> Run a case
    subroutine run_case(case, results, error, threads, progress)
-      !> The case
       type(case_type), intent(in) :: case
-      !> Its results
       type(results_type), intent(out) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
@@ -106,7 +104,6 @@ contains
 
       !> Plan the histories of one wall
       subroutine plan_wall(wall)
-         !> The wall
          type(wall_type), intent(in) :: wall
 
          type(stripes_type) :: stripes
@@ -121,9 +118,7 @@ contains
 
    !> Stripes of the one wall, all histories kept
    subroutine run_stripes(case, results, error, team, progress)
-      !> The case
       type(case_type), intent(in), target :: case
-      !> Its results
       type(results_type), intent(inout) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error

@@ -32,7 +32,6 @@ contains
    subroutine look(self, wall)
       !> What there is to say
       class(wall_warning_type), intent(inout) :: self
-      !> The wall
       type(wall_type), intent(in) :: wall
 
       real(wp) :: value

@@ -17,7 +17,6 @@ contains
 
    !> The sentence of a warning
    subroutine make_sentence(warning, text)
-      !> The warning
       type(warning_type), intent(in) :: warning
       !> Its sentence, without a full stop
       character(len=:), allocatable, intent(out) :: text
@@ -168,7 +167,6 @@ contains
 
    !> The sentences of warnings
    subroutine warning_sentences(warnings, lines)
-      !> Warnings
       type(warnings_type), intent(in) :: warnings
       !> Lines to add to
       type(lines_type), intent(inout) :: lines
@@ -184,7 +182,6 @@ contains
 
    !> Warnings as JSON objects, each on one line
    subroutine warning_objects(warnings, lines)
-      !> Warnings
       type(warnings_type), intent(in) :: warnings
       !> Lines to add to
       type(lines_type), intent(inout) :: lines
@@ -203,7 +200,6 @@ contains
 
    !> Put warnings into a JSON object, as an array `warnings`
    subroutine put_warnings(warnings, json)
-      !> Warnings
       type(warnings_type), intent(in) :: warnings
       !> JSON, in an object
       type(json_type), intent(inout) :: json

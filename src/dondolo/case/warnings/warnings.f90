@@ -69,7 +69,6 @@ contains
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
-      !> Records
       type(record_type), intent(in) :: records(:)
 
       integer :: at(2)
@@ -105,7 +104,6 @@ contains
 
    !> Warn of records without motion, and of those whose PGA no accelerograph has measured
    subroutine warn_of_records(records, peaks, gravity, warnings)
-      !> Records
       type(record_type), intent(in) :: records(:)
       !> Their PGA [m/s2]
       real(wp), intent(in) :: peaks(:)
@@ -143,11 +141,8 @@ contains
 
    !> Warn of the curve of one wall
    subroutine warn_of_fit(wall, stripes, fragility, warnings)
-      !> The wall
       type(wall_type), intent(in) :: wall
-      !> Its stripes
       type(stripes_type), intent(in) :: stripes
-      !> Its curve
       type(fragility_type), intent(in) :: fragility
       !> Warnings to add to
       type(warnings_type), intent(inout) :: warnings
@@ -243,7 +238,6 @@ contains
    subroutine warn_of_errors(stripes, records, edp_limit, warnings)
       !> Stripes with estimated errors
       type(stripes_type), intent(in) :: stripes
-      !> Records
       type(record_type), intent(in) :: records(:)
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit

@@ -71,7 +71,6 @@ contains
 
    !> Rocking begins now
    elemental subroutine begin_rocking(self)
-      !> The history
       class(history_type), intent(inout) :: self
 
       self%moved = .true.
@@ -81,9 +80,7 @@ contains
 
    !> Rocking ends now: at rest, by collapse, or since the record is over
    pure subroutine end_rocking(self, record)
-      !> The history
       class(history_type), intent(inout) :: self
-      !> The accelerogram
       type(record_type), intent(in) :: record
 
       integer :: interval
@@ -101,7 +98,6 @@ contains
    pure subroutine leave_edge(self, record)
       !> The history: at rest
       class(history_type), intent(inout) :: self
-      !> The accelerogram
       type(record_type), intent(in) :: record
 
       real(wp) :: crossing
@@ -121,7 +117,6 @@ contains
 
    !> Apply an impact: the wall loses speed, a two-sided wall changes side, and it may come to rest
    pure subroutine strike(self, rest, record, acceleration, v, unit, at_rest)
-      !> The history
       class(history_type), intent(inout) :: self
       !> The wall at rest
       type(rest_type), intent(in) :: rest
@@ -151,7 +146,6 @@ contains
       class(history_type), intent(inout) :: self
       !> The wall at rest
       type(rest_type), intent(in) :: rest
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Ground acceleration [m/s2]
       real(wp), intent(in) :: ground
@@ -177,11 +171,8 @@ contains
 
    !> Add the free motion of a wall that still rocks when the record ends
    pure subroutine add_free_motion(self, mechanism, record, limit, q, v)
-      !> The history
       class(history_type), intent(inout) :: self
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
@@ -199,13 +190,9 @@ contains
 
    !> Result and counts of a history that is over
    pure subroutine finish(self, constants, record, response, work)
-      !> The history
       class(history_type), intent(in) :: self
-      !> The wall
       class(wall_constants_type), intent(in) :: constants
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> Its result
       type(response_type), intent(out) :: response
       !> Counts, added to; steps and evaluations are counted by the engine
       type(work_type), intent(inout), optional :: work

@@ -50,7 +50,6 @@ contains
 
    !> Announce the work to the progress callback
    subroutine announce(self, total, progress)
-      !> The queue
       class(queue_type), intent(inout) :: self
       !> Histories in all
       integer, intent(in) :: total
@@ -80,7 +79,6 @@ contains
 
    !> Take the number of a history; 0 if none is left, or after Ctrl-C
    integer function next(self)
-      !> The queue
       class(queue_type), intent(inout) :: self
 
       integer(c_int) :: interrupted
@@ -95,7 +93,6 @@ contains
 
    !> One more is done
    subroutine report(self)
-      !> The queue
       class(queue_type), intent(inout) :: self
 
       integer :: now
@@ -111,7 +108,6 @@ contains
 
    !> All that were put in are done
    subroutine report_all(self)
-      !> The queue
       class(queue_type), intent(in) :: self
 
       if (associated(self%progress)) call self%progress(self%done, self%total)

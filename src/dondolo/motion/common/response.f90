@@ -82,7 +82,6 @@ contains
 
    !> Add a row; that after an impact is marked by its caller
    pure subroutine add(self, time, acceleration, rotation, velocity, side)
-      !> The history
       class(trace_type), intent(inout) :: self
       !> Time [s]
       real(wp), intent(in) :: time
@@ -112,7 +111,6 @@ contains
 
    !> Give back the room that was not used
    pure subroutine trim_rows(self)
-      !> The history
       class(trace_type), intent(inout) :: self
 
       if (.not. self%lacks_memory) call resize(self, self%rows)
@@ -120,7 +118,6 @@ contains
 
    !> Room for a number of rows; the present rows are kept as far as they fit
    pure subroutine resize(self, room)
-      !> The history
       class(trace_type), intent(inout) :: self
       !> Rows there shall be room for
       integer, intent(in) :: room

@@ -61,7 +61,6 @@ contains
 
    !> What a mechanism is like near rest
    pure function new_rest(mechanism) result(rest)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Its rest
       type(rest_type) :: rest
@@ -89,7 +88,6 @@ contains
 
    !> Ground acceleration beyond which a wall at rest does not stay so, towards the side it can rock to [m/s2]
    elemental real(wp) function trigger(self)
-      !> The wall
       class(rest_type), intent(in) :: self
 
       trigger = self%moment/self%lever
@@ -97,7 +95,6 @@ contains
 
    !> Moment at q = 0 that pushes the wall back to rest: G(0) - Q(0) + s L(0) u_g''
    elemental function inward_moment(self, side, acceleration) result(moment)
-      !> The wall
       class(rest_type), intent(in) :: self
       !> Side, +1 or -1
       real(wp), intent(in) :: side
@@ -114,7 +111,6 @@ contains
    pure subroutine next_start(self, record, scale, interval, time, side, found)
       !> The wall at rest
       class(rest_type), intent(in) :: self
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Factor on it
       real(wp), intent(in) :: scale
@@ -168,7 +164,6 @@ contains
    !> with a_1, a_2 the least inward decelerations of the side now active and of the other (the same one for a
    !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
    pure function chain_ends(self, record, scale, interval, time, side, speed, peak) result(ends)
-      !> The wall
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample
       type(record_type), intent(in) :: record
@@ -224,7 +219,6 @@ contains
 
    !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
    pure subroutine least_moments(self, push, here, other)
-      !> The wall
       class(rest_type), intent(in) :: self
       !> Inward moment of the ground on the side now active [N m]
       real(wp), intent(in) :: push

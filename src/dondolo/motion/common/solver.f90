@@ -89,7 +89,6 @@ contains
 
    !> Check the ranges of the settings
    subroutine check_solver(solver, error)
-      !> Settings
       type(solver_type), intent(in) :: solver
       !> `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
@@ -119,7 +118,6 @@ contains
 
    !> Check a number of the settings
    subroutine check_range(property, value, allowed)
-      !> Its property
       type(property_type), intent(in) :: property
       !> Its value
       real(wp), intent(in) :: value
@@ -133,7 +131,6 @@ contains
    !> Settings that halve the steps, whether samples or tolerances limit them; where a tolerance is so tight that
    !> rounding would undo that, they double the steps
    elemental function refined(solver) result(other)
-      !> Settings
       type(solver_type), intent(in) :: solver
       !> Other settings
       type(solver_type) :: other
@@ -162,9 +159,7 @@ contains
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)
-      !> Settings
       type(solver_type), intent(in) :: solver
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> The limit lies beyond its geometric end
       type(error_type), allocatable, intent(out) :: error

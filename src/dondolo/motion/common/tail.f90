@@ -24,7 +24,6 @@ contains
 
    !> The largest rotation after the end of the record
    pure subroutine free_motion(mechanism, limit, q, v, tail)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
@@ -32,7 +31,6 @@ contains
       real(wp), intent(in) :: q
       !> Angular velocity, positive outwards [rad/s]
       real(wp), intent(in) :: v
-      !> What happens
       type(tail_type), intent(out) :: tail
 
       real(wp) :: j, energy, rest_energy, turn
@@ -59,7 +57,6 @@ contains
 
    !> Outward motion with a given energy: it reaches the limit or a peak
    pure subroutine rise(mechanism, limit, q, energy, tail)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
@@ -89,7 +86,6 @@ contains
 
    !> Time of the fall from q to 0; a motion that passes the capacity is slowest there
    pure function fall_time(mechanism, energy, q) result(time)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Energy [J]
       real(wp), intent(in) :: energy
@@ -108,7 +104,6 @@ contains
 
    !> The rotation between two others at which the potential energy equals the energy, by bisection
    pure function turning_rotation(mechanism, energy, high, low) result(turn)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Energy [J]
       real(wp), intent(in) :: energy
@@ -138,7 +133,6 @@ contains
    !> q = slow + (other - slow) x^2 takes the singularity of a turning point out, and the double exponential
    !> rule (Takahasi and Mori 1974) what is left near an unstable equilibrium
    pure function time_between(mechanism, energy, slow, other) result(time)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Energy [J]
       real(wp), intent(in) :: energy
@@ -176,7 +170,6 @@ contains
 
    !> 1/|q'| at a distance from the slowest rotation
    pure function slowness(mechanism, excess, slow, distance) result(inverse_speed)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Kinetic energy at the slowest rotation [J]
       real(wp), intent(in) :: excess
@@ -202,7 +195,6 @@ contains
 
    !> Inertia J at a rotation
    pure function inertia(mechanism, q) result(j)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation [rad]
       real(wp), intent(in) :: q

@@ -25,7 +25,6 @@ contains
 
    !> Constants of a mechanism
    pure function new_wall_constants(mechanism, solver) result(constants)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Tolerances and limit
       type(solver_type), intent(in) :: solver

@@ -31,7 +31,6 @@ contains
 
    !> Add other counts
    pure subroutine add(self, other)
-      !> The sum
       class(work_type), intent(inout) :: self
       !> Counts to add
       type(work_type), intent(in) :: other
@@ -48,7 +47,6 @@ contains
 
    !> The counts as an array, in the order of work_names
    pure function counts(self)
-      !> Counts
       class(work_type), intent(in) :: self
       !> The same
       integer(int64) :: counts(size(work_names))

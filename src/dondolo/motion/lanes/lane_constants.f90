@@ -24,7 +24,6 @@ contains
 
    !> Constants of a mechanism
    pure function new_lane_constants(mechanism, solver) result(constants)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Tolerances and limit
       type(solver_type), intent(in) :: solver

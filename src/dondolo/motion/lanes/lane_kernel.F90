@@ -18,11 +18,9 @@ contains
 
    !> One step of the first lanes
    pure subroutine step_lanes(lanes, active, form, samples, rtol, atol)
-      !> The lanes
       type(lanes_type), intent(inout) :: lanes
       !> Lanes to step
       integer, intent(in) :: active
-      !> The wall
       type(normal_form_type), intent(in) :: form
       !> Samples of all records [m/s2]
       real(wp), intent(in) :: samples(*)

@@ -78,11 +78,8 @@ contains
    subroutine simulate_variant(variant, mechanism, constants, records, set, queue, work)
       !> Name of the variant, from build_variant
       character(len=*), intent(in) :: variant
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Its constants
       type(lane_constants_type), intent(in) :: constants
-      !> Accelerograms
       type(record_type), intent(in) :: records(:)
       !> The same, joined
       type(record_set_type), intent(in) :: set

@@ -23,11 +23,8 @@ contains
 
    !> Histories of one wall, as long as the queue has some
    subroutine simulate_lanes(mechanism, constants, records, set, queue, work)
-      !> The mechanism
       class(mechanism_type), intent(in), target :: mechanism
-      !> Its constants
       type(lane_constants_type), intent(in), target :: constants
-      !> Accelerograms
       type(record_type), intent(in), target :: records(:)
       !> The same, joined
       type(record_set_type), intent(in), target :: set
@@ -100,7 +97,6 @@ contains
 
    !> Move a lane
    pure subroutine move(batch, from, to)
-      !> The lanes
       type(lane_batch_type), intent(inout) :: batch
       !> The lane, and where it goes
       integer, intent(in) :: from, to

@@ -60,7 +60,6 @@ contains
 
    !> The normal form of a mechanism up to a rotation
    pure function new_normal_form(mechanism, limit) result(form)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation up to which it is wanted [rad]
       real(wp), intent(in) :: limit
@@ -107,7 +106,6 @@ contains
 
    !> Values at rotations
    pure subroutine sample(mechanism, q, inertia, stretch, a, b)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotations [rad]
       real(wp), intent(in) :: q(:)
@@ -161,7 +159,6 @@ contains
 
    !> Bound of the fifth derivative of y''/5! by y [1/s2]
    elemental real(wp) function fifth(self, u)
-      !> The normal form
       class(normal_form_type), intent(in) :: self
       !> Ground acceleration [m/s2]
       real(wp), intent(in) :: u
@@ -171,7 +168,6 @@ contains
 
    !> Rotation q [rad]
    pure real(wp) function rotation(self, y)
-      !> The normal form
       class(normal_form_type), intent(in) :: self
       !> Coordinate, 0 <= y <= y_limit
       real(wp), intent(in) :: y

@@ -44,13 +44,10 @@ contains
 
    !> One accepted step: to the next sample, less where the error asks for it, or to the first event on the way
    pure subroutine advance(mechanism, constants, dt, motion, event, sample_reached)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Its constants
       type(wall_constants_type), intent(in) :: constants
       !> Sample interval [s]
       real(wp), intent(in) :: dt
-      !> The motion
       type(motion_type), intent(inout) :: motion
       !> The event the step ends on
       integer, intent(out) :: event
@@ -136,7 +133,6 @@ contains
    !> Take a step again so that it ends on an event: Newton's method on the step itself, kept in a bracket by
    !> bisection, from the place found on the dense output
    pure subroutine land(mechanism, limit, motion, h, event, x, next)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit

@@ -48,9 +48,7 @@ contains
    !> Angular acceleration of the common form (docs/theory.md, section 1):
    !> q'' = (Q - G - L u - C q'^2)/J
    pure function angular_acceleration(mechanism, excitation, time, q, v) result(f)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Its excitation
       type(excitation_type), intent(in) :: excitation
       !> Time since the first sample of the interval [s]
       real(wp), intent(in) :: time
@@ -69,7 +67,6 @@ contains
 
    !> Does a rotation lie where the terms of a mechanism are not defined?
    pure logical function is_beyond(mechanism, q)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation [rad]
       real(wp), intent(in) :: q
@@ -80,9 +77,7 @@ contains
    !> One step. If one of its stages goes beyond the geometry it ends there, with a rotation that `is_beyond`, the
    !> velocity and the acceleration of the start, and no errors: a step to be rejected
    pure subroutine dormand_prince_step(mechanism, excitation, time, h, start, next, q_error, v_error)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> Its excitation
       type(excitation_type), intent(in) :: excitation
       !> Time of the start since the first sample of the interval [s]
       real(wp), intent(in) :: time

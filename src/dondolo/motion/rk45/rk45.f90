@@ -32,15 +32,12 @@ contains
 
    !> The motion of a wall under an accelerogram
    pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
       real(wp), intent(in) :: scale
       !> Tolerances and limit
       type(solver_type), intent(in) :: solver
-      !> Result
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
@@ -94,15 +91,12 @@ contains
    pure subroutine wait(constants, record, last, motion, ending, trace)
       !> Constants of the wall
       type(wall_constants_type), intent(in) :: constants
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Last sample interval of the record
       integer, intent(in) :: last
-      !> The motion
       type(motion_type), intent(inout) :: motion
       !> `at_rest` if it stays so, 0 if rocking begins
       integer, intent(out) :: ending
-      !> Time history
       type(trace_type), intent(inout), optional :: trace
 
       real(wp) :: side
@@ -126,19 +120,15 @@ contains
 
    !> Rocking, until rest, collapse, or the end of the last interval
    pure subroutine rock(mechanism, constants, record, last, motion, ending, trace)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Constants of the wall
       type(wall_constants_type), intent(in) :: constants
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Last interval to go through; beyond the record the ground is still
       integer, intent(in) :: last
-      !> The motion
       type(motion_type), intent(inout) :: motion
       !> How it ends
       integer, intent(out) :: ending
-      !> Time history
       type(trace_type), intent(inout), optional :: trace
 
       logical :: sample_reached
@@ -179,11 +169,9 @@ contains
 
    !> Leave the edge of the trigger, where rounding undid a start at once
    pure subroutine cross_edge(record, motion, trace)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> The motion: at rest
       type(motion_type), intent(inout) :: motion
-      !> Time history
       type(trace_type), intent(inout), optional :: trace
 
       integer :: interval
@@ -195,13 +183,9 @@ contains
 
    !> Go on to the next sample
    pure subroutine next_interval(solver, record, motion, trace)
-      !> The solver
       type(solver_type), intent(in) :: solver
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> The motion
       type(motion_type), intent(inout) :: motion
-      !> Time history
       type(trace_type), intent(inout), optional :: trace
 
       motion%interval = motion%interval + 1
@@ -212,11 +196,8 @@ contains
 
    !> A new sample interval, or a new start in one
    pure subroutine enter_interval(solver, record, motion)
-      !> The solver
       type(solver_type), intent(in) :: solver
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> The motion
       type(motion_type), intent(inout) :: motion
 
       motion%longest = longest_step(solver%steps_per_sample, record%dt, motion%time)
@@ -225,9 +206,7 @@ contains
 
    !> The excitation in the present interval, seen from the side of the wall
    pure subroutine aim(record, motion)
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> The motion
       type(motion_type), intent(inout) :: motion
 
       motion%excitation = excitation_type()
@@ -240,17 +219,13 @@ contains
 
    !> An impact: lose speed, change side, and see whether the wall comes to rest
    pure subroutine bounce(mechanism, constants, record, motion, ending, trace)
-      !> The mechanism
       class(mechanism_type), intent(in) :: mechanism
       !> Constants of the wall
       type(wall_constants_type), intent(in) :: constants
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> The motion
       type(motion_type), intent(inout) :: motion
       !> `at_rest` if it comes to rest, else 0
       integer, intent(out) :: ending
-      !> Time history
       type(trace_type), intent(inout), optional :: trace
 
       real(wp) :: v
@@ -273,9 +248,7 @@ contains
 
    !> The rotation is a new peak
    pure subroutine set_peak(motion, record)
-      !> The motion
       type(motion_type), intent(inout) :: motion
-      !> The accelerogram
       type(record_type), intent(in) :: record
 
       motion%peak = motion%q
@@ -284,11 +257,8 @@ contains
 
    !> Add the present state to the time history
    pure subroutine add_row(motion, record, trace)
-      !> The motion
       type(motion_type), intent(in) :: motion
-      !> The accelerogram
       type(record_type), intent(in) :: record
-      !> Time history
       type(trace_type), intent(inout) :: trace
 
       real(wp) :: acceleration, x

@@ -46,7 +46,6 @@ contains
 
    !> Find the headers of all records
    subroutine find_headers(text, headers, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> The headers, one at least
       type(cosmos_header_type), allocatable, intent(out) :: headers(:)
@@ -83,7 +82,6 @@ contains
 
    !> Find the parts of a header
    subroutine find_parts(text, header, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> The header, its first and last line known
       type(cosmos_header_type), intent(inout) :: header
@@ -136,13 +134,11 @@ contains
 
    !> Find a table of numbers
    subroutine find_table(text, line, title, table, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line before the table
       integer, intent(in) :: line
       !> What the line must hold, in lower case
       character(len=*), intent(in) :: title
-      !> The table
       type(table_type), intent(out) :: table
       !> The line is another, or states no count and format
       type(error_type), allocatable, intent(out) :: error
@@ -162,9 +158,7 @@ contains
 
    !> Keep what the header says
    subroutine keep(self, text, channel)
-      !> The header
       class(cosmos_header_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> The channel to keep it with
       type(channel_type), intent(inout) :: channel

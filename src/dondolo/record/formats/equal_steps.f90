@@ -24,7 +24,6 @@ contains
 
    !> Check the times of a file and find the time step
    subroutine check_equal_steps(text, begin, time, first, last, dt, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the first time; the others stand in the lines after it
       integer, intent(in) :: begin
@@ -100,7 +99,6 @@ contains
 
    !> How times are printed
    pure subroutine print_of_times(text, first, last, decimals, digits)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Position of the first character of each time
       integer, intent(in) :: first(:)

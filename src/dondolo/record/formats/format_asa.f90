@@ -32,7 +32,6 @@ contains
 
    !> Is a text in this format? It says so
    logical function recognises_asa(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       recognised = line_with(text, 1, 20, kind) > 0
@@ -40,7 +39,6 @@ contains
 
    !> Read a file
    subroutine read_asa(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -88,9 +86,7 @@ contains
 
    !> What the header says of a channel
    subroutine read_channel(text, labels, number, rows, name, dt, peak, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header
       type(labels_type), intent(in) :: labels
       !> Number of the channel
       integer, intent(in) :: number
@@ -127,7 +123,6 @@ contains
 
    !> Number of samples that the header states for a channel, 0 if none
    function number_of(labels, number) result(count)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> Number of the channel
       integer, intent(in) :: number
@@ -143,7 +138,6 @@ contains
 
    !> Find the value for one channel in a line such as `/2455/2455/2455`
    pure subroutine find_value(labels, key, later_key, number, value)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> Key of channels 1 to 6
       character(len=*), intent(in) :: key
@@ -170,7 +164,6 @@ contains
 
    !> What the header says
    subroutine add_metadata(labels, metadata)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> What it says
       type(metadata_type), intent(inout) :: metadata
@@ -225,7 +218,6 @@ contains
 
    !> First line that holds a text
    pure function line_with(text, from, to, part) result(line)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line to look at
       integer, intent(in) :: from

@@ -36,7 +36,6 @@ contains
    !> Is a text in this format? The first line of values holds as many as the second or the third does, and one of them is a
    !> number
    logical function recognises_columns(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       type(text_file_type) :: plain
@@ -54,7 +53,6 @@ contains
 
    !> Is a text in this format, without decimal commas?
    function recognises_plain(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> As of `recognises_columns`
       logical :: recognised
@@ -80,7 +78,6 @@ contains
 
    !> Read plain columns
    subroutine read_columns(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -107,7 +104,6 @@ contains
 
    !> Find out whether a text has decimal commas or rows of empty cells at the end
    subroutine look_for_commas(text, lines, has_commas)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Its lines without rows of empty cells at the end
       integer, intent(out) :: lines
@@ -137,7 +133,6 @@ contains
 
    !> Replace decimal commas by points, and drop rows of empty cells at the end
    subroutine make_plain(text, lines, has_commas, plain)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Its lines without rows of empty cells at the end
       integer, intent(in) :: lines
@@ -160,7 +155,6 @@ contains
 
    !> Read plain columns without decimal commas
    subroutine read_plain(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -225,7 +219,6 @@ contains
 
    !> Say what is wrong in a line
    subroutine raise_bad_line(text, line, begin, cells, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line
@@ -258,7 +251,6 @@ contains
 
    !> Read comments and titles
    subroutine read_top(text, begin, cells, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of values
       integer, intent(in) :: begin
@@ -316,7 +308,6 @@ contains
 
    !> Take units and time step that comments state
    subroutine take_comments(text, begin, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of values
       integer, intent(in) :: begin
@@ -366,7 +357,6 @@ contains
 
    !> First line that holds values: after comments and one line of titles
    function first_value_line(text) result(line)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line, beyond the last if there is none
       integer :: line
@@ -400,7 +390,6 @@ contains
 
    !> What separates the columns of a line
    pure function separator_of(text, line) result(separator)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line
@@ -414,7 +403,6 @@ contains
 
    !> Find the columns of a line
    pure subroutine find_cells(text, line, separator, first, last, cells)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line
@@ -428,13 +416,15 @@ contains
       integer, intent(out) :: cells
 
       integer :: at, begin, finish
+      logical :: by_blanks
 
+      by_blanks = separator == ' '
       first(1) = 1
       last(1) = 0
       cells = 0
       at = text%first(line)
       do while (cells < most_cells .and. at <= text%last(line))
-         if (separator == ' ') then
+         if (by_blanks) then
             call text%next_word(at, text%last(line), begin, finish)
             if (begin > text%last(line)) return
          else

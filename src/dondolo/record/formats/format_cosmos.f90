@@ -58,7 +58,6 @@ contains
 
    !> Is a text in this format? The first line names the version of the format and the number of text lines
    logical function recognises_cosmos(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       recognised = index(lower(text%line(1)), '(format v') > 0 .and. index(lower(text%line(1)), 'text lines') > 0
@@ -66,7 +65,6 @@ contains
 
    !> Read a COSMOS file: its records of acceleration
    subroutine read_cosmos(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -113,7 +111,6 @@ contains
 
    !> Find the quantity of a record in words
    subroutine find_quantity(text, header, quantity)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
@@ -126,7 +123,6 @@ contains
 
    !> Are the values of a record accelerations? Both words and code must say so, where they say anything.
    function is_acceleration(text, header)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
@@ -145,11 +141,9 @@ contains
 
    !> Read the values of a record
    subroutine read_values(text, header, channel, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
-      !> The channel
       type(channel_type), intent(inout) :: channel
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
@@ -201,7 +195,6 @@ contains
 
    !> Read the units of a record
    subroutine read_units(text, header, units, multiple, raw, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
@@ -260,7 +253,6 @@ contains
 
    !> Read how many g a count of the recorder is
    subroutine read_scale(text, header, scale, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header
@@ -289,7 +281,6 @@ contains
 
    !> Read the time step of a record
    subroutine read_step(text, header, count, dt, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Header of the record
       type(cosmos_header_type), intent(in) :: header

@@ -34,7 +34,6 @@ contains
 
    !> Is a text in this format? It begins with corrected and uncorrected accelerogram
    logical function recognises_csmip(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       recognised = is_title(text, 1) .and. index(lower(adjustl(text%line(2))), 'uncorrected accelerogram') == 1
@@ -42,7 +41,6 @@ contains
 
    !> Read a CSMIP file
    subroutine read_csmip(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -65,7 +63,6 @@ contains
 
    !> Does a channel begin in a line?
    pure function is_title(text, line)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: line
@@ -77,13 +74,11 @@ contains
 
    !> Read a channel
    subroutine read_channel(text, first, last, channel, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Its first line
       integer, intent(in) :: first
       !> Its last line
       integer, intent(in) :: last
-      !> The channel
       type(channel_type), intent(out) :: channel
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
@@ -140,7 +135,6 @@ contains
 
    !> Read a line before values
    subroutine read_announcement(text, begin, count, dt, units, width, per_line, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line
       integer, intent(in) :: begin
@@ -184,13 +178,11 @@ contains
 
    !> Keep what the text lines of a channel say
    subroutine read_header(text, first, last, channel)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of the channel
       integer, intent(in) :: first
       !> Last of its text lines
       integer, intent(in) :: last
-      !> The channel
       type(channel_type), intent(inout) :: channel
 
       character(len=:), allocatable :: line, rest
@@ -315,7 +307,6 @@ contains
 
    !> First line of a range that holds a text
    pure function line_with(text, first, last, part) result(line)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of the range
       integer, intent(in) :: first

@@ -26,7 +26,6 @@ contains
 
    !> Is a text in this format? Its header states sampling rate, units and sequence of the columns
    logical function recognises_cwa(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       type(labels_type) :: labels
@@ -38,7 +37,6 @@ contains
 
    !> Read a file
    subroutine read_cwa(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -91,9 +89,7 @@ contains
 
    !> The number of rows must be the one that duration and sampling rate make
    subroutine check_rows(text, labels, rate, rows, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header
       type(labels_type), intent(in) :: labels
       !> Sampling rate [1/s]
       real(wp), intent(in) :: rate
@@ -168,7 +164,6 @@ contains
 
    !> What the header says
    subroutine add_metadata(labels, metadata)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> What it says
       type(metadata_type), intent(inout) :: metadata
@@ -192,7 +187,6 @@ contains
 
    !> Number of lines of the header
    pure function header_lines(text) result(count)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the last line at the top that begins with #; empty lines may stand between
       integer :: count

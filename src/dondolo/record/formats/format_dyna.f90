@@ -21,7 +21,6 @@ contains
 
    !> Is a text in this format? It begins with lines `KEY: value`, among them the sampling interval
    logical function recognises_dyna(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       type(labels_type) :: labels
@@ -32,7 +31,6 @@ contains
 
    !> Read a DYNA file
    subroutine read_dyna(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -64,9 +62,7 @@ contains
 
    !> The values must be accelerations
    subroutine check_quantity(text, labels, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header
       type(labels_type), intent(in) :: labels
       !> They are something else, or the file does not say
       type(error_type), allocatable, intent(out) :: error
@@ -81,7 +77,6 @@ contains
 
    !> What the header says
    subroutine add_metadata(labels, component, metadata)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> The component
       character(len=*), intent(in) :: component
@@ -122,7 +117,6 @@ contains
 
    !> Number of lines `KEY: value` at the top
    pure function header_lines(text) result(count)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of lines before the first that holds no colon
       integer :: count

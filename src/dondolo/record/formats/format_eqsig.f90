@@ -17,7 +17,6 @@ contains
    !> Is a text in this format? The first line is a label and no number, the second holds count and step, the third a
    !> single number
    logical function recognises_eqsig(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       real(wp) :: value, dt
@@ -35,7 +34,6 @@ contains
 
    !> Read a file
    subroutine read_eqsig(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples

@@ -38,7 +38,6 @@ contains
 
    !> Is a text in this format? It begins with an accelerogram and a site
    logical function recognises_geonet(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       recognised = scan(lower(adjustl(text%line(1))), 'cu') == 1 .and. &
@@ -48,7 +47,6 @@ contains
 
    !> Read a GeoNet file
    subroutine read_geonet(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -74,13 +72,11 @@ contains
 
    !> Read a component
    subroutine read_component(text, first, next, channel, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Its first line
       integer, intent(in) :: first
       !> Line after its last
       integer, intent(out) :: next
-      !> Its accelerations
       type(channel_type), intent(out) :: channel
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
@@ -126,7 +122,6 @@ contains
 
    !> Read the numbers of accelerations, velocities and displacements
    subroutine read_counts(text, first, integers, counts, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of the component
       integer, intent(in) :: first
@@ -156,7 +151,6 @@ contains
 
    !> Read the time step
    subroutine read_step(text, first, reals, dt, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of the component
       integer, intent(in) :: first
@@ -184,7 +178,6 @@ contains
 
    !> Keep what the header of a component says
    subroutine read_header(text, first, integers, reals, channel)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line of the component
       integer, intent(in) :: first
@@ -192,7 +185,6 @@ contains
       type(table_type), intent(in) :: integers
       !> The table of reals
       type(table_type), intent(in) :: reals
-      !> The component
       type(channel_type), intent(inout) :: channel
 
       character(len=:), allocatable :: line, moment, station

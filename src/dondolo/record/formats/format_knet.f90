@@ -31,7 +31,6 @@ contains
 
    !> Is a text in this format? Its header states origin time, sampling frequency and scale factor
    logical function recognises_knet(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       type(labels_type) :: labels
@@ -43,7 +42,6 @@ contains
 
    !> Read a file
    subroutine read_knet(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -85,9 +83,7 @@ contains
 
    !> Find the scale factor: `7845(gal)/8223790`
    subroutine get_factor(text, labels, factor, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> Its header
       type(labels_type), intent(in) :: labels
       !> Its size of a count [gal]
       real(wp), intent(out) :: factor
@@ -114,7 +110,6 @@ contains
 
    !> What the header says under the common keys
    subroutine add_metadata(labels, component, metadata)
-      !> The header
       type(labels_type), intent(in) :: labels
       !> The component
       character(len=*), intent(in) :: component

@@ -30,7 +30,6 @@ contains
 
    !> Is a text in this format? The third line states units and the fourth count and step
    logical function recognises_peer(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       recognised = index(lower(text%line(quantity_line)), 'in units of') > 0 .and. &
@@ -39,7 +38,6 @@ contains
 
    !> Read a PEER file
    subroutine read_peer(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples

@@ -44,7 +44,6 @@ contains
 
    !> Is a text in this format? The first line is a digit and one of the titles
    logical function recognises_smc(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       character(len=:), allocatable :: line
@@ -59,7 +58,6 @@ contains
 
    !> Read an SMC file
    subroutine read_smc(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -118,7 +116,6 @@ contains
 
    !> Find the first value, after as many comments as the header states
    subroutine find_values(text, line, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the first value
       integer, intent(out) :: line
@@ -140,9 +137,7 @@ contains
 
    !> The largest value, of either sign
    subroutine find_peak(text, channel)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> The channel
       type(channel_type), intent(inout) :: channel
 
       real(wp) :: largest, smallest
@@ -159,7 +154,6 @@ contains
 
    !> Keep what the header says
    subroutine read_header(text, samples)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(inout) :: samples

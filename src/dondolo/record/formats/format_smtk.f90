@@ -22,7 +22,6 @@ contains
 
    !> Is a text in this format? Its header states step and number, and a line names quantity and units
    logical function recognises_smtk(text) result(recognised)
-      !> The file
       type(text_file_type), intent(in) :: text
 
       type(labels_type) :: labels
@@ -33,7 +32,6 @@ contains
 
    !> Read a file
    subroutine read_smtk(text, samples, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> What it says
       type(samples_type), intent(out) :: samples
@@ -83,7 +81,6 @@ contains
 
    !> Line that names quantity and units
    pure function quantity_line(text) result(line)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Number of the line, 0 if there is none
       integer :: line

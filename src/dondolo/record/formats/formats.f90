@@ -36,7 +36,6 @@ module dondolo_formats
       logical function recognises_text(text) result(recognised)
          import :: text_file_type
          implicit none
-         !> The file
          type(text_file_type), intent(in) :: text
       end function recognises_text
 
@@ -44,7 +43,6 @@ module dondolo_formats
       subroutine read_text(text, samples, error)
          import :: text_file_type, samples_type, error_type
          implicit none
-         !> The file
          type(text_file_type), intent(in) :: text
          !> What it says
          type(samples_type), intent(out) :: samples
@@ -79,7 +77,6 @@ contains
    subroutine find_format(name, format, error)
       !> Name, in upper or lower case
       character(len=*), intent(in) :: name
-      !> The format
       type(format_type), intent(out) :: format
       !> There is none of this name
       type(error_type), allocatable, intent(out) :: error
@@ -99,9 +96,7 @@ contains
 
    !> Find the format of a text
    subroutine recognise_format(text, format, error)
-      !> The file
       type(text_file_type), intent(in) :: text
-      !> Its format
       type(format_type), intent(out) :: format
       !> No format recognises it, or two do
       type(error_type), allocatable, intent(out) :: error

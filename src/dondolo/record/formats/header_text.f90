@@ -231,7 +231,6 @@ contains
 
    !> None of the values of a block may be missing
    subroutine check_not_missing(text, first_line, per_line, values, missing, error)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Line of the first value
       integer, intent(in) :: first_line
@@ -256,9 +255,7 @@ contains
 
    !> A number of a table as it is printed, filled up with blanks
    pure function print_of(self, text, i) result(printed)
-      !> The table
       class(table_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Which number
       integer, intent(in) :: i
@@ -281,9 +278,7 @@ contains
 
    !> A number of a table as it is printed
    pure function field(self, text, i)
-      !> The table
       class(table_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Which number
       integer, intent(in) :: i
@@ -295,9 +290,7 @@ contains
 
    !> A number of a table that is an integer
    pure subroutine integer_of(self, text, i, value, ok)
-      !> The table
       class(table_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Which number
       integer, intent(in) :: i
@@ -311,7 +304,6 @@ contains
 
    !> Line of a number of a table
    elemental function line_of(self, i) result(line)
-      !> The table
       class(table_type), intent(in) :: self
       !> Which number
       integer, intent(in) :: i
@@ -323,7 +315,6 @@ contains
 
    !> Line after a table
    elemental function next_line(self) result(line)
-      !> The table
       class(table_type), intent(in) :: self
       !> Number of the line
       integer :: line

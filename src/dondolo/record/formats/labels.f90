@@ -43,7 +43,6 @@ contains
 
    !> Read labelled lines
    subroutine read_labels(text, first_line, last_line, labels, width)
-      !> The file
       type(text_file_type), intent(in) :: text
       !> First line to look at
       integer, intent(in) :: first_line
@@ -80,7 +79,6 @@ contains
 
    !> Number of the first label of a key, 0 if there is none
    pure integer function find(self, key) result(i)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
@@ -93,7 +91,6 @@ contains
 
    !> Length of the value of a key
    pure integer function value_length(self, key)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
@@ -107,7 +104,6 @@ contains
 
    !> Value of a key
    pure function value_of(self, key) result(value)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
@@ -119,7 +115,6 @@ contains
 
    !> Line of a key
    pure integer function line_of(self, key) result(line)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
       !> Key
       character(len=*), intent(in) :: key
@@ -130,9 +125,7 @@ contains
 
    !> Positive integer of a key
    subroutine get_count(self, text, key, count, error)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Key
       character(len=*), intent(in) :: key
@@ -151,9 +144,7 @@ contains
 
    !> Positive number of a key
    subroutine get_positive(self, text, key, value, error, unit)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
-      !> The file
       type(text_file_type), intent(in) :: text
       !> Key
       character(len=*), intent(in) :: key
@@ -179,9 +170,7 @@ contains
 
    !> Add all lines to metadata, where their keys do not stand yet
    subroutine add_to(self, metadata)
-      !> Labelled lines
       class(labels_type), intent(in) :: self
-      !> Metadata
       type(metadata_type), intent(inout) :: metadata
 
       integer :: i

@@ -11,7 +11,6 @@ contains
 
    !> Integral of the squared acceleration over time [m2/s3]; Arias's intensity is pi/(2 g) times it (Arias 1970)
    pure function acceleration_energy(record) result(energy)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> The integral [m2/s3]
       real(wp) :: energy
@@ -21,7 +20,6 @@ contains
 
    !> Cumulative absolute velocity: the integral of |a| over time [m/s] (EPRI 1988, without a threshold)
    pure function cumulative_absolute_velocity(record) result(cav)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> The integral [m/s]
       real(wp) :: cav
@@ -43,7 +41,6 @@ contains
    !> Significant duration: the time in which the integral of a**2 grows from one share of its end value to another [s]
    !> (Trifunac and Brady 1975)
    pure function significant_duration(record, from, to) result(duration)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Share at which it begins, between 0 and 1
       real(wp), intent(in) :: from
@@ -61,7 +58,6 @@ contains
    !> Times at which the integral of a**2 reaches two shares of its end value [s]; the shares 0 and 1 are where the
    !> motion begins and ends
    pure function significant_times(record, from, to) result(times)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> The first share, between 0 and 1
       real(wp), intent(in) :: from
@@ -80,7 +76,6 @@ contains
 
    !> Integral of the squared acceleration over every step [m2/s3]
    pure function step_energies(record) result(step)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Integrals [m2/s3]
       real(wp) :: step(size(record%acceleration) - 1)
@@ -96,7 +91,6 @@ contains
 
    !> When the integral of the squared acceleration reaches a value [s]
    pure function time_of(record, step, energy) result(time)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Integrals over the steps [m2/s3]
       real(wp), intent(in) :: step(:)

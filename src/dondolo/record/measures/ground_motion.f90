@@ -14,7 +14,6 @@ contains
 
    !> Velocity of the ground at every sample [m/s]
    pure function ground_velocity(record) result(velocity)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Velocity, 0 at the first sample [m/s]
       real(wp) :: velocity(size(record%acceleration))
@@ -31,7 +30,6 @@ contains
 
    !> Displacement of the ground at every sample [m]
    pure function ground_displacement(record) result(displacement)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Displacement, 0 at the first sample [m]
       real(wp) :: displacement(size(record%acceleration))
@@ -50,7 +48,6 @@ contains
 
    !> Peak ground velocity [m/s]
    pure function peak_velocity(record) result(peak)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> max |v| [m/s]
       real(wp) :: peak
@@ -72,7 +69,6 @@ contains
 
    !> Peak ground displacement [m]
    pure function peak_displacement(record) result(peak)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> max |d| [m]
       real(wp) :: peak

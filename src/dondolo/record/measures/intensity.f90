@@ -67,7 +67,6 @@ contains
 
    !> Make a measure of its name
    subroutine new_measure(measure, typed, error)
-      !> The measure
       type(measure_type), intent(out) :: measure
       !> One of im_names, with numbers for the periods; upper and lower case are the same
       character(len=*), intent(in) :: typed
@@ -148,9 +147,7 @@ contains
 
    !> Value for a record as it stands
    pure function of(self, record) result(value)
-      !> The measure
       class(measure_type), intent(in) :: self
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Its value: m/s2 for accelerations, m2/s3 for 'arias', else the unit of the levels
       real(wp) :: value
@@ -187,7 +184,6 @@ contains
 
    !> What a level of 1 is, in the unit of the value
    pure function level_size(self, gravity)
-      !> The measure
       class(measure_type), intent(in) :: self
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -203,7 +199,6 @@ contains
 
    !> Number of the kind of a measure
    pure integer function kind_of(self)
-      !> The measure
       class(measure_type), intent(in) :: self
 
       kind_of = findloc(kinds == self%kind, .true., dim=1)
@@ -211,7 +206,6 @@ contains
 
    !> Length of the unit
    pure integer function unit_length(self)
-      !> The measure
       class(measure_type), intent(in) :: self
 
       unit_length = len_trim(units(kind_of(self)))
@@ -219,7 +213,6 @@ contains
 
    !> Unit of the levels
    pure function unit(self)
-      !> The measure
       class(measure_type), intent(in) :: self
       !> Unit
       character(len=unit_length(self)) :: unit
@@ -229,7 +222,6 @@ contains
 
    !> What a measure is, in words filled up with blanks
    pure function words_of(self) result(words)
-      !> The measure
       class(measure_type), intent(in) :: self
       !> Words
       character(len=100) :: words
@@ -242,7 +234,6 @@ contains
 
    !> What it is, in words
    pure function title(self)
-      !> The measure
       class(measure_type), intent(in) :: self
       !> Words
       character(len=len_trim(words_of(self))) :: title
@@ -252,7 +243,6 @@ contains
 
    !> Power of a record's scale that the value grows by: 2 for an energy, 0 for a duration
    pure integer function power(self)
-      !> The measure
       class(measure_type), intent(in) :: self
 
       power = 1

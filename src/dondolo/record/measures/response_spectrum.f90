@@ -37,7 +37,6 @@ contains
 
    !> Pseudo-spectral accelerations: (2 pi / T)**2 times the displacements [m/s2]
    pure function pseudo_acceleration(record, periods, damping) result(sa)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Periods [s]
       real(wp), intent(in) :: periods(:)
@@ -51,7 +50,6 @@ contains
 
    !> Spectral displacements: the largest displacement of each oscillator relative to the ground [m]
    pure function spectral_displacement(record, periods, damping) result(sd)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Periods, from smallest_period to largest_period [s]
       real(wp), intent(in) :: periods(:)
@@ -83,7 +81,6 @@ contains
 
    !> Largest displacements of some oscillators that divide the steps alike
    pure subroutine swing(record, periods, damping, parts, peak)
-      !> The accelerogram
       type(record_type), intent(in) :: record
       !> Periods [s]
       real(wp), intent(in) :: periods(lanes)

@@ -77,7 +77,6 @@ contains
 
    !> The next number, uniform between 0 and 1, both excluded
    function next(self) result(uniform)
-      !> Generator
       class(random_type), intent(inout) :: self
       !> Number, a multiple of 1/(m1 + 1)
       real(wp) :: uniform

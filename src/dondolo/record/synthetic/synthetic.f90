@@ -100,7 +100,6 @@ contains
 
    !> Find the model's quantities (Sabetta and Pugliese 1996, as in their own program)
    subroutine new_motion_model(model, magnitude, distance, site, deviations, error)
-      !> The quantities
       type(motion_model_type), intent(out) :: model
       !> Magnitude of the earthquake
       real(wp), intent(in) :: magnitude
@@ -146,7 +145,6 @@ contains
 
    !> Power at a time: mean squared acceleration of all realisations, Pa(t)
    pure function power(self, time)
-      !> Model
       class(motion_model_type), intent(in) :: self
       !> Time [s]
       real(wp), intent(in) :: time
@@ -163,7 +161,6 @@ contains
 
    !> Central frequency at a time: the mean frequency of the spectrum, Fc(t)
    pure function central_frequency(self, time) result(frequency)
-      !> Model
       class(motion_model_type), intent(in) :: self
       !> Time [s]
       real(wp), intent(in) :: time
@@ -176,7 +173,6 @@ contains
 
    !> Sum the harmonics, a(t) = sum over n of sqrt(2 PS_n(t)) cos(2 pi f_n t + phase_n), f_n = n/T up to Nyquist
    subroutine sum_harmonics(model, random_at_start, acceleration)
-      !> Model
       type(motion_model_type), intent(in) :: model
       !> Generator of the phases
       type(random_type), intent(in) :: random_at_start

@@ -63,7 +63,6 @@ contains
       integer, intent(in) :: scenario
       !> Component, 1 or 2
       integer, intent(in) :: component
-      !> The record
       type(record_type), intent(out) :: record
       !> It could not be made
       type(error_type), allocatable, intent(out) :: error
