@@ -125,9 +125,9 @@ def test_a_loaded_result_goes_on(results, tmp_path):
     "wall",
     [
         dd.OneSidedWall(3.1, 0.27, density=1900.0, gravity=9.80665, name="naïve: a, 'b'"),
-        dd.OneSidedWall(3.0, 0.25, restitution="impulse", restitution_factor=0.3),
+        dd.OneSidedWall(3.0, 0.25, restitution="sorrentino", restitution_factor=0.9),
         dd.FreeStandingWall(2.0, 0.5, restitution="constant", restitution_value=0.7),
-        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution="sorrentino"),
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution="impulse"),
         dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, bearing="outer", bearing_distance=0.05),
     ],
     ids=lambda wall: wall.name,
