@@ -13,6 +13,7 @@
 
 from dondolo._fortran._binding import build_variant
 from dondolo._fortran._binding import constants as _constants
+from dondolo._storage.saved import load
 from dondolo.analysis.cloud import Cloud, cloud
 from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
 from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
@@ -102,6 +103,7 @@ __all__ = [
     "fit_fragility",
     "incremental",
     "intensity_table",
+    "load",
     "mean_annual_frequency",
     "multiple_stripe",
     "nrml_functions",

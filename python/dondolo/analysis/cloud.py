@@ -57,6 +57,7 @@ from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, Request, check_threads, new_request
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
@@ -79,7 +80,7 @@ _REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Cloud(Shown):
+class Cloud(Shown, Saved):
     """Points (IM, EDP) of records as they are, and what is fitted to them.
 
     Attributes

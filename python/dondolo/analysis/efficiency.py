@@ -11,6 +11,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_count, as_measures
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.curves import fragility
@@ -33,7 +34,7 @@ _LONGEST_SEARCH = 40
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class IntensityComparison:
+class IntensityComparison(Saved):
     """Fragility curves of one wall and one set of records for several intensity measures.
 
     Attributes

@@ -46,6 +46,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
@@ -79,7 +80,7 @@ _Table = Literal["records", "fractiles"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Incremental(Shown):
+class Incremental(Shown, Saved):
     """The histories of a multiple stripe analysis, record by record.
 
     Attributes

@@ -15,6 +15,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, on
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import InputError, Interrupted
@@ -33,6 +34,7 @@ _EDP_LIMIT = 5.0
 _LONGEST_FALL = 10.0
 
 
+@part_of_results
 class State(IntEnum):
     """What a pulse does to a wall; ordered as amplitudes often are."""
 
@@ -43,6 +45,7 @@ class State(IntEnum):
     OVERTURNED = 4
 
 
+@part_of_results
 class Boundary(NamedTuple):
     """A change of state between two amplitudes of one frequency.
 
@@ -83,7 +86,7 @@ _Table = Literal["map", "boundaries"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OverturningSpectrum(Shown):
+class OverturningSpectrum(Shown, Saved):
     """What pulses of many frequencies and amplitudes do to a wall.
 
     Attributes

@@ -14,6 +14,7 @@ from dondolo._base.arguments import FloatArray, as_number, as_text
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding, _core
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Response(Shown):
+class Response(Shown, Saved):
     """What a motion leaves.
 
     Attributes

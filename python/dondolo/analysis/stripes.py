@@ -15,6 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
@@ -31,7 +32,7 @@ _Table = Literal["histories", "stripes", "walls"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Stripes(Shown):
+class Stripes(Shown, Saved):
     """Every record at every level of intensity, and who collapses.
 
     Attributes

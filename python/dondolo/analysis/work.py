@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass
 
+from dondolo._storage.saved import part_of_results
 
+
+@part_of_results
 @dataclass(frozen=True)
 class Work:
     """Counts that show that nothing is integrated that a result does not need.

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
 from dondolo._fortran import _binding
+from dondolo._storage.saved import Saved
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloError, InputError
 
@@ -18,7 +19,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Bootstrap:
+class Bootstrap(Saved):
     """Curves fitted to records drawn with replacement.
 
     Attributes

@@ -10,6 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_generator, one_of, tails
 from dondolo._fortran import _binding
+from dondolo._storage.saved import Saved
 from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
@@ -17,7 +18,7 @@ from dondolo.errors import DondoloError, InputError
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Saved):
     """Two curves compared.
 
     Attributes

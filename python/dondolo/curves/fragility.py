@@ -14,6 +14,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, 
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloError, InputError
@@ -30,7 +31,7 @@ Method = Literal["delta", "profile"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fragility(Shown):
+class Fragility(Shown, Saved):
     """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
 
     Attributes

@@ -15,10 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo._storage.saved import part_of_results
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
 
+@part_of_results
 @dataclass(frozen=True)
 class Regression:
     """ln EDP = intercept + slope ln IM + sigma epsilon.
@@ -46,6 +48,7 @@ class Regression:
     status: str
 
 
+@part_of_results
 @dataclass(frozen=True)
 class Logistic:
     """P(x) = 1/(1 + exp(-(b0 + b1 ln x))), or why there is no such curve.

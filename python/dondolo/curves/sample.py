@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._storage.saved import part_of_results
 
 
+@part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
 class Sample:
     """Histories of one wall, stripe by stripe.

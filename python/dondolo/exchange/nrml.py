@@ -61,6 +61,7 @@ from dondolo._base.files import check_replaced
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
 
@@ -81,7 +82,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
-class DiscreteFragility(Shown):
+class DiscreteFragility(Shown, Saved):
     """A fragility curve as probabilities at levels, such as the mean of a typology.
 
     Parameters

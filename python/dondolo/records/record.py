@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text
 from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
+from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records import processing as process
 from dondolo.records import suite
@@ -22,6 +23,7 @@ from dondolo.records.rotation import RotD, check_components, component
 from dondolo.records.spectrum import Spectrum
 
 
+@part_of_results
 @dataclass(frozen=True, eq=False, repr=False, init=False)
 class Record:
     """An accelerogram: ground acceleration at equal steps of time, linear in between.

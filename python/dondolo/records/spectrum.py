@@ -9,10 +9,11 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Spectrum:
+class Spectrum(Saved):
     """Elastic response spectrum of a record.
 
     Attributes

@@ -57,6 +57,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing, shaped
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
+from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.errors import DondoloError, InputError
@@ -77,7 +78,7 @@ _FALL = 0.01
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Risk(Shown):
+class Risk(Shown, Saved):
     """Mean annual frequency of collapse, and where it comes from.
 
     Attributes

@@ -21,12 +21,13 @@ from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
 from dondolo.risk.hazard_table import read_hazard
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
-class HazardCurve(Shown):
+class HazardCurve(Shown, Saved):
     """Mean annual frequency with which an intensity is exceeded, a power law between each two levels.
 
     Parameters

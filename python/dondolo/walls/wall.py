@@ -15,6 +15,7 @@ from dondolo._base.shown import html_of
 from dondolo._fortran import _binding, _core
 from dondolo._fortran.handles import Handle
 from dondolo._storage import tables
+from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 
 if TYPE_CHECKING:
@@ -267,6 +268,7 @@ class Wall:
         return tables.frame(walls_table([self]))
 
 
+@part_of_results
 @dataclass(frozen=True, repr=False)
 class OneSidedWall(Wall):
     """A wall that rotates outwards only, about its outer base edge (a facade that came loose, a parapet).
@@ -311,6 +313,7 @@ class OneSidedWall(Wall):
     mechanism: ClassVar[str] = "one_sided"
 
 
+@part_of_results
 @dataclass(frozen=True, repr=False)
 class FreeStandingWall(Wall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
@@ -322,6 +325,7 @@ class FreeStandingWall(Wall):
     mechanism: ClassVar[str] = "free_standing"
 
 
+@part_of_results
 @dataclass(frozen=True, repr=False, kw_only=True)
 class TwoBlockWall(Wall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).

@@ -1,0 +1,250 @@
+"""Results in files: each is written whole to one file and read back, equal to the bit.
+
+A file is a NumPy archive (.npz): a ZIP archive of arrays in NumPy's .npy format, none of them pickled, so that reading
+one runs no code from it. Its first member, ``dondolo.json``, has the version of the format, the version of dondolo and
+the tree of the result; the other members are the arrays that the tree names. The tree has JSON's own null, true,
+false, strings and finite numbers; a tuple is an array, and everything else an object with one key that says its kind:
+
+==================================  ===========================================================
+``{"float": "nan"}``                a float that JSON lacks: nan, inf, -inf
+``{"array": "3.npy"}``              an array
+``{"scalar": "3.npy"}``             a NumPy scalar
+``{"list": [...]}``                 a list
+``{"mapping": [[key, value], ..]}`` a mapping
+``{"Stripes": {field: value}}``     a result, or a part of one: a dataclass or named tuple
+``{"State": value}``                a member of an enumeration
+==================================  ===========================================================
+
+A class takes part through its name: results inherit from `Saved`, their parts are marked by `part_of_results`. What is
+read is made by the constructor of its class, which checks it as it does any other input; what a wall derives from its
+numbers is derived again. A result gives the same bytes whenever it is saved.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import json
+import math
+import os
+import zipfile
+from collections.abc import Callable, Mapping
+from enum import Enum
+from inspect import signature
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+
+from dondolo._base.files import as_file, check_replaced, whole_file
+from dondolo._fortran import _binding
+from dondolo.errors import InputError, MissingFileError
+
+_VERSION = 1
+_CONTENT = "dondolo.json"
+# What every file has in its first bytes: the first member is not compressed
+_MARK = '{"format": "dondolo result"'
+_SUFFIX = ".npz"
+
+_Array = np.ndarray[Any, Any]
+_T = TypeVar("_T")
+_TYPES: dict[str, type] = {}
+
+
+def part_of_results(kind: type[_T]) -> type[_T]:
+    """Let a dataclass, named tuple or enumeration be part of saved results (a decorator)."""
+    _TYPES[kind.__name__] = kind
+    return kind
+
+
+class Saved:
+    """A result that can be saved: a dataclass."""
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        super().__init_subclass__(**more)
+        part_of_results(cls)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the result to a file, from which `dondolo.load` reads it back, equal to the bit.
+
+        Parameters
+        ----------
+        path : path
+            The file, whose name must end in .npz; an older result is replaced.
+
+        Raises
+        ------
+        InputError
+            Another suffix; a file that is no result of dondolo; a result with a part that cannot be saved, such as a
+            function of yours or the curve of a population (`Typology.save` writes those).
+        DondoloError
+            The file cannot be written.
+        """
+        target = as_file("path", path)
+        if target.suffix != _SUFFIX:
+            raise InputError(f"path = {os.fspath(path)!r}: must end in {_SUFFIX}")
+        arrays: list[_Array] = []
+        tree = _encode(self, type(self).__name__, arrays, {})
+        content = {"format": "dondolo result", "format_version": _VERSION, "dondolo": _binding.constants().version}
+        check_replaced(target, _MARK, "result")
+        with whole_file(target) as part, zipfile.ZipFile(part, "w") as archive:
+            # A ZipInfo has a date of its own, not today's.
+            archive.writestr(zipfile.ZipInfo(_CONTENT), json.dumps(content | {"result": tree}, allow_nan=False))
+            for i, array in enumerate(arrays):
+                with archive.open(zipfile.ZipInfo(_member(i)), "w", force_zip64=True) as member:
+                    np.lib.format.write_array(member, array, allow_pickle=False)
+
+
+def load(path: str | os.PathLike[str]) -> Any:
+    """Read a result that its method `save` wrote.
+
+    Parameters
+    ----------
+    path : path
+        The file, *.npz. The tables of a run, of `Typology.save` too, are read by `read_results`.
+
+    Returns
+    -------
+    Fragility, Stripes, Response, ...
+        The result, of the class that was saved and equal to the bit; its arrays are read-only.
+
+    Raises
+    ------
+    MissingFileError
+        There is no such file.
+    InputError
+        The file cannot be read, is not a saved result, is damaged, or has a format or a part that this version does
+        not know.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10])
+    >>> curve.save("curve.npz")  # doctest: +SKIP
+    >>> dd.load("curve.npz").theta == curve.theta  # doctest: +SKIP
+    True
+    """
+    source = as_file("path", path)
+    try:
+        data = source.read_bytes()
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{source}: cannot be read: {error.strerror}") from error
+    except OSError as error:
+        raise InputError(f"{source}: cannot be read: {error.strerror}") from error
+    if _MARK.encode() not in data[:500]:
+        raise InputError(f"{source}: is no result saved by dondolo")
+    result, origin, arrays = _unpack(data, source)
+    try:
+        return _decode(result, arrays)
+    except (AttributeError, InputError, LookupError, TypeError, ValueError) as error:
+        raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
+
+
+def _member(place: int) -> str:
+    """Name of an array in the archive."""
+    return f"{place}.npy"
+
+
+def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
+    """The tree in an archive, the version that wrote it, and the arrays; the check sums of all are compared."""
+    arrays: dict[str, _Array] = {}
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            content = json.loads(archive.read(_CONTENT))
+            for name in archive.namelist():
+                if name != _CONTENT:
+                    array = np.lib.format.read_array(io.BytesIO(archive.read(name)), allow_pickle=False)
+                    array.flags.writeable = False
+                    arrays[name] = array
+        result, version, origin = content["result"], int(content["format_version"]), str(content["dondolo"])
+    # Bytes that are wrong raise a dozen kinds of errors in zipfile and its decoders.
+    except Exception as error:
+        raise InputError(f"{source}: is damaged: not a whole archive of a result") from error
+    if version > _VERSION:
+        raise InputError(
+            f"{source}: was saved by dondolo {origin} in format {version};"
+            f" this is {_binding.constants().version}, which reads formats up to {_VERSION}"
+        )
+    return result, origin, arrays
+
+
+def _encode(value: Any, where: str, arrays: list[_Array], places: dict[int, str]) -> Any:
+    """The tree of a value; its arrays are appended, each once."""
+
+    def inner(value: Any, where: str) -> Any:
+        return _encode(value, where, arrays, places)
+
+    def stored(array: _Array) -> str:
+        if array.dtype.hasobject:
+            raise InputError(f"{where}: an array of objects cannot be saved")
+        if id(array) not in places:
+            places[id(array)] = _member(len(arrays))
+            arrays.append(array)
+        return places[id(array)]
+
+    kind = type(value)
+    if value is None or kind in (bool, int, str):
+        return value
+    if kind is float:
+        return value if math.isfinite(value) else {"float": repr(value)}
+    if kind is tuple:
+        return [inner(one, f"{where}[{i}]") for i, one in enumerate(value)]
+    if kind is list:
+        return {"list": [inner(one, f"{where}[{i}]") for i, one in enumerate(value)]}
+    if kind is np.ndarray:
+        return {"array": stored(value)}
+    if isinstance(value, np.generic):
+        return {"scalar": stored(np.asarray(value))}
+    if isinstance(value, Mapping):
+        return {"mapping": [[inner(key, where), inner(one, f"{where}[{key!r}]")] for key, one in value.items()]}
+    if _TYPES.get(kind.__name__) is not kind:
+        raise InputError(f"{where}: a {kind.__name__} cannot be saved")
+    if isinstance(value, Enum):
+        return {kind.__name__: value.value}
+    return {kind.__name__: {name: inner(getattr(value, name), f"{where}.{name}") for name in _fields(kind)}}
+
+
+def _decode(tree: Any, arrays: Mapping[str, _Array]) -> Any:
+    """The value of a tree."""
+    if isinstance(tree, list):
+        return tuple(_decode(one, arrays) for one in tree)
+    if not isinstance(tree, dict):
+        return tree
+    ((what, inner),) = tree.items()
+    plain: dict[str, Callable[[], Any]] = {
+        "float": lambda: float(inner),
+        "array": lambda: arrays[inner],
+        "scalar": lambda: arrays[inner][()],
+        "list": lambda: [_decode(one, arrays) for one in inner],
+        "mapping": lambda: {_decode(key, arrays): _decode(one, arrays) for key, one in inner},
+    }
+    if what in plain:
+        return plain[what]()
+    if what not in _TYPES:
+        raise InputError(f"{what}: is no kind of result of this version, {_binding.constants().version}")
+    kind = _TYPES[what]
+    if issubclass(kind, Enum):
+        return kind(inner)
+    return _made(kind, {name: _decode(one, arrays) for name, one in inner.items()})
+
+
+def _made(kind: type, values: dict[str, Any]) -> Any:
+    """A result or a part of one, from the values of all its fields."""
+    fields = _fields(kind)
+    if set(values) != set(fields):
+        wrong = sorted(set(values) ^ set(fields))[0]
+        raise InputError(f"{kind.__name__}: has {'no' if wrong in fields else 'an unknown'} field '{wrong}'")
+    given = [name for name in fields if name in signature(kind).parameters]
+    made = kind(**{name: values[name] for name in given})
+    for name in fields:
+        # What a constructor does not take it derives, or a method adds
+        if name not in given:
+            object.__setattr__(made, name, values[name])
+    return made
+
+
+def _fields(kind: Any) -> tuple[str, ...]:
+    """Names of the fields of a dataclass or named tuple."""
+    if dataclasses.is_dataclass(kind):
+        return tuple(field.name for field in dataclasses.fields(kind))
+    return tuple(kind._fields)

@@ -1,0 +1,298 @@
+"""Results that are saved to a file and read back."""
+
+import dataclasses
+import io
+import json
+import os
+import types
+import zipfile
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from dondolo._storage import saved
+
+import dondolo as dd
+
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
+
+@pytest.fixture(scope="module")
+def results(stripes, few, wall):
+    """A result of each kind."""
+    curve = stripes.fit()
+    slender = dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    noted = few[0].correct_baseline().processed(few[0].acceleration, "noted")
+    noted = dd.Record(noted.acceleration, noted.dt, "caffè", processing=noted.processing, metadata={"station": "NRC"})
+    hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
+    two = {"levels": [0.4, 0.8, 1.2], "progress": False}
+    gone = dd.multiple_stripe(slender, few, estimate_error=True, **two)
+    return {
+        "fragility": curve,
+        "no fit": gone.fit(),
+        "counts": dd.fit_fragility([0.2, 0.4, 0.6], [0, 0, 0], [10, 10, 10]),
+        "stripes": stripes,
+        "stripes with errors": gone,
+        "response": dd.simulate(slender, noted, scale=3.0, history=True),
+        "response without history": dd.simulate(dd.FreeStandingWall(2.0, 0.5), noted, history=False),
+        "incremental": dd.incremental(stripes),
+        "first collapses": dd.incremental(stripes).fit(),
+        "cloud": dd.cloud(wall, [noted, *few], scale=2.0, progress=False),
+        "overturning": dd.overturning_spectrum(
+            wall, dd.pulses.ricker, frequencies=[0.5, 1.0, 2.0], amplitudes=[0.2, 0.5, 1.0, 2.0], progress=False
+        ),
+        "intensities": dd.compare_intensities(wall, few, ims=["pga", "pgv"], progress=False),
+        "comparison": dd.compare(curve, gone.fit()) if gone.fit().has_fit else dd.compare(curve, curve),
+        "comparison by bootstrap": dd.compare(curve, curve, method="bootstrap", n=20),
+        "bootstrap": curve.bootstrap(n=20),
+        "hazard": hazard,
+        "power law": dd.HazardCurve.power_law(1e-4, 2.0),
+        "risk": dd.mean_annual_frequency(curve, hazard),
+        "risk of a power law": dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.0)),
+        "spectrum": few[0].spectrum([0.1, 0.5, 1.0]),
+        "discrete": dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75]),
+    }
+
+
+def check_same(one, other, where):
+    """Equal to the bit, in type too."""
+    assert type(one) is type(other), where
+    if isinstance(one, np.ndarray | np.generic):
+        assert (one.dtype, one.shape, one.tobytes()) == (other.dtype, other.shape, other.tobytes()), where
+    elif isinstance(one, tuple | list):
+        assert len(one) == len(other), where
+        for i, pair in enumerate(zip(one, other, strict=True)):
+            check_same(*pair, f"{where}[{i}]")
+    elif isinstance(one, dict | types.MappingProxyType):
+        check_same(list(one.items()), list(other.items()), where)
+    elif dataclasses.is_dataclass(one):
+        # Also what is no field: numbers that a wall derives
+        passing = ("_handle", "_home")
+        kept = [{name: x for name, x in vars(y).items() if name not in passing} for y in (one, other)]
+        assert kept[0].keys() == kept[1].keys(), where
+        for name, value in kept[0].items():
+            check_same(value, kept[1][name], f"{where}.{name}")
+    else:
+        assert repr(one) == repr(other), where
+
+
+def test_every_result_is_read_back(results, tmp_path):
+    for name, result in results.items():
+        path = tmp_path / f"{name}.npz"
+        result.save(path)
+        again = dd.load(path)
+        check_same(result, again, name)
+        assert (str(result), repr(result)) == (str(again), repr(again)), name
+        # A copy of it is the same file.
+        again.save(tmp_path / "again.npz")
+        assert (tmp_path / "again.npz").read_bytes() == path.read_bytes(), name
+
+
+def test_every_kind_of_result_is_tried(results):
+    tried = {type(result) for result in results.values()}
+    assert {kind for kind in saved._TYPES.values() if issubclass(kind, saved.Saved)} - tried == {dd.TypologyBootstrap}
+
+
+@pytest.mark.parametrize("name", ["fragility", "stripes", "response", "incremental", "cloud", "overturning", "risk"])
+def test_a_loaded_result_draws_and_computes(results, name, tmp_path):
+    result, path = results[name], tmp_path / "result.npz"
+    result.save(path)
+    pictures = []
+    for one in (result, dd.load(path)):
+        axes = np.ravel(one.plot())[0]
+        with io.BytesIO() as file:
+            axes.figure.savefig(file, format="raw", dpi=30)
+            pictures.append(file.getvalue())
+        plt.close(axes.figure)
+    assert pictures[0] == pictures[1]
+
+
+def test_a_loaded_result_goes_on(results, tmp_path):
+    for name in ("stripes", "cloud", "fragility", "risk"):
+        results[name].save(tmp_path / f"{name}.npz")
+    stripes, cloud, curve, risk = (
+        dd.load(tmp_path / f"{name}.npz") for name in ("stripes", "cloud", "fragility", "risk")
+    )
+    check_same(stripes.fit(), results["fragility"], "fit")
+    check_same(cloud.against("pgv"), results["cloud"].against("pgv"), "against")
+    check_same(curve.bootstrap(n=20), results["bootstrap"], "bootstrap")
+    assert risk.probability(50.0) == results["risk"].probability(50.0)
+    motion = dd.simulate(stripes.wall, cloud.records[0])
+    check_same(motion, dd.simulate(results["stripes"].wall, results["cloud"].records[0]), "simulate")
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        dd.OneSidedWall(3.1, 0.27, density=1900.0, gravity=9.80665, name="naïve: a, 'b'"),
+        dd.OneSidedWall(3.0, 0.25, restitution="sorrentino", restitution_factor=0.9),
+        dd.FreeStandingWall(2.0, 0.5, restitution="constant", restitution_value=0.7),
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution="impulse"),
+        dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, bearing="outer", bearing_distance=0.05),
+    ],
+    ids=lambda wall: wall.name,
+)
+def test_walls(wall, few, tmp_path):
+    """A wall that is made again from its numbers is the same in all that it derives."""
+    response = dd.simulate(wall, few[0])
+    response.save(tmp_path / "response.npz")
+    check_same(response, dd.load(tmp_path / "response.npz"), wall.name)
+
+
+def test_typology_bootstrap(few, tmp_path):
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    typology = dd.typology(walls, few, levels=[0.4, 0.7, 1.0], progress=False)
+    bootstrap = typology["all"].bootstrap(n=10)
+    bootstrap.save(tmp_path / "bootstrap.npz")
+    check_same(bootstrap, dd.load(tmp_path / "bootstrap.npz"), "bootstrap")
+    risk = typology["all"].risk(dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002]))
+    with pytest.raises(dd.InputError, match=r"^Risk\.fragility: a PopulationCurve cannot be saved$"):
+        risk.save(tmp_path / "risk.npz")
+    assert os.listdir(tmp_path) == ["bootstrap.npz"]
+
+
+def test_arrays_are_read_only_and_stored_once(results, tmp_path):
+    path = tmp_path / "curve.npz"
+    curve = results["fragility"]
+    curve.save(path)
+    with pytest.raises(ValueError, match="read-only"):
+        dd.load(path).levels[0] = 1.0
+    # NumPy reads it, and nothing in it is pickled.
+    with np.load(path, allow_pickle=False) as archive:
+        assert (
+            sum(
+                np.array_equal(archive[name], curve.sample.collapsed)
+                for name in archive.files
+                if name != "dondolo.json"
+            )
+            == 1
+        )
+
+
+def test_values_that_json_lacks(tmp_path):
+    path = tmp_path / "result.npz"
+    values = (np.nan, np.inf, -np.inf, -0.0, 5e-324, 0.1 + 0.2, np.float64(0.1), np.int8(-3), np.bool_(True))
+    values += ("caffè\n\udc80", True, 2**70, None, [1, (2.5,)], {"a": (1, [])}, {3: np.array([], dtype=np.int8)})
+    values += (np.array(["a", "bcd"]), np.asfortranarray(np.arange(6.0).reshape(2, 3))[:, ::2], np.float64("nan"), ())
+    dd.Comparison("likelihood", 0.5, 1.0, values, 0.0).save(path)
+    check_same(values, dd.load(path).interval, "values")
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        (print, r"Comparison\.interval\[0\]: a builtin_function_or_method cannot be saved"),
+        (np.array([None]), r"Comparison\.interval\[0\]: an array of objects cannot be saved"),
+        (np.ma.array([1.0]), r"Comparison\.interval\[0\]: a MaskedArray cannot be saved"),
+        ({"a": 1j}, r"Comparison\.interval\[0\]\['a'\]: a complex cannot be saved"),
+    ],
+)
+def test_what_cannot_be_saved(value, message, tmp_path):
+    result = dd.Comparison("likelihood", 0.5, 1.0, (value,), 0.0)
+    with pytest.raises(dd.InputError, match=f"^{message}$"):
+        result.save(tmp_path / "result.npz")
+    assert os.listdir(tmp_path) == []
+
+
+def test_paths(results, tmp_path):
+    curve, path = results["counts"], tmp_path / "curve.npz"
+    for wrong in ("curve", "curve.csv", "curve.NPZ", ".npz"):
+        with pytest.raises(dd.InputError, match=r"must end in \.npz$"):
+            curve.save(tmp_path / wrong)
+    with pytest.raises(dd.InputError, match="must be the path of a file"):
+        curve.save(3)
+    with pytest.raises(dd.DondoloError, match="cannot be written: No such file"):
+        curve.save(tmp_path / "none" / "curve.npz")
+    np.savez(path, edp=[1.0])
+    before = path.read_bytes()
+    with pytest.raises(dd.InputError, match=r"curve\.npz: exists, and is no result of dondolo$"):
+        curve.save(path)
+    with pytest.raises(dd.InputError, match=r"curve\.npz: is no result saved by dondolo$"):
+        dd.load(path)
+    assert path.read_bytes() == before
+    path.unlink()
+    with pytest.raises(dd.MissingFileError, match=r"curve\.npz: cannot be read: No such file"):
+        dd.load(path)
+    with pytest.raises(dd.InputError, match="cannot be read: Is a directory"):
+        dd.load(tmp_path)
+    curve.save(str(path))
+    results["hazard"].save(path)
+    check_same(dd.load(path), results["hazard"], "hazard")
+    assert os.listdir(tmp_path) == ["curve.npz"]
+
+
+def rewritten(path, change):
+    """Write a file again with another content, its check sums right."""
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    content = json.loads(members["dondolo.json"])
+    change(content)
+    members["dondolo.json"] = json.dumps(content)
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, data in members.items():
+            archive.writestr(name, data)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (
+            lambda c: c.update(format_version=2, dondolo="9.1"),
+            r"was saved by dondolo 9\.1 in format 2; this is \S+, which",
+        ),
+        (lambda c: c.update(result={"Tower": {}}), "Tower: is no kind of result of this version"),
+        (lambda c: c["result"]["HazardCurve"].pop("im"), "HazardCurve: has no field 'im'"),
+        (lambda c: c["result"]["HazardCurve"].update(more=1), "HazardCurve: has an unknown field 'more'"),
+        (lambda c: c["result"]["HazardCurve"].update(im="xyz"), "xyz"),
+        (lambda c: c["result"]["HazardCurve"].update(im_levels={"array": "9.npy"}), "9.npy"),
+        (lambda c: c.update(result={"float": []}), "argument must be"),
+        (lambda c: c.update(result={}), "unpack"),
+        (lambda c: c.update(result={"HazardCurve": 3}), "int"),
+        (lambda c: c.pop("result"), "is damaged"),
+        (lambda c: c.update(format_version="x"), "is damaged"),
+    ],
+)
+def test_contents_that_are_refused(results, tmp_path, change, message):
+    path = tmp_path / "hazard.npz"
+    results["hazard"].save(path)
+    rewritten(path, lambda content: None)
+    check_same(dd.load(path), results["hazard"], "hazard")
+    rewritten(path, change)
+    with pytest.raises(dd.InputError, match=rf"^\S+hazard\.npz: .*{message}") as error:
+        dd.load(path)
+    assert "\n" not in str(error.value)
+
+
+def test_damaged_files(results, tmp_path):
+    """A file that is cut, or has a member with a changed byte, is refused in one line."""
+    path = tmp_path / "hazard.npz"
+    results["hazard"].save(path)
+    whole = path.read_bytes()
+    data = set()
+    with zipfile.ZipFile(path) as archive:
+        for member in archive.infolist():
+            start = member.header_offset + 30
+            start += sum(int.from_bytes(whole[start - i : start - i + 2], "little") for i in (4, 2))
+            data |= set(range(start, start + member.file_size))
+    assert len(data) > 0.5 * len(whole)
+    files = [(True, whole[:n]) for n in range(0, len(whole), 7)]
+    for i, byte in enumerate(whole):
+        files += [(i in data, whole[:i] + bytes([byte ^ bits]) + whole[i + 1 :]) for bits in (1 << i % 8, 0xFF)]
+    for lost, damaged in files:
+        path.write_bytes(damaged)
+        sentence = ""
+        try:
+            check_same(dd.load(path), results["hazard"], "hazard")
+        except dd.InputError as error:
+            sentence = str(error)
+        assert not lost or sentence
+        assert not sentence or (sentence.startswith(f"{path}: ") and "\n" not in sentence)
+
+
+def test_pickles_are_not_read(results, tmp_path):
+    path = tmp_path / "hazard.npz"
+    results["hazard"].save(path)
+    with zipfile.ZipFile(path, "a") as archive, archive.open("9.npy", "w") as member:
+        np.lib.format.write_array(member, np.array([{}]), allow_pickle=True)
+    with pytest.raises(dd.InputError, match="is damaged"):
+        dd.load(path)
