@@ -233,7 +233,7 @@ def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
     assert path.read_bytes() == content
     path.unlink()
     path.mkdir()
-    refused("is no file of counts of dondolo")
+    refused("not a dondolo counts file")
     path = path / "missing" / "study.counts"
     refused("cannot be written", dd.DondoloError)
 
