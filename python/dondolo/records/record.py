@@ -216,9 +216,11 @@ class Record:
         InputError
             An unknown kind, an order where there is none.
 
-        Notes ----- The first step of ITACA and ESM is the constant (Paolucci et al. 2011). Of a digital record whose
-        zero has shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits
-        a straight line).
+        Notes
+        -----
+        The first step of ITACA and ESM is the constant (Paolucci et al. 2011). Of a digital record whose zero has
+        shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits a
+        straight line).
         """
         return self.processed(*process.correct_baseline(self, kind, order))
 
@@ -256,11 +258,13 @@ class Record:
             Corners out of order, or beyond Nyquist's frequency; an order or a taper out of range; a keep_padding that
             is neither True nor False.
 
-        Notes ----- 1.5 order/low seconds of zeros go before and after the record, as long at each end as Converse and
-        Brady (1992) ask for both together (Boore 2005, On pads and filters, BSSA 95(2):745-750); without a low corner
-        `high` takes its place. Without its padded ends a record's velocity and displacement are not quite those of the
-        filtered motion and may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with
-        order 2 (Paolucci et al. 2011).
+        Notes
+        -----
+        1.5 order/low seconds of zeros go before and after the record, as long at each end as Converse and Brady (1992)
+        ask for both together (Boore 2005, On pads and filters, BSSA 95(2):745-750); without a low corner `high` takes
+        its place. Without its padded ends a record's velocity and displacement are not quite those of the filtered
+        motion and may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with order 2
+        (Paolucci et al. 2011).
         """
         return self.processed(*process.band_pass(self, low, high, order, taper, keep_padding))
 
@@ -283,11 +287,12 @@ class Record:
             The steps have no ratio of whole numbers up to 1000, the new one is too long for the record, or there would
             be more than 100 million samples.
 
-        Notes ----- Where the new step divides the old one, new samples lie on the straight lines between the old: the
-        same function of time, exactly. Otherwise SciPy's polyphase filter (`scipy.signal.resample_poly`, Kaiser's
-        window with 5.0) makes a band-limited signal: frequencies above half the lower of the two sampling rates are
-        taken out, which keeps them from coming back as lower ones, and the straight lines between samples are others
-        than before.
+        Notes
+        -----
+        Where the new step divides the old one, new samples lie on the straight lines between the old: the same function
+        of time, exactly. Otherwise SciPy's polyphase filter (`scipy.signal.resample_poly`, Kaiser's window with 5.0)
+        makes a band-limited signal: frequencies above half the lower of the two sampling rates are taken out, which
+        keeps them from coming back as lower ones, and the straight lines between samples are others than before.
         """
         return self.processed(*process.resample(self, dt))
 
@@ -384,9 +389,11 @@ class Record:
         InputError
             As for `rotate`; an unknown measure or one that is no number.
 
-        Notes ----- RotD50 and RotD100: Boore (2010), Orientation-independent, nongeometric-mean measures of seismic
-        intensity from two horizontal components of motion, BSSA 100(4):1830-1835. The largest peak is missed by up to 1
-        - cos(90/angles degrees): 4e-5 of it for 180.
+        Notes
+        -----
+        RotD50 and RotD100: Boore (2010), Orientation-independent, nongeometric-mean measures of seismic intensity from
+        two horizontal components of motion, BSSA 100(4):1830-1835. The largest peak is missed by up to 1 -
+        cos(90/angles degrees): 4e-5 of it for 180.
         """
         check_components(self, _as_record(other))
         count = as_count("angles", angles, 1, 36000)
