@@ -1,5 +1,5 @@
-!> A population through the stripes, block after block, within a memory that does not depend on the number of its walls:
-!> rows that a store lacks are read, run, and put into it.
+!> A population through the stripes, block after block, so that memory holds the histories of one block only: rows that a
+!> store lacks are read, run, and put into it.
 module dondolo_run_population
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
