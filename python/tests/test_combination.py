@@ -107,6 +107,10 @@ def test_mean_of_one_mechanism(people, mechanism):
     assert close(people[mechanism].mean(X), capacity, X)
     chances = [wall[2] * wall[3][mechanism][2] for wall in WALLS if mechanism in wall[3]]
     assert people[mechanism].weight == pytest.approx(sum(chances))
+    # The walls that the risk is made of have the same mean.
+    members = people[mechanism].members
+    curves = members.rows_at(np.arange(len(members.weights)), X)
+    assert members.weights @ curves / sum(chances) == pytest.approx(people[mechanism].mean(X), rel=1e-12)
 
 
 def test_the_simulation_tells_wrong_formulas():
