@@ -117,7 +117,7 @@ def test_shown():
         ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         (
             {"groups": ["x", "x", "a\nb", ""]},
-            "wall 'b, \"the\" #2': group = 'a\\nb': must be one line without control characters, also those that turn the direction of text",
+            "wall 'b, \"the\" #2': group = 'a\\nb': must be one line without control characters and marks of direction",
         ),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
@@ -125,7 +125,7 @@ def test_shown():
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
         (
             {"origin": ["two\nlines"]},
-            "origin = 'two\\nlines': must be one line without control characters, also those that turn the direction of text",
+            "origin = 'two\\nlines': must be one line without control characters and marks of direction",
         ),
         ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],

@@ -14,8 +14,8 @@ from dondolo.errors import InputError
 
 FloatArray = NDArray[np.float64]
 
-# Control characters (Cc) and what ends a line in Unicode could forge lines of a result file; marks, embeddings, overrides
-# and isolates of the bidirectional algorithm could make a name look like another (src/dondolo/base/text/plain.f90)
+# Control characters (Cc) and what ends a line in Unicode could forge lines of a result file; marks, embeddings,
+# overrides and isolates of the bidirectional algorithm a name that looks like another (src/dondolo/base/text/plain.f90)
 _UNPRINTED = ("Cc", "Zl", "Zp")
 _DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 
@@ -89,9 +89,7 @@ def as_text(name: str, value: Any) -> bytes:
     if not value.isprintable() and any(
         character in _DIRECTIONS or unicodedata.category(character) in _UNPRINTED for character in value
     ):
-        raise InputError(
-            f"{name} = {value[:60]!r}: must be one line without control characters, also those that turn the direction of text"
-        )
+        raise InputError(f"{name} = {value[:60]!r}: must be one line without control characters and marks of direction")
     try:
         text = value.encode()
     except UnicodeEncodeError:

@@ -8,8 +8,8 @@ module dondolo_plain
    public :: is_plain, visible, shown, must_be_plain
 
    !> What is said of a name that is not plain
-   character(len=*), parameter :: must_be_plain = 'must be one line without control characters, also those that turn '// &
-      & 'the direction of text'
+   character(len=*), parameter :: must_be_plain = 'must be one line without control characters and marks of '// &
+      & 'direction'
 
    !> Bytes of a text that a message shows at most
    integer, parameter :: longest_shown = 60
