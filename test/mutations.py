@@ -54,8 +54,8 @@ EDITS = [
     ),
     Edit(
         "confidence intervals are one-sided",
-        "return 0.5 - 0.5 * level, 0.5 + 0.5 * level",
-        "return 1.0 - level, level",
+        "return 0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence",
+        "return 1.0 - confidence, confidence",
         "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
     ),
     Edit(
@@ -162,7 +162,7 @@ EDITS = [
     Edit(
         "hazard curves are interpolated on linear axes",
         "h = frequency * np.exp(-k * (u - start))",
-        "h = np.interp(flat, self.im_levels, self.annual_frequency)",
+        "h = np.interp(flat, self.levels, self.annual_frequency)",
         "test_risk.py::test_curve_is_straight_on_logarithmic_axes",
     ),
     Edit(

@@ -148,7 +148,7 @@ class Request:
             with _binding.stoppable():
                 counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
             _binding.check(stat, message)
-            works.append(Work(*map(int, counts)))
+            works.append(Work.of(counts))
 
         done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted

@@ -95,7 +95,7 @@ class Store:
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
         flags = Flags(histories[complete], levels, states, len(request.records), packed)
-        return Contents(complete, exceedances, flags, Work(*map(int, counts)))
+        return Contents(complete, exceedances, flags, Work.of(counts))
 
     def __enter__(self) -> Store:
         return self
