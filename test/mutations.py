@@ -123,14 +123,14 @@ EDITS = [
     Edit(
         "records that two curves share are drawn separately for each",
         "others = times\n",
-        "others = draw_records(count, n, random, events)\n",
+        "others = draw_records(count, n_resamples, random, events)\n",
         "test_fitting.py::test_p_value_of_the_bootstrap",
     ),
     # Efficiency of intensity measures
     Edit(
         "compare_intensities ignores events",
-        "times = draw_records(len(several), samples, seed, events)",
-        "times = draw_records(len(several), samples, seed, None)",
+        "times = draw_records(len(several), n_resamples, seed, events)",
+        "times = draw_records(len(several), n_resamples, seed, None)",
         "test_intensity.py::test_comparison_draws_events_together",
     ),
     Edit(
@@ -154,8 +154,8 @@ EDITS = [
     ),
     Edit(
         "total probability adds collapse and rocking as if they were exclusive",
-        "collapse + (1.0 - collapse) * self.rocking.at(x, gap) * exceeds",
-        "collapse + self.rocking.at(x, gap) * exceeds",
+        "collapse + (1.0 - collapse) * self.rocking._at(x, gap) * exceeds",
+        "collapse + self.rocking._at(x, gap) * exceeds",
         "test_cloud.py::test_known_parameters",
     ),
     # Hazard and risk

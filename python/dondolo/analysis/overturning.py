@@ -411,7 +411,7 @@ class _Runner(NamedTuple):
             / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
         )
         with _binding.stoppable():
-            edp, collapsed, impacts, time, stat, message = _core.run_scaled(
+            edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,
                 (np.asarray(places) + 1).astype(np.int32),
