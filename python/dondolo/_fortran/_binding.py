@@ -351,12 +351,13 @@ def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
 
 
 def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
-    """The same for many walls: values of each property for all of them; what is not there gets its default."""
+    """The same for many walls: values of each property for all of them; what is None or not there gets its default."""
     shape = (count, len(WALL_NUMBERS))
     numbers, given = np.zeros(shape), np.zeros(shape, dtype=np.int32)
     for i, what in enumerate(WALL_NUMBERS):
         if what in values:
-            numbers[:, i], given[:, i] = values[what], 1
+            given[:, i] = [value is not None for value in values[what]]
+            numbers[:, i] = [0.0 if value is None else value for value in values[what]]
     nothing = [None] * count
     texts = b"\n".join(
         b"" if text is None else as_text(what, text)
