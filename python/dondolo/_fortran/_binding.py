@@ -578,6 +578,12 @@ def curve_of_population(
     return mean, fractiles, found
 
 
+def in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+    """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
+    whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
+    return whole
+
+
 def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1

@@ -192,8 +192,7 @@ def _mean_fractions(
         records = records[:1]
     total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        fractions = np.moveaxis(_fractions(flags, rows.row[part], records), 1, 0)
-        collapse = in_series(rows.share[part, None, None] * fractions, starts)
+        collapse = in_series(rows.share[part, None, None] * _fractions(flags, rows.row[part], records), starts)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
         occurring += own @ in_series(rows.share[part], starts)
@@ -206,15 +205,15 @@ def _mean_fractions(
 
 
 def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
-    """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
-    fractions = np.empty((len(records), len(row), flags.levels))
+    """Fractions (rows, samples, levels), with each record taken so many times."""
+    fractions = np.empty((len(row), len(records), flags.levels))
     for places in flags.alike(row):
         reached = flags.of(row[places])[:, flags.state]
         walls, levels, histories = reached.shape
         # Both polarities of a record stay together.
         of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
         drawn = records @ of_record.reshape(walls * levels, -1).T
-        fractions[:, places] = drawn.reshape(len(records), walls, levels) / histories
+        fractions[places] = np.moveaxis(drawn.reshape(len(records), walls, levels), 1, 0) / histories
     return fractions
 
 
