@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
+from dondolo._storage.tables import unguarded
 from dondolo.errors import InputError
 
 
@@ -49,7 +50,7 @@ class ResultFile:
                 self._lines.append(head + rows.line_num)
                 if len(row) != len(names):
                     raise ValueError(f"{self.place(-1)}: {len(row)} cells: must be {len(names)} as in the header")
-                body.append(row)
+                body.append([unguarded(cell) for cell in row])
         except csv.Error as error:
             raise ValueError(f"line {head + rows.line_num}: {error}") from error
         if not body:

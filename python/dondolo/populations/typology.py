@@ -293,8 +293,13 @@ class Typology(Shown, Saved):
         """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
-        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
         comments = [
             *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
@@ -302,7 +307,7 @@ class Typology(Shown, Saved):
             f"work: {counts}",
             *(f"warning: {sentence}" for sentence in self.warnings),
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
@@ -318,7 +323,7 @@ class Typology(Shown, Saved):
         combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
         return cls(curves=own, combined=combined, **more)
 
-    def write_results(self, prefix: str | os.PathLike[str]) -> None:
+    def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.
 
         They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of
@@ -329,6 +334,8 @@ class Typology(Shown, Saved):
         ----------
         prefix : path
             What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; the folder must exist.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
 
         Raises
         ------
@@ -349,7 +356,7 @@ class Typology(Shown, Saved):
             part.write_text(self._run_file(pulls.pop()).to_json() + "\n", encoding="utf-8")
             for table in self._tables():
                 part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
-                self.to_csv(part, table)
+                self.to_csv(part, table, spreadsheet_safe=spreadsheet_safe)
         for other in ("histories", "history"):
             remove_old(start.with_name(f"{start.name}_{other}.csv"), "# dondolo ")
 
