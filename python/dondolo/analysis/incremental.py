@@ -44,7 +44,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import Stripes
@@ -174,10 +175,10 @@ class Incremental(Shown, Saved):
             wall=self.stripes.wall,
         )
         if status == "extrapolated":
-            _binding.warn([extrapolation(curve)])
+            warn([extrapolation(curve)])
         elif status != "ok":
             sentence = f"no curve of first collapses is fitted (status '{status}')"
-            _binding.warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
+            warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
         return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -231,11 +232,11 @@ class Incremental(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
-        comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
+        comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.stripes.im)}".rstrip()
+        unit = f" {unit_of(self.stripes.im)}".rstrip()
         none = f"above {self.levels[-1]:g}"
         fractiles = (f"{level:g}" if np.isfinite(level) else none for level in self.level_fractiles)
         return [
