@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import one_of
 from dondolo._base.files import whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo.errors import DondoloError
 
 # Columns of equal length, arrays or lists
@@ -81,7 +81,7 @@ def write_csv(
     spreadsheet_safe : bool
         Guard texts that a spreadsheet would take for formulas.
     """
-    head = [f"dondolo {_binding.constants().version}", *comments]
+    head = [f"dondolo {constants().version}", *comments]
     write_lines(path, csv_lines(table, head, spreadsheet_safe=spreadsheet_safe))
 
 

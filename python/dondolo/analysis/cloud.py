@@ -55,7 +55,8 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, Request, check_threads, new_request
@@ -293,7 +294,7 @@ class Cloud(Shown, Saved):
         tables.write_csv(
             path,
             self._table(),
-            [*comments, f"unit of intensity: {_binding.unit_of(self.im) or '1'}"],
+            [*comments, f"unit of intensity: {unit_of(self.im) or '1'}"],
             spreadsheet_safe=spreadsheet_safe,
         )
 
@@ -385,7 +386,7 @@ def cloud(
         check_threads(threads),
     )
     plan = request.plan()
-    _binding.warn(plan.warnings)
+    warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if interrupted:
         raise Interrupted(f"interrupted: {outcome.done} of {len(plan.record)} histories are complete")
@@ -418,7 +419,7 @@ def _intensities(
     scale = request.plan().scale[0]
     if not scale.all():
         raise InputError(f"records: '{records[int(np.argmin(scale))].name}' is without motion")
-    return _SMALL_LEVEL * (factor / scale) ** _binding.describe_measure(request.im).power, request.im
+    return _SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
 
 
 def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray) -> dict[str, Any]:

@@ -44,12 +44,13 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.curves.fragility import Fragility, extrapolation
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -158,14 +159,9 @@ class Incremental(Shown, Saved):
             mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
             theta = float(np.exp(mean))
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
-        if status == "extrapolated":
-            low, high = levels[[0, -1]]
-            _binding.warn([f"theta = {theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
-        elif status != "ok":
-            _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
-        return FirstCollapseFragility(
+        curve = FirstCollapseFragility(
             theta=theta,
             beta=beta,
             covariance=covariance,
@@ -178,6 +174,12 @@ class Incremental(Shown, Saved):
             im=self.stripes.im,
             wall=self.stripes.wall,
         )
+        if status == "extrapolated":
+            warn([extrapolation(curve)])
+        elif status != "ok":
+            sentence = f"no curve of first collapses is fitted (status '{status}')"
+            warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
+        return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw a line for each history, and their fractiles, bold.
@@ -235,11 +237,11 @@ class Incremental(Shown, Saved):
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """
-        comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
+        comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.stripes.im)}".rstrip()
+        unit = f" {unit_of(self.stripes.im)}".rstrip()
         none = f"above {self.levels[-1]:g}"
         fractiles = (f"{level:g}" if np.isfinite(level) else none for level in self.level_fractiles)
         return [

@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, one_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import check, stoppable
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
@@ -410,7 +411,7 @@ class _Runner(NamedTuple):
             * self.wall.gravity
             / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
         )
-        with _binding.stoppable():
+        with stoppable():
             edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,
@@ -420,7 +421,7 @@ class _Runner(NamedTuple):
                 self.settings,
                 self.threads,
             )
-        _binding.check(stat, message)
+        check(stat, message)
         return edp, collapsed == 1, impacts, time
 
 

@@ -9,12 +9,12 @@ from typing import Any, Literal
 import numpy as np
 
 from dondolo._base.arguments import as_generator, one_of, tails
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
 from dondolo._storage.saved import Saved
 from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,7 +100,7 @@ def compare(
         curve._need_fit()
     if any(curve.wall is None and curve.edp_threshold is not None for curve in (first, second)):
         sentence = "walls of a population share their records: the comparison is too sure; its bootstrap tells more"
-        _binding.warn([sentence])
+        warn([DondoloWarning(sentence, "records_shared")])
     if method == "likelihood":
         return _by_likelihood(first, second, confidence)
     return _by_bootstrap(first, second, confidence, n_resamples, seed, events)

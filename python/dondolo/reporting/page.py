@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import as_text
 from dondolo._base.files import check_replaced
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -96,7 +96,7 @@ def report(
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
-    version, template = _binding.constants().version, _environment().get_template("page.html.j2")
+    version, template = constants().version, _environment().get_template("page.html.j2")
     text = template.render(
         title=run.title,
         generator=f"{_GENERATOR} {version}",

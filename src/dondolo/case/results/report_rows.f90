@@ -151,8 +151,8 @@ contains
       row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
          & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
          & trim(typology%fit%status)//','//text_cell(typology%group, is_safe)//','// &
-         & to_table(typology%fractile(1, level))//','//to_table(typology%fractile(2, level))//','//to_table(typology%fractile(3, level))//','//dispersion//','// &
-         & to_table(typology%saturation)//','//to_table(threshold)
+         & to_table(typology%fractile(1, level))//','//to_table(typology%fractile(2, level))//','// &
+         & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)
    end subroutine make_typology_row
 
    !> A history
