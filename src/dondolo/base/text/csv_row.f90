@@ -232,15 +232,31 @@ contains
    pure function separator_of(row) result(separator)
       !> Text of the row
       character(len=*), intent(in) :: row
-      !> A comma where there is one, unless empty cells at the end are separated by semicolons or tabs; else a semicolon
-      !> or a tab, if there is one
+      !> A comma where there is one, unless empty cells at the end are separated by semicolons or tabs, or all commas are
+      !> decimal ones; else a semicolon or a tab, if there is one
       character(len=1) :: separator
 
       separator = ','
-      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0) return
+      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0 .and. .not. has_decimal_commas(row)) return
       if (has_outside_quotes(row, tab)) separator = tab
       if (has_outside_quotes(row, ';')) separator = ';'
    end function separator_of
+
+   !> Does every comma of a row stand between two figures, beside semicolons or tabs? Sa(0,5);poe
+   pure logical function has_decimal_commas(row) result(has)
+      !> Text of the row
+      character(len=*), intent(in) :: row
+
+      character(len=*), parameter :: figures = '0123456789'
+      integer :: i
+
+      has = scan(row, ';'//tab) > 0
+      do i = 1, len(row)
+         if (row(i:i) /= ',') cycle
+         has = has .and. i > 1 .and. i < len(row)
+         if (has) has = index(figures, row(i - 1:i - 1)) > 0 .and. index(figures, row(i + 1:i + 1)) > 0
+      end do
+   end function has_decimal_commas
 
    !> Is a character in a row, outside of double quotes?
    pure logical function has_outside_quotes(row, character) result(has)
