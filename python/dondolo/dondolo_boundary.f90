@@ -6,7 +6,6 @@ module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_intptr_t, c_loc, c_ptr
    use dondolo_error, only : add_place, error_type, raise_failure, raise_input
    use dondolo_fragility, only : fragility_type, status_names
-   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_lines, only : lines_type
    use dondolo_mechanism, only : mechanism_type
    use dondolo_memory, only : check_memory => check_room, raise_shortage
@@ -26,7 +25,7 @@ module dondolo_boundary
 
    public :: parcel_type, send, take
    public :: report, split_lines, pack_lines, pack_warnings, as_solver, check_rotations, &
-      & check_spectrum, check_room, check_parcel, check_trace, check_interrupt
+      & check_spectrum, check_room, check_parcel, check_trace
    public :: set_walls, set_records, pack_note, pack_records, pack_walls, pack_members, pack_response, pack_curve, status_code
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
@@ -266,17 +265,6 @@ contains
          call check_memory(bytes_of_row*real(trace%rows, c_double), error)
       end if
    end subroutine check_trace
-
-   !> Check that Ctrl-C did not break off what was computed
-   subroutine check_interrupt(error)
-      !> It did
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(c_int) :: interrupted
-
-      call look_for_interrupt(interrupted)
-      if (interrupted == 1) call raise_failure(error, 'interrupted')
-   end subroutine check_interrupt
 
    !> Check the oscillators of a response spectrum
    subroutine check_spectrum(periods, damping, error)

@@ -707,10 +707,11 @@ end subroutine warn_of_motion
 subroutine simulate(walls, suite, number, scale, engine, settings, history, &
       & edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
-   use dondolo_boundary, only : as_solver, check_interrupt, check_trace, pack_response, parcel_type, report, &
+   use dondolo_boundary, only : as_solver, check_trace, pack_response, parcel_type, report, &
       & send
    use dondolo_error, only : error_type, raise_input
    use dondolo_handles, only : find_suite, find_walls
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_record, only : largest_acceleration
    use dondolo_response, only : response_type, trace_type
    use dondolo_simulate, only : check_history, simulate_wall => simulate
@@ -875,10 +876,11 @@ end subroutine scales
 subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
       & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_interrupt, check_room, report
+   use dondolo_boundary, only : check_room, report
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_study, find_walls
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_stripes, only : histories_of, run_part
    use dondolo_study, only : study_type
    use dondolo_threads, only : team_of
@@ -947,10 +949,11 @@ end subroutine run_block
 subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, edp, collapsed, impacts, time_of_peak, &
       & stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, report
+   use dondolo_boundary, only : as_solver, check_room, report
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_handles, only : find_suite, find_walls
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_record, only : largest_acceleration
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_suite, only : suite_type
@@ -1300,9 +1303,10 @@ end subroutine claim_store
 ! Integers: a block that put_block takes
 subroutine run_rows(study, walls, w, thresholds, k, first, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
-   use dondolo_boundary, only : check_interrupt, check_room, parcel_type, report, send
+   use dondolo_boundary, only : check_room, parcel_type, report, send
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_study, find_walls
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_population, only : member_type
    use dondolo_population_boundary, only : pack_block
    use dondolo_row_result, only : row_result_type, shape_type

@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.transactions import described, read_table
+from dondolo._storage.run_file import RunFile
 from dondolo.errors import InputError, MissingFileError
+
+
+class MixedError(InputError):
+    """Files of two runs: another run may have replaced them meanwhile."""
 
 
 class ResultFile:
@@ -24,17 +30,25 @@ class ResultFile:
     ----------
     path : str
         The file.
+    run : RunFile
+        The file of the run, which names its tables.
 
     Raises
     ------
     InputError
         It cannot be read, or is no table.
+    MixedError
+        It is of another run.
     """
 
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, run: RunFile) -> None:
         self.path = path
         try:
-            lines = Path(path).read_text(encoding="utf-8").split("\n")
+            self._content = read_table(Path(path), run.run)
+            lines = self._content.decode().split("\n")
+        except LookupError as error:
+            other = f"of run {error.args[0]}" if error.args[0] else "of no run"
+            raise MixedError(f"{path}: is {other}, {run.path} of run {run.run}: they are not of one set") from None
         except FileNotFoundError as error:
             raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
         except (OSError, UnicodeDecodeError) as error:
@@ -45,6 +59,13 @@ class ResultFile:
         self._lines: list[int] = []
         with self.reading():
             self._columns = self._read(lines[head:], head)
+
+    def check(self, run: RunFile) -> None:
+        """Check that the file is as its run has written it; what has a worse place is said first by the others."""
+        for written in run.files:
+            if self.path.endswith(written.name) and (found := described(written.name, self._content)) != written:
+                why = f"{found.bytes} bytes, {written.bytes} written" if found.bytes != written.bytes else "its CRC-32"
+                raise InputError(f"{self.path}: is not as its run has written it ({why})")
 
     def _read(self, lines: list[str], head: int) -> dict[str, list[str]]:
         rows = csv.reader(line + "\n" for line in lines)
