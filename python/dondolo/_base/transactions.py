@@ -25,7 +25,7 @@ from dondolo.errors import DondoloError, InputError
 # What the names of the files of a set end with
 TABLES = tuple(f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history"))
 RUN_FILE = "_run.json"
-_LOCK_MARK, _TABLE_MARK = "dondolo lock", b"# dondolo "
+_LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment
 _TRIES, _PAUSE = 5, 0.02
 
@@ -76,40 +76,17 @@ def synchronize(path: Path) -> None:
         os.close(descriptor)
 
 
-def run_of(content: bytes) -> tuple[str, bytes]:
+def run_of(table: str) -> tuple[str, str]:
     """The run that a table names, empty if it names none, and what follows that line."""
-    lines = content.split(b"\n", 2)
-    if len(lines) < 3 or not lines[0].startswith(_TABLE_MARK) or not lines[1].startswith(b"# run: "):
-        return "", content
-    return lines[1][len(b"# run: ") :].decode(errors="replace"), lines[2]
+    lines = table.split("\n", 2)
+    if len(lines) < 3 or not lines[0].startswith(_TABLE_MARK) or not lines[1].startswith("# run: "):
+        return "", table
+    return lines[1].removeprefix("# run: "), lines[2]
 
 
-def described(name: str, content: bytes) -> Written:
+def described(name: str, table: str) -> Written:
     """A table as the file of its run lists it."""
-    return Written(name, len(content), f"{zlib.crc32(run_of(content)[1]):08x}")
-
-
-def read_table(path: Path, run: str) -> bytes:
-    """Contents of a table of a set, which a killed run may have left under its name before it was published.
-
-    Raises
-    ------
-    FileNotFoundError
-        There is no such table.
-    LookupError
-        It is of another run, whose name is given.
-    """
-    other = None
-    # A run that is ending may rename it after the first look.
-    for place in (path, staged(path, run), path):
-        with suppress(FileNotFoundError):
-            content = place.read_bytes()
-            other = run_of(content)[0]
-            if other == run:
-                return content
-    if other is None:
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
-    raise LookupError(other)
+    return Written(name, len(table.encode()), f"{zlib.crc32(run_of(table)[1].encode()):08x}")
 
 
 class Publication:
@@ -131,14 +108,14 @@ class Publication:
     def write(self, name: str, lines: Iterable[str]) -> None:
         """Write a file under its name before it is published; `name` is what its name ends with."""
         path = _end(self._prefix, name)
-        content = "".join(f"{line}\n" for line in lines).encode()
+        text = "".join(f"{line}\n" for line in lines)
         try:
             create(staged(path, self.run))
-            staged(path, self.run).write_bytes(content)
+            staged(path, self.run).write_text(text, encoding="utf-8")
             synchronize(staged(path, self.run))
         except OSError as error:
             raise DondoloError(f"{path}: cannot be written: {error.strerror}") from error
-        self.written.append(described(name, content))
+        self.written.append(described(name, text))
 
     def publish(self) -> None:
         """Publish what was written, the file of the run among it."""
@@ -294,5 +271,5 @@ def _holder(text: str) -> str:
 def _remove_old(path: Path) -> None:
     """Remove a table that an earlier run has left and the set does not replace; what begins otherwise stays."""
     with suppress(OSError):
-        if path.is_file() and path.open("rb").read(len(_TABLE_MARK)) == _TABLE_MARK:
+        if path.is_file() and path.read_bytes()[: len(_TABLE_MARK)] == _TABLE_MARK.encode():
             path.unlink()

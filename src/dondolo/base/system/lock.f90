@@ -10,7 +10,7 @@ module dondolo_lock
    implicit none
    private
 
-   public :: lock_type, holder_type, look_at_lock, run_length
+   public :: lock_type, holder_type, look_at_lock, new_run, run_length
 
    !> What the file begins with
    character(len=*), parameter :: mark = 'dondolo lock'
@@ -123,8 +123,7 @@ contains
          self%descriptor = -1
       else
          self%killed = holder%run(:run_length)
-         call introduce(holder)
-         self%run = holder%run(:run_length)
+         call new_run(self%run)
       end if
    end subroutine take
 
@@ -148,6 +147,17 @@ contains
       call raise_failure(error, self%path//': cannot be written whole: is the disk full?')
       call self%release()
    end subroutine sign
+
+   !> A name for a run that no other has: time (UTC) and 64 random bits
+   subroutine new_run(run)
+      !> Name
+      character(len=run_length), intent(out) :: run
+
+      type(holder_type) :: holder
+
+      call introduce(holder)
+      run = holder%run(:run_length)
+   end subroutine new_run
 
    !> Who this process is, and a new name for its run
    subroutine introduce(holder)

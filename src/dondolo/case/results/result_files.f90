@@ -16,9 +16,9 @@
 module dondolo_result_files
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_checksum, only : crc32_length, crc32_of_file
-   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_error, only : error_type, raise_failure, raise_input, status_failure
    use dondolo_lines, only : lines_type
-   use dondolo_lock, only : lock_type, run_length
+   use dondolo_lock, only : lock_type, new_run, run_length
    use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
       & synchronize_folder, writer_type
    use dondolo_version, only : dondolo_version_text
@@ -36,6 +36,9 @@ module dondolo_result_files
 
    !> What every table begins with
    character(len=*), parameter :: mark = '# dondolo '
+
+   !> How often a file is made, while another run that ends removes the folder that it has made
+   integer, parameter :: tries = 3
 
    !> A file that was written
    type :: written_type
@@ -93,6 +96,7 @@ contains
       type(lines_type) :: made
       type(writer_type) :: writer
       character(len=:), allocatable :: path
+      character(len=run_length) :: run
       logical :: ok
       integer :: i, j
 
@@ -108,17 +112,20 @@ contains
             return
          end do
       end do
-      call make_folders(prefix, made, ok)
-      if (ok) then
+      call new_run(run)
+      do i = 1, tries
+         call make_folders(prefix, made, ok)
+         if (.not. ok) cycle
          ! No name of a result file is longer than this one
          path = prefix//'_histories.csv'
-         call writer%create(staged(path, repeat('0', run_length)), ok)
-         if (ok) then
-            call writer%close(ok)
-            call remove_file(staged(path, repeat('0', run_length)))
-         else
-            call raise_input(error, 'the file '//path//' cannot be written')
-         end if
+         call writer%create(staged(path, run), ok)
+         if (ok) exit
+      end do
+      if (ok) then
+         call writer%close(ok)
+         call remove_file(staged(path, run))
+      else if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
+         call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
       else
          call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
       end if
@@ -153,8 +160,13 @@ contains
          if (prefix(i:i) /= '/') cycle
          if (is_folder(prefix(:i - 1))) cycle
          call make_folder(prefix(:i - 1), ok)
-         if (.not. ok) return
-         call made%add(prefix(:i - 1))
+         if (ok) then
+            call made%add(prefix(:i - 1))
+         else
+            ! Another run may have made it meanwhile.
+            ok = is_folder(prefix(:i - 1))
+            if (.not. ok) return
+         end if
       end do
    end subroutine make_folders
 
@@ -186,15 +198,20 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       logical :: ok
+      integer :: i
 
       self%prefix = prefix
       allocate (self%written(0))
-      call make_folders(prefix, self%made, ok)
-      if (ok) then
-         call self%lock%take(prefix, error)
-      else
-         call raise_failure(error, prefix//': its folder cannot be made')
-      end if
+      do i = 1, tries
+         call make_folders(prefix, self%made, ok)
+         if (ok) then
+            call self%lock%take(prefix, error)
+         else
+            call raise_failure(error, prefix//': its folder cannot be made')
+         end if
+         if (.not. allocated(error)) exit
+         if (error%stat /= status_failure) exit
+      end do
       if (.not. allocated(error)) then
          call end_publishing(prefix, self%lock%killed)
          call self%lock%sign(error)
