@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, fields
 from datetime import datetime
 from typing import Any
 
-from dondolo._fortran import _binding
-from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo._base.files import read_text
+from dondolo._fortran.library import unpack_warning
+from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 1"
 
@@ -118,15 +119,11 @@ def read_run_file(path: str) -> RunFile:
     MissingFileError
         There is none.
     """
+    text = read_text(path)
     try:
-        with open(path, encoding="utf-8") as file:
-            content = json.load(file)
-            written = datetime.fromtimestamp(os.fstat(file.fileno()).st_mtime).astimezone()
-    except FileNotFoundError as error:
-        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:
+        content = json.loads(text)
+        written = datetime.fromtimestamp(os.stat(path).st_mtime).astimezone()
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: no JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")
@@ -142,7 +139,7 @@ def read_run_file(path: str) -> RunFile:
             {name: _member(work, name, int) for name in work},
             _history(history) if history else None,
             tuple(_all(content, "notes", str)),
-            tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
+            tuple(unpack_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
         )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, new_request
@@ -33,7 +33,7 @@ _SMALL_LEVEL = 1e-6
 _LONGEST_SEARCH = 40
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class IntensityComparison(Saved):
     """Fragility curves of one wall and one set of records for several intensity measures.
 
@@ -93,7 +93,7 @@ class IntensityComparison(Saved):
     def _table(self) -> tables.Table:
         return {
             "im": self.ims,
-            "unit": [_binding.describe_measure(im).unit or "-" for im in self.ims],
+            "unit": [describe_measure(im).unit or "-" for im in self.ims],
             "theta": [curve.theta for curve in self.curves],
             "beta": [curve.beta for curve in self.curves],
             "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
@@ -118,7 +118,7 @@ class IntensityComparison(Saved):
         ]
         for i in np.argsort(self.ratio):
             curve, (low, high) = self.curves[i], self.ratio_interval[i]
-            unit = _binding.describe_measure(curve.im).unit or "-"
+            unit = describe_measure(curve.im).unit or "-"
             lines.append(
                 f"{curve.im:<14}{unit:<5}{curve.theta:>9.4g}{curve.se_ln_theta:>8.4f}{curve.beta:>8.4f}"
                 f"{curve.se_beta:>8.4f}{self.dispersion[i]:>12.4f}{self.se_dispersion[i]:>8.4f}"
@@ -136,9 +136,9 @@ def compare_intensities(
     records: Record | Iterable[Record],
     ims: str | Iterable[str],
     *,
-    levels: int = 15,
+    n_levels: int = 15,
     polarity: Polarity = "as_recorded",
-    samples: int = 1000,
+    n_resamples: int = 1000,
     seed: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,
     threads: int = 0,
@@ -158,11 +158,11 @@ def compare_intensities(
         The accelerograms.
     ims : str or iterable of str
         Intensity measures, as for `multiple_stripe`.
-    levels : int
+    n_levels : int
         Stripes of each analysis, at least 2.
     polarity : {'as_recorded', 'reversed', 'both'}
         As for `multiple_stripe`.
-    samples : int
+    n_resamples : int
         Samples of records for the intervals of the ratios.
     seed : int, Generator or None
         Of these samples.
@@ -181,10 +181,10 @@ def compare_intensities(
         A measure without a curve: too few records, say.
     """
     several = as_records(records)
-    names = [_binding.describe_measure(im).name for im in as_measures(ims)]
+    names = [describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
-    count = as_count("levels", levels, 2)
+    count = as_count("n_levels", n_levels, 2)
     analyses, curves = [], []
     for im in names:
         grid = _levels(wall, several, im, count, polarity, threads)
@@ -194,20 +194,26 @@ def compare_intensities(
         curves.append(analyses[-1].fit())
         if not curves[-1].has_fit:
             raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
-    power = np.array([_binding.describe_measure(im).power for im in names], dtype=np.float64)
+    power = np.array([describe_measure(im).power for im in names], dtype=np.float64)
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    times = draw_records(len(several), samples, seed, events)
+    times = draw_records(len(several), n_resamples, seed, events)
     drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
     interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
-    ratio = dispersion / dispersion.min()
-    return IntensityComparison(tuple(analyses), tuple(curves), dispersion, error, ratio, interval)
+    return IntensityComparison(
+        stripes=tuple(analyses),
+        curves=tuple(curves),
+        dispersion=dispersion,
+        se_dispersion=error,
+        ratio=dispersion / dispersion.min(),
+        ratio_interval=interval,
+    )
 
 
 def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polarity: str, threads: int) -> FloatArray:
     """Levels that cover a curve from nearly none to nearly all collapses."""
-    pga = np.array([record.pga for record in records])
+    pga = np.array([record.peak_acceleration for record in records])
 
     def plan_at(levels: Sequence[float]) -> Any:
         request = new_request((wall,), records, levels, im, polarity, None, threads)
@@ -225,7 +231,7 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
     moving = plan.scale[0] > 0.0
     if not moving.any():
         raise InputError("records: all are without motion")
-    power = _binding.describe_measure(im).power
+    power = describe_measure(im).power
     peaks = (plan.scale[0] * pga[plan.record])[moving]
     start = _SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)

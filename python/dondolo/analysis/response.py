@@ -12,7 +12,9 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, as_text
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
+from dondolo._fortran.library import check, receive, stoppable, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Response(Shown, Saved):
     """What a motion leaves.
 
@@ -250,7 +252,7 @@ def simulate(
     factor = as_number("scale", scale)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
-    with _binding.stoppable():
+    with stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
             upload((wall,)).number,
             *place_of(record),
@@ -259,28 +261,37 @@ def simulate(
             settings,
             int(history),
         )
-    _binding.check(stat, message)
-    if sentences := _warnings(wall, record.name, record.pga):
-        _binding.warn(sentences)
-    response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
+    check(stat, message)
+    if sentences := _warnings(wall, record.name, record.peak_acceleration):
+        warn(sentences)
+    edp_limit = float(settings[2])
+    motion: dict[str, Any] = {}
     if estimate_error:
-        object.__setattr__(response, "edp_error", edp_error)
-        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
+        warn(warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
     if history:
-        parcel = _binding.receive(sent, stat, message)
+        parcel = receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
-        columns = ("time", "ground_acceleration", "rotation", "velocity", "side", "after_impact")
-        rows = (*parcel.reals.reshape(4, -1), side.astype(np.int8), after == 1)
-        for what, row in zip(columns, rows, strict=True):
-            row.flags.writeable = False
-            object.__setattr__(response, what, row)
-    return response
+        names = ("time", "ground_acceleration", "rotation", "velocity")
+        motion = dict(zip(names, parcel.reals.reshape(4, -1), strict=True))
+        motion |= {"side": side.astype(np.int8), "after_impact": after == 1}
+    return Response(
+        wall=wall,
+        record=record,
+        scale=factor,
+        edp=edp,
+        collapsed=collapsed == 1,
+        impacts=impacts,
+        time_of_peak=time_of_peak,
+        edp_limit=edp_limit,
+        edp_error=edp_error if estimate_error else None,
+        **motion,
+    )
 
 
 @functools.lru_cache
 def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return _binding.warnings_of_motion(upload((wall,)), record, pga)
+    return warnings_of_motion(upload((wall,)), record, pga)
 
 
 def history_table(response: Response) -> tables.Table:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.histories import settings
 from dondolo.errors import InputError
 
 
@@ -44,7 +44,7 @@ class Solver:
     ) -> FloatArray:
         """Its numbers as Fortran takes them; edp_limit is the analysis's own, where none is given."""
         limit = edp_limit if self.edp_limit is None else self.edp_limit
-        return _binding.settings(self.rtol, self.atol, limit, estimate_error, collapses_only)
+        return settings(self.rtol, self.atol, limit, estimate_error, collapses_only)
 
 
 _DEFAULT = Solver()

@@ -13,7 +13,10 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import CurveData, warnings_of_curve
+from dondolo._fortran.histories import warnings_of_errors
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
@@ -31,7 +34,7 @@ if TYPE_CHECKING:
 _Table = Literal["histories", "stripes", "walls"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
     """Every record at every level of intensity, and who collapses.
 
@@ -81,7 +84,7 @@ class Stripes(Shown, Saved):
     edp_error: FloatArray | None = None
 
     @property
-    def records(self) -> int:
+    def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names) // len(np.unique(self.polarity))
 
@@ -89,7 +92,7 @@ class Stripes(Shown, Saved):
     def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
         # All records come in one polarity, and again in the other if there are two.
-        return np.arange(len(self.record_names)) % self.records
+        return np.arange(len(self.record_names)) % self.n_records
 
     @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -107,12 +110,12 @@ class Stripes(Shown, Saved):
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
 
-    def exceedances(self, edp: float) -> np.ndarray[Any, np.dtype[np.int64]]:
+    def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe that reach a threshold, shape (levels,).
 
         Parameters
         ----------
-        edp : float
+        edp_threshold : float
             Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
 
         Returns
@@ -124,18 +127,20 @@ class Stripes(Shown, Saved):
         InputError
             A threshold beyond that.
         """
-        threshold = as_number("edp", edp)
+        threshold = as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
+            raise InputError(
+                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            )
         counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
         return counts
 
-    def fit(self, edp: float | None = None) -> Fragility:
+    def fit(self, edp_threshold: float | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood.
 
         Parameters
         ----------
-        edp : float, optional
+        edp_threshold : float, optional
             Rotation / capacity that makes a damage state; collapse if left out.
 
         Returns
@@ -148,23 +153,23 @@ class Stripes(Shown, Saved):
         DondoloWarning
             With the sentence of the executable, where there is no curve or it extrapolates.
         """
-        state = self if edp is None else self._state(edp)
+        state = self if edp_threshold is None else self._state(edp_threshold)
         curve = fit(
             self.levels,
             state.collapses.astype(np.float64),
             self.histories.astype(np.float64),
             im=self.im,
             wall=self.wall,
-            edp=state.edp_limit,
+            edp_threshold=state.edp_limit,
             sample=state._sample(),
         )
         low, high = curve.bracket
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
-        data = _binding.CurveData(curve.status, numbers)
-        sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
-        where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
-        _binding.warn(sentence.placed(where) for sentence in sentences)
+        data = CurveData(curve.status, numbers)
+        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
+        where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
+        warn(sentence.placed(where) for sentence in sentences)
         return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -186,14 +191,14 @@ class Stripes(Shown, Saved):
 
         return draw_stripes(self, ax)
 
-    def plot_damage_states(self, ax: Axes | None = None, *, edp: Sequence[float] | None = None) -> Axes:
+    def plot_damage_states(self, ax: Axes | None = None, *, edp_thresholds: Sequence[float] | None = None) -> Axes:
         """Draw the fitted curve of each damage state, collapse the boldest.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        edp : sequence of float, optional
+        edp_thresholds : sequence of float, optional
             Rotation / capacity of the states, as for `fit`; 0.1, 0.4 and 1 times `edp_limit` if left out.
 
         Returns
@@ -208,16 +213,22 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_damage_states
 
-        return draw_damage_states(self, ax, edp)
+        return draw_damage_states(self, ax, edp_thresholds)
 
-    def _state(self, edp: float) -> Stripes:
+    def _state(self, edp_threshold: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
-        self.exceedances(edp)
-        return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
+        self.exceedances(edp_threshold)
+        edp, collapsed = np.minimum(self.edp, edp_threshold), self.edp >= edp_threshold
+        return dataclasses.replace(self, edp=edp, collapsed=collapsed, edp_limit=edp_threshold)
 
     def _sample(self) -> Sample:
         """The histories as a curve keeps them."""
-        return Sample(self.levels, self.collapsed, self.record_index, self.record_names[: self.records])
+        return Sample(
+            levels=self.levels,
+            collapsed=self.collapsed,
+            record_index=self.record_index,
+            record_names=self.record_names[: self.n_records],
+        )
 
     def _tables(self) -> dict[_Table, Any]:
         return {
@@ -242,12 +253,12 @@ class Stripes(Shown, Saved):
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
-            f"unit of im_level: {_binding.unit_of(self.im) or '1'}",
+            f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = _binding.unit_of(self.im)
+        unit = unit_of(self.im)
         return [
             ("wall", self.wall.name),
             ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
@@ -323,11 +334,11 @@ def multiple_stripe(
         plan = request.plan()
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
-    _binding.warn(plan.warnings)
+    warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
         stripes = _stripes(request, several, plan, outcome, len(request.levels))
-        _binding.warn(_warnings(stripes))
+        warn(_warnings(stripes))
         return stripes
     complete = outcome.done // len(plan.record)
     partial = _stripes(request, several, plan, outcome, complete) if complete else None
@@ -340,27 +351,24 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     size = complete * len(plan.record)
     flat: tuple[Any, ...] = outcome[:5]
     edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
-    levels, scale = request.levels[:complete], plan.scale[:complete]
-    for array in (edp, collapsed, impacts, time_of_peak, error, scale, plan.polarity):
-        array.flags.writeable = False
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     return Stripes(
-        request.walls[0],
-        request.im,
-        levels,
-        edp,
-        collapsed,
-        impacts,
-        time_of_peak,
-        scale,
-        tuple(records[i].name for i in plan.record),
-        plan.polarity,
-        request.engine,
-        rtol,
-        atol,
-        edp_limit,
-        outcome.work,
-        error if estimated else None,
+        wall=request.walls[0],
+        im=request.im,
+        levels=request.levels[:complete],
+        edp=edp,
+        collapsed=collapsed,
+        impacts=impacts,
+        time_of_peak=time_of_peak,
+        scale=plan.scale[:complete],
+        record_names=tuple(records[i].name for i in plan.record),
+        polarity=plan.polarity,
+        engine=request.engine,
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        work=outcome.work,
+        edp_error=error if estimated else None,
     )
 
 
@@ -369,7 +377,7 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     if stripes.edp_error is None:
         return []
     level, history = np.unravel_index(stripes.edp_error.argmax(), stripes.edp_error.shape)
-    return _binding.warnings_of_errors(
+    return warnings_of_errors(
         stripes.edp,
         stripes.edp_error,
         stripes.edp_limit,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dondolo._base.arguments import tails
-from dondolo._fortran import _binding
+from dondolo._fortran.records import unit_of
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 def draw_fragility(
-    fragility: Fragility, ax: Axes | None, level: float, label: str | None, color: str, linestyle: str, marker: str
+    fragility: Fragility, ax: Axes | None, confidence: float, label: str | None, color: str, linestyle: str, marker: str
 ) -> Axes:
     """Draw a curve with its confidence band, and the fractions of collapse with Clopper and Pearson's intervals."""
     from scipy.stats import beta as beta_distribution
 
-    lower, upper = tails(level)
+    lower, upper = tails(confidence)
     ax = style.axes(ax)
     x, z, n = (np.asarray(part, dtype=float) for part in (fragility.levels, fragility.collapses, fragility.histories))
     counted = n > 0.0
@@ -41,16 +41,16 @@ def draw_fragility(
         color=style.BLACK if label is None else color,
         elinewidth=0.8,
         capsize=2,
-        label=f"fractions, {100.0 * level:.4g} % intervals" if label is None else None,
+        label=f"fractions, {100.0 * confidence:.4g} % intervals" if label is None else None,
         zorder=3,
     )
     grid = curves.grid(x)
     right = grid[-1]
     if fragility.has_fit:
-        band = np.asarray(fragility.interval(grid, level=level))
-        text = f"{100.0 * level:.4g} % band" if label is None else None
+        band = np.asarray(fragility.interval(grid, confidence=confidence))
+        text = f"{100.0 * confidence:.4g} % band" if label is None else None
         ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
-        unit = f" {_binding.unit_of(fragility.im)}".rstrip()
+        unit = f" {unit_of(fragility.im)}".rstrip()
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
         ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
     else:
@@ -77,6 +77,6 @@ def parameters(fit: Fragility) -> str:
     """Median and dispersion for a legend."""
     if not fit.has_fit:
         return f"no fit ({fit.status.replace('_', ' ')})"
-    unit = f" {_binding.unit_of(fit.im)}".rstrip()
+    unit = f" {unit_of(fit.im)}".rstrip()
     times = f", times {fit.saturation:.2g}" if fit.saturation < 1.0 else ""
     return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}{times}"

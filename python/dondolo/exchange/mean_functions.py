@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.records import unit_of
 from dondolo.errors import InputError, silent
 from dondolo.exchange.nrml import DiscreteFragility
 from dondolo.populations.curve import PopulationCurve
@@ -96,9 +96,9 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
         ordered = _ordered(raw)
         rising = np.maximum.accumulate(ordered, axis=1)
         functions[name] = {
-            state: DiscreteFragility(levels, p, typology.im) for state, p in zip(states, rising, strict=True)
+            state: DiscreteFragility(levels, p, im=typology.im) for state, p in zip(states, rising, strict=True)
         }
-        unit = f" {_binding.unit_of(typology.im)}".rstrip()
+        unit = f" {unit_of(typology.im)}".rstrip()
         for state, before, inside, after in zip(states, raw, ordered, rising, strict=True):
             for lift, reason in (
                 (inside - before, "where a more severe state is more probable"),

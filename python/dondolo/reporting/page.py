@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import as_text
 from dondolo._base.files import check_replaced
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -47,8 +47,8 @@ class Chapter:
 def report(
     results: StoredResults | Results | Typology | Stripes | Response,
     path: str | os.PathLike[str],
-    hazard: HazardCurve | None = None,
     *,
+    hazard: HazardCurve | None = None,
     title: str | None = None,
 ) -> None:
     """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.
@@ -96,7 +96,7 @@ def report(
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
-    version, template = _binding.constants().version, _environment().get_template("page.html.j2")
+    version, template = constants().version, _environment().get_template("page.html.j2")
     text = template.render(
         title=run.title,
         generator=f"{_GENERATOR} {version}",
@@ -181,7 +181,7 @@ def _lead(run: Run) -> str:
     parts = []
     if isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
-        counted = results["all"].walls
+        counted = results["all"].n_walls
         parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
         if counted < walls:
             parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"

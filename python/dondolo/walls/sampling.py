@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_number, as_text, one_of
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
+from dondolo._fortran.walls import WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution
 from dondolo.walls.population import Population
@@ -23,15 +24,15 @@ from dondolo.walls.wall import MECHANISMS, Wall, wall_from
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
 
-_TEXTS = tuple(what for what in _binding.WALL_TEXTS if what not in ("name", "mechanism"))
-_PROPERTIES = (*_binding.WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
+_TEXTS = tuple(what for what in WALL_TEXTS if what not in ("name", "mechanism"))
+_PROPERTIES = (*WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
 # After so many the order hardly changes any more
 _PASSES = 5
 
 
 def sample_population(
     mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],
-    n: int,
+    count: int,
     seed: int,
     *,
     variables: Mapping[str, Distribution] | None = None,
@@ -44,7 +45,7 @@ def sample_population(
     """A population of walls with sampled properties.
 
     A property is a number (or a text, for `restitution` and `bearing`), a distribution, or a function of what was
-    sampled, which gets the samples by name, one array of n numbers each, and returns an array of n numbers or a number.
+    sampled, which gets the samples by name, one array of `count` numbers each, and returns such an array or a number.
     A distribution is anything with a method `ppf`, such as `Lognormal` or a frozen distribution of `scipy.stats`.
 
     Parameters
@@ -53,7 +54,7 @@ def sample_population(
         'one_sided', 'free_standing' or 'two_block', or several of them: each wall then has all of them. A mapping gives
         each mechanism properties of its own, besides or instead of the common ones:
         ``{"one_sided": {"p_occ": 0.4}, "two_block": {"p_occ": 0.6, "hinge": Uniform(0.5, 0.7)}}``.
-    n : int
+    count : int
         Number of walls.
     seed : int
         Seed of the random numbers; the same seed gives the same walls.
@@ -102,7 +103,7 @@ def sample_population(
     >>> import dondolo as dd
     >>> facades = dd.sample_population(
     ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75)}},
-    ...     n=100,
+    ...     count=100,
     ...     seed=1,
     ...     height=dd.Lognormal(3.2, 0.15, low=2.4, high=4.5),
     ...     thickness=dd.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
@@ -115,7 +116,7 @@ def sample_population(
     'facades 0001'
     """
     own = _as_mechanisms(mechanisms)
-    n, seed = as_count("n", n, 1), as_count("seed", seed, 0)
+    n, seed = as_count("count", count, 1), as_count("seed", seed, 0)
     as_text("group", group)
     as_text("name", name)
     variables = {} if variables is None else _as_mapping("variables", variables, "distributions by their names")
@@ -223,7 +224,8 @@ def _draw(
         probabilities = _reorder(probabilities, matrix)
     elif correlation:
         raise InputError(
-            f"n = {n}: must be at least {len(names) + 1} for correlations, more than are sampled: {', '.join(names)}"
+            f"count = {n}: must be at least {len(names) + 1} for correlations,"
+            f" more than are sampled: {', '.join(names)}"
         )
     return {what: _quantiles(what, distributions[what], probabilities[:, i]) for i, what in enumerate(names)}
 
@@ -341,10 +343,10 @@ def _evaluate(
 
 def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
     """Walls of one mechanism."""
-    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
     said = {what: [value] * n if what in _TEXTS else value for what, value in values.items()}
-    data = _binding.describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
+    data = describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
     return [wall_from(one) for one in data]
 
 
