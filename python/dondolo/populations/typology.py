@@ -15,7 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants, warn
-from dondolo._fortran.records import unit_of
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
@@ -363,10 +363,10 @@ class Typology(Shown, Saved):
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
-        unit, whole = unit_of(self.im), self["all"]
+        whole = self["all"]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
         ]
         if len(self.edp_thresholds) > 1:
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))
