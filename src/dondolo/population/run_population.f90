@@ -87,13 +87,16 @@ contains
       integer :: i, row
       logical :: found
 
-      numbers = [integer ::]
-      row = max(reader%row, store%identity%first - 1)
-      do while (size(numbers) < most .and. row < store%identity%last)
-         row = row + 1
-         if (.not. store%has(row)) numbers = [numbers, row]
+      allocate (numbers(min(most, store%identity%last)))
+      i = 0
+      do row = max(reader%row, store%identity%first - 1) + 1, store%identity%last
+         if (i == size(numbers)) exit
+         if (store%has(row)) cycle
+         i = i + 1
+         numbers(i) = row
       end do
-      allocate (members(size(numbers)))
+      numbers = numbers(:i)
+      allocate (members(i))
       do i = 1, size(numbers)
          call reader%skip(numbers(i) - 1 - reader%row, error)
          if (allocated(error)) return
