@@ -123,3 +123,13 @@ def unit_of(im: str) -> str:
         return describe_measure(im).unit
     except InputError:
         return ""
+
+
+def blank_unit(im: str) -> str:
+    """The unit with its blank, for the end of a number; '' where there is none."""
+    return f" {unit_of(im)}".rstrip()
+
+
+def levels_in_words(levels: FloatArray, im: str) -> str:
+    """How many levels of a measure, from where to where."""
+    return f"{len(levels)} of {im}, {levels[0]:g} to {levels[-1]:g}{blank_unit(im)}"

@@ -81,8 +81,13 @@ def write_csv(
     spreadsheet_safe : bool
         Guard texts that a spreadsheet would take for formulas.
     """
+    write_lines(path, result_lines(table, comments, spreadsheet_safe))
+
+
+def result_lines(table: Table, comments: Iterable[str], spreadsheet_safe: bool = False) -> list[str]:
+    """Lines of a table of results; the first names dondolo."""
     head = [f"dondolo {constants().version}", *comments]
-    write_lines(path, csv_lines(table, head, spreadsheet_safe=spreadsheet_safe))
+    return csv_lines(table, head, spreadsheet_safe=spreadsheet_safe)
 
 
 def csv_lines(

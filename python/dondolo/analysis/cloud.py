@@ -53,13 +53,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_number, instance_of, shaped
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Polarity, Request, check_threads, new_request
+from dondolo.analysis.request import Polarity, Request, check_threads, new_request, polarity_names
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
@@ -273,7 +273,7 @@ class Cloud(Shown, Saved):
             "wall": [self.wall.name] * len(self.edp),
             "mechanism": [self.wall.mechanism] * len(self.edp),
             "record": [self.records[i].name for i in self.record_index],
-            "polarity": ["reversed" if sign < 0 else "as_recorded" for sign in self.polarity],
+            "polarity": polarity_names(self.polarity),
             "im": [self.im] * len(self.edp),
             "intensity": self.intensity,
             "scale": [self.scale] * len(self.edp),
@@ -365,8 +365,7 @@ def cloud(
     -----
     Jalayer and others (2017). The docstring of the module dondolo.cloud has the formulas.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     several = as_records(records)
     factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:

@@ -39,6 +39,11 @@ _FIRST_SAMPLES = 10_000_000
 Polarity = Literal["as_recorded", "reversed", "both"]
 
 
+def polarity_names(signs: IntArray) -> list[str]:
+    """The polarities of histories as tables have them, of +1 and -1."""
+    return ["reversed" if sign < 0 else "as_recorded" for sign in signs]
+
+
 class Plan(NamedTuple):
     """What will be run, checked.
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_number, as_text, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
@@ -18,7 +18,7 @@ from dondolo._fortran.library import check, receive, stoppable, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
@@ -245,10 +245,8 @@ def simulate(
     -----
     Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
-    if not isinstance(record, Record):
-        raise InputError(f"record: {type(record).__name__} is no record")
+    instance_of("wall", wall, Wall, "no wall")
+    instance_of("record", record, Record, "no record")
     factor = as_number("scale", scale)
     how = as_solver(solver)
     settings = how._settings(estimate_error)

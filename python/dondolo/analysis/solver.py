@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._fortran.histories import settings
-from dondolo.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +53,5 @@ def as_solver(solver: Solver | None) -> Solver:
     """The solver of an analysis; the default where none is given."""
     if solver is None:
         return _DEFAULT
-    if not isinstance(solver, Solver):
-        raise InputError(f"solver: {type(solver).__name__} is no Solver")
+    instance_of("solver", solver, Solver, "no Solver")
     return solver

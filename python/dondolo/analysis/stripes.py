@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
-from dondolo._fortran.records import unit_of
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
+from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request, polarity_names
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
@@ -263,10 +263,9 @@ class Stripes(Shown, Saved):
         tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = unit_of(self.im)
         return [
             ("wall", self.wall.name),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
             ("histories of a stripe", str(self.edp.shape[1])),
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
@@ -331,8 +330,7 @@ def multiple_stripe(
     -----
     Section 3.3 of Nale et al.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     several = as_records(records)
     request = new_request((wall,), several, levels, im, polarity, solver, threads, estimate_error)
     try:
@@ -394,7 +392,7 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
 def histories_table(stripes: Stripes) -> tables.Table:
     """Columns of ``_histories.csv``."""
     levels, histories = stripes.edp.shape
-    polarity = ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity]
+    polarity = polarity_names(stripes.polarity)
     table: tables.Table = {
         "wall": [stripes.wall.name] * stripes.edp.size,
         "mechanism": [stripes.wall.mechanism] * stripes.edp.size,

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import as_generator, one_of, tails
+from dondolo._base.arguments import as_generator, instance_of, one_of, tails
 from dondolo._fortran.library import warn
 from dondolo._storage.saved import Saved
 from dondolo.curves import fragility
@@ -90,8 +90,7 @@ def compare(
     """
     one_of("method", method, ("likelihood", "bootstrap"))
     for curve in (first, second):
-        if not isinstance(curve, Fragility):
-            raise InputError(f"curves: {type(curve).__name__} is no fragility curve")
+        instance_of("curves", curve, Fragility, "no fragility curve")
     if events is not None and method == "likelihood":
         raise InputError("events: is for method = 'bootstrap'")
     if first.im != second.im:

@@ -14,7 +14,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, 
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, fit_curves, probability
 from dondolo._fortran.library import warn
-from dondolo._fortran.records import unit_of
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
@@ -299,7 +299,7 @@ class Fragility(Shown, Saved):
         return Likelihood(self.levels, self.collapses, self.histories, self.theta, self.beta)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {unit_of(self.im)}".rstrip()
+        unit = blank_unit(self.im)
         if not self.has_fit:
             low, high = self.bracket
             return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]

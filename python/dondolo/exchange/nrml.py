@@ -60,7 +60,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_number, increasing,
 from dondolo._base.files import check_replaced
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
-from dondolo._fortran.records import describe_measure, unit_of
+from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
@@ -120,7 +120,7 @@ class DiscreteFragility(Shown, Saved):
             object.__setattr__(self, what, value)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {unit_of(self.im)}".rstrip()
+        unit = blank_unit(self.im)
         ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
         chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
         return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text, instance_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.library import check
@@ -451,12 +451,9 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     if not several:
         raise InputError("records: must be given")
     for record in several:
-        if not isinstance(record, Record):
-            raise InputError(f"records: {type(record).__name__} is no record")
+        instance_of("records", record, Record, "no record")
     return several
 
 
 def _as_record(record: Any) -> Record:
-    if not isinstance(record, Record):
-        raise InputError(f"record: {type(record).__name__} is no record")
-    return record
+    return instance_of("record", record, Record, "no record")

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_text, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_text, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
 from dondolo._fortran.walls import WALL_PROPERTIES, describe_walls, read_walls
 from dondolo._storage import tables
@@ -92,8 +92,7 @@ class Population(Shown):
         if not walls:
             raise InputError("walls: must be given")
         for wall in walls:
-            if not isinstance(wall, Wall):
-                raise InputError(f"walls: {type(wall).__name__} is no wall")
+            instance_of("walls", wall, Wall, "no wall")
         if len(walls) > 1:
             walls = _named(walls)
         weights = _shares("weight", self.weights, walls, math.inf)
