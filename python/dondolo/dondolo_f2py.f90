@@ -3,7 +3,8 @@
 ! Arguments are flat: c_double, c_int and bytes only, since f2py turns any other kind into a C float without a word.
 ! Records and walls are uploaded once and stay; every other procedure takes their handles (dondolo_handles). Records are
 ! one array of samples with their lengths, time steps and names (one a line); a wall is its properties in the order of
-! their table (dondolo_wall_properties), a line for each text and q numbers with a mask of those given, and gravity.
+! their table (dondolo_wall_properties), a line for each text, the number of values of each of q numbers, the
+! n values of all walls, and gravity.
 ! Status and message come last:
 ! 0, or the kind of the error (dondolo_error). Procedures that compute release Python's lock (threadsafe); those that call
 ! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
@@ -166,15 +167,15 @@ subroutine new_suite(names, lengths, dt, r, acceleration, n, handle, stat, messa
 end subroutine new_suite
 
 ! Upload walls that Python has had described
-subroutine new_walls(texts, numbers, given, q, gravity, w, handle, stat, message)
+subroutine new_walls(texts, numbers, n, given, q, gravity, w, handle, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report, set_walls
    use dondolo_error, only : error_type
    use dondolo_handles, only : hold, walls_type
    implicit none
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: q, w, given(q, w)
-   real(c_double), intent(in) :: numbers(q, w), gravity(w)
+   integer(c_int), intent(in) :: n, q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(n), gravity(w)
    integer(c_int64_t), intent(out) :: handle
    integer(c_int), intent(out) :: stat
    character(len=2048), intent(out) :: message
@@ -264,15 +265,15 @@ subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, 
 end subroutine new_study
 
 ! Walls with their defaults filled in and their static quantities, as pack_walls has them
-subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, stat, message)
+subroutine describe_walls(texts, numbers, n, given, q, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_room, pack_walls, parcel_type, report, send, set_walls
    use dondolo_error, only : error_type
    use dondolo_wall, only : wall_type
    implicit none
    character(len=*), intent(in) :: texts
-   integer(c_int), intent(in) :: q, w, given(q, w)
-   real(c_double), intent(in) :: numbers(q, w), gravity(w)
+   integer(c_int), intent(in) :: n, q, w, given(q, w)
+   real(c_double), intent(in) :: numbers(n), gravity(w)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
    character(len=2048), intent(out) :: message

@@ -1,6 +1,7 @@
 !> Values of walls that no masonry has: correct input, but most likely typed in another unit.
 module dondolo_plausibility
    use dondolo_kinds, only : wp
+   use dondolo_property, only : is_list
    use dondolo_lines, only : line_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
@@ -34,22 +35,25 @@ contains
       class(wall_warning_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
 
-      real(wp) :: value
+      real(wp), allocatable :: values(:)
       logical :: outside(2)
-      integer :: i, k
+      integer :: i, k, m
 
       self%walls = self%walls + 1
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
-            value = wall%input%number(property%name)
+            values = [wall%input%number(property%name)]
+            if (property%kind == is_list) values = wall%input%list(property%name)
             ! No overburden is no mistake
-            outside = value > 0.0_wp .and. [value < property%usual_least, value > property%usual_most]
+            outside = [any(values > 0.0_wp .and. values < property%usual_least), any(values > property%usual_most)]
             do k = 1, 2
                if (.not. outside(k)) cycle
                self%number(k, i) = self%number(k, i) + 1
                if (self%number(k, i) > 1) cycle
                self%first(k, i)%text = wall%name()
-               self%value(k, i) = value
+               m = findloc(merge(values > 0.0_wp .and. values < property%usual_least, values > property%usual_most, &
+                  & k == 1), .true., dim=1)
+               self%value(k, i) = values(m)
             end do
          end associate
       end do
