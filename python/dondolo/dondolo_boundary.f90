@@ -328,7 +328,7 @@ contains
       type(wall_type), intent(out) :: walls(:)
       !> A line for each text of a wall, in the order of the table of properties; empty: not given
       character(len=*), intent(in) :: texts
-      !> All numbers that were given, wall after wall, in the order of the table
+      !> All numbers that were given, wall after wall, in the order of the table; what stands behind them is not looked at
       real(c_double), intent(in) :: numbers(:)
       !> How many values each number has: of a list any number, else 1 or 0 (numbers, walls)
       integer(c_int), intent(in) :: given(:, :)
@@ -345,7 +345,7 @@ contains
          call raise_input(error, 'walls: '//to_text(size(given, 1))//' numbers each: must be '//to_text(wall_numbers))
          return
       end if
-      if (sum(given) /= size(numbers)) then
+      if (any(given < 0) .or. sum(given) > size(numbers)) then
          call raise_input(error, 'walls: '//to_text(size(numbers))//' numbers: must be '//to_text(int(sum(given))))
          return
       end if

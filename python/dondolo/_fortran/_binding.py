@@ -380,12 +380,12 @@ def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) ->
         for wall in zip(*(values.get(what, nothing) for what in WALL_TEXTS), strict=True)
         for what, text in zip(WALL_TEXTS, wall, strict=True)
     )
-    return unpack_walls(receive(*_core.describe_walls(texts, numbers, given.T, gravity)), count)
+    return unpack_walls(receive(*_core.describe_walls(texts, np.append(numbers, 0.0), given.T, gravity)), count)
 
 
 def _list(what: str, value: Any) -> FloatArray:
     """Values of a list: several numbers or one, none for None."""
-    return as_array(what, () if value is None else np.atleast_1d(value))
+    return np.zeros(0) if value is None else as_array(what, np.atleast_1d(value))
 
 
 def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
@@ -471,7 +471,8 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
     """Several walls, one after the other."""
     return FlatWall(
         b"\n".join(wall.texts for wall in walls),
-        np.concatenate([wall.numbers for wall in walls]),
+        # f2py takes no empty arrays
+        np.concatenate([*(wall.numbers for wall in walls), [0.0]]),
         np.stack([wall.given for wall in walls]).T,
         np.array([wall.gravity for wall in walls]),
     )
@@ -655,6 +656,8 @@ WALL_TEXTS = tuple(row.name for row in WALL_PROPERTIES if row.kind in ("text", "
 WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.name not in WALL_TEXTS)
 # Those that have several values, and those whose values are texts
 WALL_LISTS = frozenset(row.name for row in WALL_PROPERTIES if row.kind in ("list", "words"))
+# Those that only some walls have: tables show them where one of theirs has them
+WALL_EXTRAS = frozenset(row.name for row in WALL_PROPERTIES if row.default == "optional" and row.owners and row.column)
 WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 _WALL_REALS = 7
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

@@ -22,10 +22,16 @@ from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
-from dondolo.walls.wall import MECHANISMS, Wall
+from dondolo.walls.wall import MECHANISMS, Wall, numbered
 
 # Columns of _walls.csv and the numbers of a wall
-_WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
+_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column}
+_WALL_COLUMNS = {
+    column: name
+    for column, name in _COLUMNS.items()
+    if name not in _binding.WALL_TEXTS and name not in _binding.WALL_LISTS
+}
+_LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in _binding.WALL_LISTS}
 
 
 @dataclass(frozen=True)
@@ -118,8 +124,11 @@ def _population(table: ResultFile, gravity: float) -> Population:
     walls: list[Wall] = []
     for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
-            argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
+            argument: table.number(column, i)
+            for column, argument in _WALL_COLUMNS.items()
+            if (column in table or argument not in _binding.WALL_EXTRAS) and table.texts(column)[i]
         }
+        given |= {argument: values for column, argument in _LIST_COLUMNS.items() if (values := _list(table, column, i))}
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
@@ -128,6 +137,15 @@ def _population(table: ResultFile, gravity: float) -> Population:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
     return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
+
+
+def _list(table: ResultFile, column: str, i: int) -> list[Any]:
+    """Values of a list in a row, up to the first that is not there."""
+    values: list[Any] = []
+    while (one := numbered(column, len(values) + 1)) in table and table.texts(one)[i]:
+        is_word = _LIST_COLUMNS[column] in _binding.WORDS
+        values.append(table.texts(one)[i] if is_word else table.number(one, i))
+    return values
 
 
 def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:

@@ -20,7 +20,7 @@ from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
-from dondolo.walls.wall import Wall, wall_from, walls_table
+from dondolo.walls.wall import Wall, property_columns, wall_from, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -398,6 +398,6 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
-    names = [row.name for row in _binding.WALL_PROPERTIES if row.column]
-    table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
+    names = {row.name: row.name for row in _binding.WALL_PROPERTIES if row.column}
+    table = property_columns(population.walls, names)
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

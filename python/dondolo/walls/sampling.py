@@ -187,7 +187,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 raise InputError(f"{what!r}: no such property of walls; there are {', '.join(_PROPERTIES)}")
             if what == "weight" and mechanism:
                 raise InputError("weight: belongs to the wall, not to one of its mechanisms")
-            if isinstance(value, str) != (what in _TEXTS):
+            if what not in _binding.WALL_LISTS and isinstance(value, str) != (what in _TEXTS):
                 raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
@@ -328,6 +328,8 @@ def _evaluate(
             values[what] = sampled[prefix + what]
         elif isinstance(value, str):
             values[what] = value
+        elif what in _binding.WALL_LISTS and isinstance(value, Iterable):
+            values[what] = tuple(value)
         elif not callable(value):
             values[what] = np.broadcast_to(as_number(what, value), n)
     for what, value in properties.items():
@@ -343,7 +345,7 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     """Walls of one mechanism."""
     pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
-    said = {what: [value] * n if what in _TEXTS else value for what, value in values.items()}
+    said = {what: value if isinstance(value, np.ndarray) else [value] * n for what, value in values.items()}
     data = _binding.describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
     return [wall_from(one) for one in data]
 

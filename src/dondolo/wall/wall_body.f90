@@ -32,8 +32,7 @@ contains
       !> What is said of the wall, defaults filled in
       type(wall_input_type), intent(in) :: input
 
-      is_bare = .not. (input%gives(is_beyond_bare) .or. input%number('hinge_depth') > 0.0_wp .or. &
-         & input%number('edge_radius') > 0.0_wp)
+      is_bare = .not. input%gives(is_beyond_bare)
    end function is_bare
 
    !> Height and thickness of a wall of sections, and the mean density of a body whose mass is given
@@ -332,18 +331,23 @@ contains
       !> The wall, its loads known
       type(wall_body_type), intent(inout) :: wall
 
-      real(wp) :: hinge, edge, depth
+      real(wp), parameter :: usual_block = 0.85_wp
+      real(wp) :: hinge, edge, depth, block
       character(len=:), allocatable :: name
       integer :: i
 
       hinge = input%number('hinge_depth')
       edge = input%number('edge_radius')
       name = 'hinge_depth'
+      block = usual_block
+      if (input%has('stress_block')) block = input%number('stress_block')
+      if (input%has('stress_block') .and. .not. input%has('compressive_strength')) call problems%note('stress_block: only '// &
+         & 'with compressive_strength')
       if (input%has('compressive_strength')) then
          if (hinge > 0.0_wp) call problems%note('hinge_depth = '//to_text(hinge)// &
             & ': give either hinge_depth or compressive_strength')
          hinge = (gravity*wall%body%mass + sum(wall%actions%carried%weight)) &
-            & /(2.0_wp*input%number('stress_block')*input%number('compressive_strength'))
+            & /(2.0_wp*block*input%number('compressive_strength'))
          name = 'compressive_strength'
       end if
       if (edge > 0.0_wp) then

@@ -74,16 +74,16 @@ module dondolo_wall_properties
       &   largest=1.0e3_wp, example='1.5', meaning='height of its centroid, with mass'), &
       & property_type('hinge_inertia', unit='kg m2/m', owners=one_block, optional=.true., positive=.true., &
       &   column='hinge_inertia_kg_m', example='4078.0', meaning='its inertia about the hinge, with mass'), &
-      & property_type('hinge_depth', unit='m', owners=one_block, default=0.0_wp, smallest=0.0_wp, &
-      &   largest=1.0e3_wp, meaning='depth of the hinge behind the outer face'), &
+      & property_type('hinge_depth', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.02', meaning='depth of the hinge behind the outer face'), &
       & property_type('compressive_strength', unit='Pa', owners=one_block, optional=.true., positive=.true., &
-      &   smallest=1.0_wp, largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, if_less='is it in MPa?', &
+      &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, if_less='is it in MPa?', &
       &   if_more='is it in kPa?', example='2.0e6', &
       &   meaning='strength of the masonry, from which the depth of the hinge follows'), &
-      & property_type('stress_block', owners=one_block, default=0.85_wp, positive=.true., largest=1.0_wp, &
-      &   meaning='stress in the compressed part of the base / that strength'), &
-      & property_type('edge_radius', unit='m', owners=one_block, default=0.0_wp, smallest=0.0_wp, &
-      &   largest=1.0e3_wp, &
+      & property_type('stress_block', owners=one_block, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
+      &   meaning='stress in the compressed part of the base / that strength, 0.85 if not given'), &
+      & property_type('edge_radius', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.02', &
       &   meaning='radius of the edge that the wall rolls on, which is also the depth of its hinge at rest'), &
       & property_type('load', is_list, unit='N/m', owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
       &   usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', if_more='is it per metre of wall?', &
@@ -150,7 +150,7 @@ module dondolo_wall_properties
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
-   !> Properties that a bare rectangle with its hinge at its edge does not have
+   !> Properties that a bare rectangle with its hinge at its edge does not have; tables show them only where a wall has them
    logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) == 'one_sided'
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls

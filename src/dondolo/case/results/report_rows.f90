@@ -8,7 +8,7 @@ module dondolo_report_rows
    use dondolo_text, only : occurrences, to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : is_beyond_bare, wall_properties
    implicit none
    private
 
@@ -87,7 +87,7 @@ contains
 
       head = ''
       do i = 1, size(wall_properties)
-         if (wall_properties(i)%replaced) cycle
+         if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
          if (is_many(wall_properties(i)%kind)) then
             do k = 1, lengths(i)
                head = head//','//trim(column_name(wall_properties(i), k))
@@ -116,7 +116,7 @@ contains
       associate (wall => member%wall)
          do i = 1, size(wall_properties)
             associate (name => wall_properties(i)%name)
-               if (wall_properties(i)%replaced) cycle
+               if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
                if (wall_properties(i)%kind == is_list) values = wall%input%list(name)
                if (is_many(wall_properties(i)%kind)) then
                   do k = 1, lengths(i)
