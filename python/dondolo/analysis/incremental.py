@@ -48,8 +48,8 @@ from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.curves.fragility import Fragility, extrapolation
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,7 +60,7 @@ SHARES = (0.16, 0.50, 0.84)
 _MOST_STEPS = 100
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FirstCollapseFragility(Fragility):
     """A lognormal fitted to first collapses.
 
@@ -79,7 +79,7 @@ class FirstCollapseFragility(Fragility):
 _Table = Literal["records", "fractiles"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Incremental(Shown, Saved):
     """The histories of a multiple stripe analysis, record by record.
 
@@ -158,28 +158,27 @@ class Incremental(Shown, Saved):
             mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
             theta = float(np.exp(mean))
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
-        if status == "extrapolated":
-            low, high = levels[[0, -1]]
-            _binding.warn([f"theta = {theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
-        elif status != "ok":
-            _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
-        arrays = covariance, self.counted.astype(np.float64), np.full(len(levels), float(n))
-        for array in arrays:
-            array.flags.writeable = False
-        return FirstCollapseFragility(
-            theta,
-            beta,
-            arrays[0],
-            status,
-            np.nan,
-            (float(levels[first - 1]) if first else 0.0, float(levels[first]) if half.any() else np.inf),
-            levels,
-            *arrays[1:],
+        curve = FirstCollapseFragility(
+            theta=theta,
+            beta=beta,
+            covariance=covariance,
+            status=status,
+            log_likelihood=np.nan,
+            bracket=(float(levels[first - 1]) if first else 0.0, float(levels[first]) if half.any() else np.inf),
+            levels=levels,
+            collapses=self.counted.astype(np.float64),
+            histories=np.full(len(levels), float(n)),
             im=self.stripes.im,
             wall=self.stripes.wall,
         )
+        if status == "extrapolated":
+            _binding.warn([extrapolation(curve)])
+        elif status != "ok":
+            sentence = f"no curve of first collapses is fitted (status '{status}')"
+            _binding.warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
+        return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw a line for each history, and their fractiles, bold.
@@ -275,10 +274,14 @@ def incremental(stripes: Stripes) -> Incremental:
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])
     edp = np.where(collapsed, np.inf, stripes.edp)
-    arrays = first, last, fractiles(edp), fractiles(first), (first[None, :] <= levels[:, None]).sum(axis=1)
-    for array in arrays:
-        array.flags.writeable = False
-    return Incremental(stripes, *arrays)
+    return Incremental(
+        stripes=stripes,
+        first_collapse=first,
+        last_survival=last,
+        edp_fractiles=fractiles(edp),
+        level_fractiles=fractiles(first),
+        counted=(first[None, :] <= levels[:, None]).sum(axis=1),
+    )
 
 
 def fractiles(values: FloatArray) -> FloatArray:

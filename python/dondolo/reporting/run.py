@@ -58,7 +58,8 @@ class LargeScales(NamedTuple):
     def warning(self) -> DondoloWarning:
         """The warning that they are worth."""
         sentence = f"scale factors above 10 in {self.many} of {self.histories} histories"
-        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES)
+        numbers = {"limit": 10.0, "histories_beyond": self.many, "histories": self.histories, "largest": self.largest}
+        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES, numbers=numbers)
 
 
 @dataclass
@@ -133,7 +134,7 @@ def _of_case(results: Results) -> Run:
     case = results.case
     run = run_of(results.typology or results.stripes or results.response)
     run.title, run.population = case.title or run.title, case.population
-    run.records = case.records if case.task != "history" else (case.records[case.record],)
+    run.records = case.records if case.task != "history" else (case.records[case.record_index],)
     run.settings = [
         ("task", case.task),
         ("intensity measure", case.im),

@@ -14,7 +14,7 @@ Beyond the levels
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
     saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
     with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
-    levels than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing
+    levels than at frequent ones. `Risk.annual_frequency` is the lower bound. Hazard curves should begin where nothing
     collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
 Power laws
     With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
@@ -60,7 +60,7 @@ from dondolo._fortran import _binding
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
@@ -77,7 +77,7 @@ _WIDE = 0.01
 _FALL = 0.01
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Risk(Shown, Saved):
     """Mean annual frequency of collapse, and where it comes from.
 
@@ -107,13 +107,13 @@ class Risk(Shown, Saved):
         return (self.inside + self.below[0] + self.above[0], self.inside + self.below[1] + self.above[1])
 
     @property
-    def frequency(self) -> float:
+    def annual_frequency(self) -> float:
         """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
         return self.bounds[0]
 
     @property
     def return_period(self) -> float:
-        """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
+        """Mean time between collapses of one wall [year], that of `annual_frequency`; inf where nothing collapses.
 
         The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
         population it is no more than the inverse of the share lost a year.
@@ -188,12 +188,11 @@ class Risk(Shown, Saved):
             # Whatever the frequency
             return 0.0, 0.0
         if self._of_function:
-            _binding.warn(
-                [
-                    "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
-                    " typology[mechanism, group].risk(hazard)"
-                ]
+            sentence = (
+                "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
+                " typology[mechanism, group].risk(hazard)"
             )
+            _binding.warn([DondoloWarning(sentence, "function_of_one_wall")])
         return self._walls.probability(time)
 
     @functools.cached_property
@@ -254,7 +253,7 @@ class Risk(Shown, Saved):
             Edges that are less than two, not positive or do not increase.
         """
         x = increasing("edges", edges)
-        levels = self.hazard.im_levels
+        levels = self.hazard.levels
         if not self.hazard.endless:
             x = np.clip(x, levels[0], levels[-1])
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
@@ -357,18 +356,20 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
             " no faster than the power law rises; give levels of the hazard instead"
         )
     if hazard.endless:
-        return Risk(fragility, hazard, inside, (0.0, 0.0), (0.0, 0.0), error)
-    risk = Risk(fragility, hazard, inside, (0.0, below), (above, most * float(hazard.annual_frequency[-1])), error)
+        ends = (0.0, 0.0), (0.0, 0.0)
+    else:
+        ends = (0.0, below), (above, most * float(hazard.annual_frequency[-1]))
+    risk = Risk(fragility=fragility, hazard=hazard, inside=inside, below=ends[0], above=ends[1], error=error)
     low, high = risk.bounds
     if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
-        first, last = hazard.im_levels[[0, -1]]
-        _binding.warn(
-            [
-                f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
-                f" lies between {low:.3g} and {high:.3g}"
-            ]
+        first, last = hazard.levels[[0, -1]]
+        sentence = (
+            f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
+            f" lies between {low:.3g} and {high:.3g}"
         )
+        numbers = {"first_level": float(first), "last_level": float(last), "lower_bound": low, "upper_bound": high}
+        _binding.warn([DondoloWarning(sentence, "hazard_too_short", {"im": hazard.im}, numbers)])
     return risk
 
 

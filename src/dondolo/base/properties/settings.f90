@@ -2,10 +2,11 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_name
+   use dondolo_plain, only : is_plain, must_be_plain, shown
    use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
-      & is_text, is_words, name_length, number_of_choices, &
-      & number_of_words, property_type
-   use dondolo_text, only : join, lower, must_be_plain, plain, to_text
+      & is_text, is_words, name_length, number_of_choices, number_of_words, property_type
+   use dondolo_text, only : join, lower, to_text
    implicit none
    private
 
@@ -441,7 +442,7 @@ contains
       integer :: i
 
       if (allocated(self%words(at)%text)) then
-         value_length = len(self%words(at)%text) + 2
+         value_length = len(shown(self%words(at)%text)) + 2
       else if (is_listed(self, at)) then
          value_length = sum([(len(to_text(self%lists(at)%values(i))) + 2, i=1, size(self%lists(at)%values))]) - 2
       else
@@ -460,7 +461,7 @@ contains
       integer :: i, length
 
       if (allocated(self%words(at)%text)) then
-         text = ''''//self%words(at)%text//''''
+         text = ''''//shown(self%words(at)%text)//''''
       else if (is_listed(self, at)) then
          length = 0
          do i = 1, size(self%lists(at)%values)
@@ -515,7 +516,8 @@ contains
             select case (property%kind)
             case (is_text, is_words)
                call check_word(property, self%words(i)%text, allowed)
-               if (plain(self%words(i)%text) /= self%words(i)%text) allowed = must_be_plain
+               if (.not. is_plain(self%words(i)%text)) allowed = must_be_plain
+               if (len(self%words(i)%text) > longest_name) allowed = 'must have at most '//to_text(longest_name)//' bytes'
             case (is_real, is_integer)
                call check_number(property, self%numbers(i), allowed)
             case (is_list)
