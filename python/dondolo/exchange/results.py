@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
-from dondolo._fortran import _binding
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -25,13 +25,9 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall, numbered
 
 # Columns of _walls.csv and the numbers of a wall
-_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column}
-_WALL_COLUMNS = {
-    column: name
-    for column, name in _COLUMNS.items()
-    if name not in _binding.WALL_TEXTS and name not in _binding.WALL_LISTS
-}
-_LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in _binding.WALL_LISTS}
+_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
+_WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
+_LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -126,7 +122,7 @@ def _population(table: ResultFile, gravity: float) -> Population:
         given: dict[str, Any] = {
             argument: table.number(column, i)
             for column, argument in _WALL_COLUMNS.items()
-            if (column in table or argument not in _binding.WALL_EXTRAS) and table.texts(column)[i]
+            if (column in table or argument not in WALL_EXTRAS) and table.texts(column)[i]
         }
         given |= {argument: values for column, argument in _LIST_COLUMNS.items() if (values := _list(table, column, i))}
         try:
@@ -143,7 +139,7 @@ def _list(table: ResultFile, column: str, i: int) -> list[Any]:
     """Values of a list in a row, up to the first that is not there."""
     values: list[Any] = []
     while (one := numbered(column, len(values) + 1)) in table and table.texts(one)[i]:
-        is_word = _LIST_COLUMNS[column] in _binding.WORDS
+        is_word = _LIST_COLUMNS[column] in WALL_WORDS
         values.append(table.texts(one)[i] if is_word else table.number(one, i))
     return values
 

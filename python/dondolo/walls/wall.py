@@ -12,8 +12,20 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import html_of
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check
+from dondolo._fortran.walls import (
+    WALL_EXTRAS,
+    WALL_LISTS,
+    WALL_PROPERTIES,
+    FlatWall,
+    WallData,
+    describe_wall,
+    flat_wall,
+    join_walls,
+    wall_terms,
+)
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
@@ -84,18 +96,18 @@ class Wall:
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
         properties = self._properties() | more
-        for row in _binding.WALL_PROPERTIES:
+        for row in WALL_PROPERTIES:
             word = properties[row.name]
             # The library reads words in any case, as its files may have them; those of a program are exact.
             if row.choices and isinstance(word, str) and word != word.lower():
                 one_of(row.name, word, row.choices)
-        self._fill(_binding.describe_wall(properties, self.gravity))
+        self._fill(describe_wall(properties, self.gravity))
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
-        return {row.name: getattr(self, row.name, None) for row in _binding.WALL_PROPERTIES}
+        return {row.name: getattr(self, row.name, None) for row in WALL_PROPERTIES}
 
-    def _fill(self, data: _binding.WallData) -> None:
+    def _fill(self, data: WallData) -> None:
         """Take over what Fortran has understood."""
         own = {field.name for field in dataclasses.fields(self)}
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
@@ -117,9 +129,9 @@ class Wall:
         self.__dict__.update(state)
 
     @property
-    def _flat(self) -> _binding.FlatWall:
+    def _flat(self) -> FlatWall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
-        return _binding.flat_wall(self._properties(), self.gravity)
+        return flat_wall(self._properties(), self.gravity)
 
     def _static(self, place: int) -> float:
         """One of the static quantities, in the order of Fortran."""
@@ -191,7 +203,7 @@ class Wall:
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
         """
-        return Terms(*_binding.wall_terms(upload((self,)), rotation)[:5])
+        return Terms(*wall_terms(upload((self,)), rotation)[:5])
 
     def potential(self, rotation: ArrayLike) -> FloatArray:
         """Potential energy of gravity and of carried loads at given rotations.
@@ -215,7 +227,7 @@ class Wall:
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
         """
-        energy: FloatArray = _binding.wall_terms(upload((self,)), rotation)[5]
+        energy: FloatArray = wall_terms(upload((self,)), rotation)[5]
         return energy
 
     def plot(self, ax: Axes | None = None, *, rotation: float | None = None) -> Axes:
@@ -332,8 +344,8 @@ class OneSidedWall(BlockWall):
         Density of the masonry [kg/m3], 1800 if left out.
     restitution : {'default', 'sorrentino', 'impulse', 'constant'}, optional
         Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
-        (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the wall
-        carries.
+        (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the
+        wall carries.
     restitution_value : float, optional
         Speed after / before an impact, only with restitution = 'constant': 0 <= value < 1.
     restitution_factor : float, optional
@@ -342,31 +354,73 @@ class OneSidedWall(BlockWall):
         Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional
         Name in the results, 'wall' if left out.
-    section_height, section_thickness, section_fill, section_offset, section_base_width, section_top_width : float or \
-sequence, optional
-        Storeys from the bottom, instead of height and thickness: heights, thicknesses and offsets of their outer faces
-        [m], the part that is masonry, and widths of a gable at bottom and top.
-    mass, centroid_depth, centroid_height, hinge_inertia : float, optional
-        The body itself, instead of its density: mass [kg/m], centroid [m], inertia about the hinge [kg m2/m].
+    section_height : float or sequence of float, optional
+        Heights of the storeys from the bottom, instead of height [m].
+    section_thickness : float or sequence of float, optional
+        Their thicknesses, instead of thickness [m].
+    section_fill : float or sequence of float, optional
+        Part of each storey that is masonry, 1 if not given.
+    section_offset : float or sequence of float, optional
+        Depth of the outer face of each storey behind that of the lowest, 0 if not given [m].
+    section_base_width : float or sequence of float, optional
+        Width of each elevation at its bottom / width that values per metre refer to, 1 if not given.
+    section_top_width : float or sequence of float, optional
+        The same at its top, as at its bottom if not given; 0 for a gable.
+    mass : float, optional
+        Mass of the body, instead of its density [kg/m].
+    centroid_depth : float, optional
+        Depth of its centroid behind the outer face, with mass [m].
+    centroid_height : float, optional
+        Height of its centroid, with mass [m].
+    hinge_inertia : float, optional
+        Its inertia about the hinge, with mass [kg m2/m].
     hinge_depth : float, optional
-        Depth of the hinge behind the outer face [m], 0 if left out.
-    compressive_strength, stress_block : float, optional
-        Strength of the masonry [Pa], from which the depth of the hinge follows, and the part of it that the compressed
-        base has, 0.85 if left out.
+        Depth of the hinge behind the outer face [m].
+    compressive_strength : float, optional
+        Strength of the masonry, from which the depth of the hinge follows [Pa].
+    stress_block : float, optional
+        Stress in the compressed part of the base / that strength, 0.85 if not given.
     edge_radius : float, optional
-        Radius of the edge that the wall rolls on [m].
-    load, load_depth, load_height, load_inertia, load_seat : float or sequence, optional
-        Vertical loads that go with the wall [N/m], where they bear [m], which mass they bring - 'none' (a dead force),
-        'vertical' (held sideways by other walls) or 'both' - and the travel at which they lose their seat [m].
-    inertia_mass, inertia_depth, inertia_height : float or sequence, optional
-        Masses that the wall pushes and does not carry [kg/m] and where [m].
-    thrust, thrust_depth, thrust_height, thrust_decay : float or sequence, optional
-        Horizontal forces outwards [N/m], where [m; at the inner face if no depth is given], and the travel over which
-        each falls to 1/e [m].
-    spring, spring_depth, spring_height : float or sequence, optional
-        Springs that pull and push [N/m per m] and where [m].
-    bed, bed_depth, bed_bottom, bed_top : float or sequence, optional
-        Springs spread over a height [N/m2 per m], and where [m].
+        Radius of the edge that the wall rolls on, which is also the depth of its hinge at rest [m].
+    load : float or sequence of float, optional
+        Vertical loads that go with the wall, per metre of wall [N/m].
+    load_depth : float or sequence of float, optional
+        Depth of each load behind the outer face [m].
+    load_height : float or sequence of float, optional
+        Height of each load above the base [m].
+    load_inertia : {'none', 'vertical', 'both'} or sequence of them, optional
+        Which mass of each load the wall moves: 'none' is a dead force, 'vertical' a mass that other walls hold
+        sideways, 'both' one that the wall pushes too (docs/loads.md); one for all loads or one for each.
+    load_seat : float or sequence of float, optional
+        Horizontal travel at which each load loses its seat [m].
+    inertia_mass : float or sequence of float, optional
+        Masses that the wall pushes and does not carry, per metre of wall [kg/m].
+    inertia_depth : float or sequence of float, optional
+        Depth of each of them behind the outer face [m].
+    inertia_height : float or sequence of float, optional
+        Height of each of them above the base [m].
+    thrust : float or sequence of float, optional
+        Horizontal forces outwards, per metre of wall [N/m].
+    thrust_depth : float or sequence of float, optional
+        Depth of each thrust behind the outer face, the inner face if not given [m].
+    thrust_height : float or sequence of float, optional
+        Height of each thrust above the base [m].
+    thrust_decay : float or sequence of float, optional
+        Travel over which each thrust falls to 1/e, constant if not given [m].
+    spring : float or sequence of float, optional
+        Stiffness of springs that pull and push, per metre of wall [N/m2].
+    spring_depth : float or sequence of float, optional
+        Depth of each spring behind the outer face [m].
+    spring_height : float or sequence of float, optional
+        Height of each spring above the base [m].
+    bed : float or sequence of float, optional
+        Stiffness of springs spread over a height, per metre of wall and of height [N/m3].
+    bed_depth : float or sequence of float, optional
+        Depth of each bed behind the outer face [m].
+    bed_bottom : float or sequence of float, optional
+        Height at which each bed begins [m].
+    bed_top : float or sequence of float, optional
+        Height at which each bed ends [m].
 
     Raises
     ------
@@ -376,8 +430,8 @@ sequence, optional
     Notes
     -----
     Equation (1) of Nale et al.; docs/theory.md, section 2. Depths are measured from the outer face of the base, towards
-    which the wall falls, heights from the base. What belongs to several loads is a value for each, or one for all; which
-    inertia to choose is the subject of docs/loads.md.
+    which the wall falls, heights from the base. What belongs to several loads is a value for each, or one for all;
+    which inertia to choose is the subject of docs/loads.md.
 
     Examples
     --------
@@ -411,8 +465,8 @@ class FreeStandingWall(BlockWall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
 
     Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
-    1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half its
-    thickness, and nothing thrusts.
+    1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
+    its thickness, and nothing thrusts.
     """
 
     mechanism: ClassVar[str] = "free_standing"
@@ -470,7 +524,7 @@ class TwoBlockWall(Wall):
 MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
 
 
-def wall_from(data: _binding.WallData) -> Wall:
+def wall_from(data: WallData) -> Wall:
     """A wall that Fortran has understood already."""
     wall = object.__new__(MECHANISMS[data.properties["mechanism"]])
     wall._fill(data)
@@ -482,8 +536,8 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     alone = walls[0].__dict__ if len(walls) == 1 else {}
     if "_handle" in alone:
         return alone["_handle"]  # type: ignore[no-any-return]
-    number, stat, message = _core.walls.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
-    _binding.check(stat, message)
+    number, stat, message = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
+    check(stat, message)
     alone["_handle"] = handle = Handle(number)
     return handle
 
@@ -493,9 +547,9 @@ def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.
     table: tables.Table = {}
     for what, head in heads.items():
         values = [getattr(wall, what, None) for wall in walls]
-        if what in _binding.WALL_EXTRAS and all(value is None for value in values):
+        if what in WALL_EXTRAS and all(value is None for value in values):
             continue
-        if what not in _binding.WALL_LISTS:
+        if what not in WALL_LISTS:
             table[head] = values
             continue
         lists = [value or () for value in values]
@@ -522,7 +576,7 @@ def walls_table(
         return [getattr(wall, what, None) for wall in walls]
 
     return {
-        **property_columns(walls, {row.name: row.column for row in _binding.WALL_PROPERTIES if row.column}),
+        **property_columns(walls, {row.name: row.column for row in WALL_PROPERTIES if row.column}),
         "alpha_rad": column("slenderness_angle"),
         "p_rad_s": column("frequency_parameter"),
         "trigger_acceleration_m_s2": column("trigger_acceleration"),
