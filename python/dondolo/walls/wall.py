@@ -290,7 +290,7 @@ def _in_words(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:.6g}"
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class BlockWall(Wall):
     """What walls of one block share: storeys, the hinge, and what they carry."""
 

@@ -345,9 +345,11 @@ contains
          associate (m => mechanism)
             holding = m%gravity*(m%whole%e + m%lifted%e) + m%dead%e - m%thrust%f
             turning = m%gravity*(m%whole%f + m%lifted%f) + m%dead%f + m%thrust%e
-            mechanism%capacity = atan2(holding, turning)
-            if (m%edge*m%thrust%w > 0.0_wp) &
-               & mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning)) - atan2(turning, holding)
+            if (m%edge*m%thrust%w > 0.0_wp) then
+               mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning)) - atan2(turning, holding)
+            else
+               mechanism%capacity = atan2(holding, turning)
+            end if
          end associate
          return
       end if
