@@ -11,7 +11,7 @@ module dondolo_population
    use dondolo_limits, only : most_walls
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_property, only : find_item, is_list, is_many, is_text, is_words, item_name, property_type
+   use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_type
@@ -55,6 +55,8 @@ module dondolo_population
       integer :: row = 0
       !> The table
       type(csv_reader_type) :: table
+      !> Its columns of the properties of walls and of members; 0 where it has none
+      integer :: wall_columns(size(wall_properties)) = 0, member_columns(size(member_properties)) = 0
       !> Gravity [m/s2]
       real(wp), allocatable :: gravity
       !> Are names looked up, to find those that stand twice, and is a weight asked for? A table that was read before
@@ -148,7 +150,7 @@ contains
       if (present(is_checked)) self%is_checked = is_checked
       call self%table%open(file, error)
       if (allocated(error)) return
-      allocate (self%items(3, 0))
+      self%items = reshape([integer ::], [3, 0])
       do i = 1, size(self%table%columns)
          associate (column => self%table%columns(i)%text)
             call find_item(wall_properties, lower(column), at, item)
@@ -161,7 +163,10 @@ contains
          return
       end do
       call sort_items(self%items)
-      call self%table%find_decimal_mark([number_columns(wall_properties), number_columns(member_properties), &
+      self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
+      self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
+         & pack(self%member_columns, member_properties%kind /= is_text), &
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
 
    contains
@@ -179,16 +184,6 @@ contains
             if (is_many(wall_properties(k)%kind)) names(k) = item_name(trim(wall_properties(k)%name), 1)
          end do
       end function shown_names
-
-      !> Columns of numbers, 0 where the table has none of the name
-      function number_columns(properties) result(columns)
-         type(property_type), intent(in) :: properties(:)
-         !> Their columns
-         integer, allocatable :: columns(:)
-
-         columns = [(self%table%column(trim(properties(i)%name)), i=1, size(properties))]
-         columns = pack(columns, properties%kind /= is_text .and. .not. is_many(properties%kind))
-      end function number_columns
 
    end subroutine open_population
 
@@ -292,15 +287,15 @@ contains
       type(problems_type) :: problems
 
       call input%set('name', 'wall '//to_text(self%row))
-      member%has_name = given(self, 'name') > 0
-      call read_cells(self, input, problems)
+      member%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
+      call read_cells(self, self%wall_columns, input, problems)
       call read_lists(self, input, problems)
       call member%wall%input%set('name', trim(input%word('name')))
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       call problems%take(error)
       call new_settings(own, member_properties)
-      call read_cells(self, own, problems)
+      call read_cells(self, self%member_columns, own, problems)
       call own%fill()
       call own%check(problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
@@ -310,21 +305,22 @@ contains
       call problems%raise(error)
    end subroutine read_row
 
-   !> Number of a column in which the row has something, else 0; blanks alone are nothing
-   integer function given(reader, name)
+   !> Has the row something in a column? Blanks alone are nothing
+   logical function is_given(reader, column)
       !> The reader, with a row
       type(population_reader_type), intent(in) :: reader
-      !> Name of the column
-      character(len=*), intent(in) :: name
+      !> Its number, or 0
+      integer, intent(in) :: column
 
-      given = reader%table%column(name)
-      if (len_trim(reader%table%get_text(given)) == 0) given = 0
-   end function given
+      is_given = len_trim(reader%table%get_text(column)) > 0
+   end function is_given
 
    !> Read the cells of a row that give properties
-   subroutine read_cells(reader, settings, problems)
+   subroutine read_cells(reader, columns, settings, problems)
       !> The reader, with a row
       type(population_reader_type), intent(in) :: reader
+      !> Columns of the properties
+      integer, intent(in) :: columns(:)
       !> What is said in the row
       class(settings_type), intent(inout) :: settings
       !> Takes every cell that should be a number and is none
@@ -333,18 +329,16 @@ contains
       type(property_type), pointer :: table(:)
       type(error_type), allocatable :: error
       real(wp) :: number
-      integer :: i, column
+      integer :: i
 
       call settings%get_table(table)
       do i = 1, size(table)
-         if (is_many(table(i)%kind)) cycle
-         column = given(reader, trim(table(i)%name))
-         if (column == 0) cycle
+         if (.not. is_given(reader, columns(i))) cycle
          if (table(i)%kind == is_text) then
-            call settings%set(table(i)%name, reader%table%get_text(column))
+            call settings%set(table(i)%name, reader%table%get_text(columns(i)))
             cycle
          end if
-         call reader%table%get_real(column, number, error)
+         call reader%table%get_real(columns(i), number, error)
          if (.not. allocated(error)) call settings%set(table(i)%name, number)
          call problems%take(error)
       end do
