@@ -347,17 +347,12 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     """The stripes up to a level."""
     shape = (complete, len(plan.record))
     size = complete * len(plan.record)
-    flat: tuple[Any, ...] = outcome[:5]
-    edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=request.levels[:complete],
-        edp=edp,
-        collapsed=collapsed,
-        impacts=impacts,
-        time_of_peak=time_of_peak,
         scale=plan.scale[:complete],
         record_names=tuple(records[i].name for i in plan.record),
         polarity=plan.polarity,
@@ -366,7 +361,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
-        edp_error=error if estimated else None,
+        **{name: getattr(outcome, name)[:size].reshape(shape) for name in names},
     )
 
 
