@@ -303,8 +303,8 @@ def test_options_are_keywords():
 # What may be left out and still goes by its place: the one thing that a call is about
 # Height and thickness may be those of sections
 BY_PLACE = {
-    "ax", "edp_threshold", "height", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table", "thickness",
-    "weights",
+    "ax", "edp_threshold", "height", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table",
+    "thickness", "weights",
 }  # fmt: skip
 
 
