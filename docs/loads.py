@@ -23,6 +23,5 @@ cases = {
 for name, more in cases.items():
     wall = dd.OneSidedWall(3.0, 0.25, **more)
     f = dd.multiple_stripe(wall, records, levels, polarity="both").fit()
-    print(
-        f"{name:24s} {wall.trigger_acceleration / wall.gravity:.4f} {wall.capacity_angle:.4f} {f.theta:.3f} {f.beta:.3f} {f.status}"
-    )
+    trigger = wall.trigger_acceleration / wall.gravity
+    print(f"{name:24s} {trigger:.4f} {wall.capacity_angle:.4f} {f.theta:.3f} {f.beta:.3f} {f.status}")
