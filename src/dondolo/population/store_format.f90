@@ -24,6 +24,9 @@ module dondolo_store_format
    !> longest head; bytes of a row before its contents, the last 16 a fingerprint
    integer, parameter :: line_bytes = 43, longest_head = 10000000, entry_head = 32, guarded = 16
 
+   !> Most levels and states that a head may state; as many flags of a row are counted without overflow
+   integer, parameter :: most_levels = 2**20, most_states = 2**10
+
    !> Which rows of which study a file is for
    type :: identity_type
       !> The study
@@ -124,9 +127,11 @@ contains
          read (unit, iostat=stat) head
          if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
             at = index(head, new_line('a'))
+            keeps = -1
+            bits = -1
             read (head(:at - 1), *, iostat=stat) words(1), identity%first, identity%last, words(2), &
                & identity%shape%levels, words(3), identity%shape%states, words(4), keeps, words(5), bits
-            if (stat == 0) bytes = line_bytes + length
+            if (stat == 0 .and. can_be() .and. head(length:) == new_line('a')) bytes = line_bytes + length
          end if
       end if
       if (bytes == 0) then
@@ -141,6 +146,16 @@ contains
       end do
       if (bits /= storage_size(1.0_wp)) call raise_input(error, path//': was made in real'//to_text(bits)// &
          & ', not in real'//to_text(storage_size(1.0_wp)))
+
+   contains
+
+      !> Can there be such rows? A file that was made up must not cost an endless loop or a wild address.
+      pure logical function can_be()
+         can_be = identity%first >= 1 .and. identity%last >= identity%first .and. identity%last < huge(1) .and. &
+            & identity%shape%levels >= 1 .and. identity%shape%levels <= most_levels .and. identity%shape%states >= 1 .and. &
+            & identity%shape%states <= most_states .and. any(keeps == [0, 1]) .and. bits > 0
+      end function can_be
+
    end subroutine read_head
 
    !> Bytes of a row in a file
