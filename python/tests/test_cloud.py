@@ -72,11 +72,11 @@ def test_measures_of_the_wall(cloud, wall, records):
     assert cloud.against("p*pgv/a0").intensity == pytest.approx(np.tile(expected, 2), rel=1e-12)
 
 
-def test_it_is_one_call_for_many_records(wall, records, monkeypatch):
+def test_it_is_one_call_for_many_records(wall, records, replace_procedure):
     """No loop over histories in Python."""
     calls = []
-    run_block = _core.run_block
-    monkeypatch.setattr(_core, "run_block", lambda *given: calls.append(given) or run_block(*given))
+    run_block = _core.stripes.run_block
+    replace_procedure("stripes.run_block", lambda *given: calls.append(given) or run_block(*given))
     many = [
         dd.Record(record.acceleration[:400], record.dt, f"{record.name}_{i}") for i in range(5) for record in records
     ]
@@ -246,11 +246,11 @@ def test_errors(wall, records):
         dd.cloud(wall, records, polarity="x")
 
 
-def test_interruption(wall, records, monkeypatch):
+def test_interruption(wall, records, replace_procedure):
     def stop(*arguments):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_core, "run_block", stop)
+    replace_procedure("stripes.run_block", stop)
     with pytest.raises(dd.Interrupted, match="interrupted: 0 of 44 histories"):
         dd.cloud(wall, records, progress=False)
 

@@ -261,9 +261,9 @@ def test_two_blocks():
     plt.close("all")
 
 
-def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
+def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch, replace_procedure):
     done = []
-    run_scaled = _core.run_scaled
+    run_scaled = _core.histories.run_scaled
 
     def stop(*arguments):
         done.append(len(arguments[3]))
@@ -271,7 +271,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return run_scaled(*arguments)
 
-    monkeypatch.setattr(_core, "run_scaled", stop)
+    replace_procedure("histories.run_scaled", stop)
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
     with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
         dd.overturning_spectrum(

@@ -83,17 +83,17 @@ def test_threads_change_nothing(analysis, wall, few, threads):
 
 
 @pytest.mark.parametrize("samples", [1, 20_000])
-def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch):
+def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch, replace_procedure):
     monkeypatch.setattr(request, "_FIRST_SAMPLES", samples)
     monkeypatch.setattr(request, "_SECONDS", 0.0)
     sizes = []
-    run_block = _core.run_block
+    run_block = _core.stripes.run_block
 
     def spy(*arguments):
         sizes.append(arguments[-1])
         return run_block(*arguments)
 
-    monkeypatch.setattr(_core, "run_block", spy)
+    replace_procedure("stripes.run_block", spy)
     other = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
     assert len(sizes) > 3
     assert sum(sizes) == other.edp.size
@@ -190,11 +190,11 @@ def test_values_in_other_units_warn(sine):
         assert caught[0].filename == __file__
 
 
-def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
+def test_interruption_keeps_what_is_complete(wall, records, monkeypatch, replace_procedure):
     monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
     monkeypatch.setattr(request, "_SECONDS", 0.0)
     done = []
-    run_block = _core.run_block
+    run_block = _core.stripes.run_block
 
     def stop(*arguments):
         done.append(arguments[-1])
@@ -202,7 +202,7 @@ def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return run_block(*arguments)
 
-    monkeypatch.setattr(_core, "run_block", stop)
+    replace_procedure("stripes.run_block", stop)
     with pytest.raises(dd.Interrupted) as caught:
         dd.multiple_stripe(wall, records, LEVELS, progress=False)
     partial = caught.value.partial

@@ -409,7 +409,7 @@ class _Runner(NamedTuple):
     def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
         scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in self.pulses])[places]
         with _binding.stoppable():
-            edp, collapsed, impacts, time, stat, message = _core.run_scaled(
+            edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,
                 (np.asarray(places) + 1).astype(np.int32),

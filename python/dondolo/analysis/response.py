@@ -251,7 +251,7 @@ def simulate(
     how = as_solver(solver)
     settings = how._settings(estimate_error)
     with _binding.stoppable():
-        edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
+        edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
             upload((wall,)).number,
             *place_of(record),
             factor,
@@ -267,7 +267,7 @@ def simulate(
         object.__setattr__(response, "edp_error", edp_error)
         _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
     if history:
-        parcel = _binding.receive(handle, sizes, stat, message)
+        parcel = _binding.receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
         columns = ("time", "ground_acceleration", "rotation", "velocity", "side", "after_impact")
         rows = (*parcel.reals.reshape(4, -1), side.astype(np.int8), after == 1)

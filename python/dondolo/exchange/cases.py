@@ -134,7 +134,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
-    parcel = _binding.receive(*_core.read_case(as_path(path)))
+    parcel = _binding.receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]

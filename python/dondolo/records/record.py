@@ -82,7 +82,7 @@ class Record:
         steps = (processing,) if isinstance(processing, str) else tuple(processing)
         for text in steps:
             as_text("processing", text)
-        pga, stat, message = _core.check_record(values, step)
+        pga, stat, message = _core.records.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
         if not isinstance(metadata, Mapping):
