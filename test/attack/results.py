@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import resource
 import sys
 import warnings
@@ -48,6 +49,16 @@ def unsound(value: Any) -> str:
     return ""
 
 
+def digest(stored: dd.StoredResults) -> str:
+    """A digest of all that makes one study another: walls, settings, and what came of the histories."""
+    parts = [(wall.name, wall.height, wall.thickness) for wall in stored.population.walls]
+    settings = [stored.run.setting("job", "title", ""), stored.run.settings.get("stripes", {})]
+    numbers = [one.tobytes() for one in (getattr(stored.response, "rotation", None), getattr(stored.stripes, "edp", None)) if one is not None]
+    if stored.typology is not None:
+        numbers += [stored.typology.collapses.tobytes(), stored.typology.levels.tobytes()]
+    return hashlib.sha256(repr((parts, settings, numbers)).encode()).hexdigest()[:16]
+
+
 def answer(family: str, path: str) -> str:
     """Read a file and say what came of it."""
     try:
@@ -55,10 +66,14 @@ def answer(family: str, path: str) -> str:
             results = [dd.load(path)]
         elif family == "hazard":
             results = [dd.HazardCurve.from_csv(path)]
+        elif family == "set":
+            return f"read {digest(dd.read_results(path))}"
         else:
             stored = dd.read_results(path)
             results = [stored, stored.population, stored.response, stored.stripes, stored.fragility, stored.typology]
         wrong = [text for one in results if one is not None and (text := unsound(one))]
+    except dd.MissingFileError:
+        return "read none"
     except dd.DondoloError as error:
         return f"refused {str(error).replace(chr(10), '|')}"
     except Exception as error:
