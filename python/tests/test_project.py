@@ -1,6 +1,7 @@
 """What holds the project together: lists and versions in step, the boundary's kinds, costs of import and call."""
 
 import ast
+import dataclasses
 import doctest
 import functools
 import importlib
@@ -218,6 +219,7 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_rows", "run_scaled", "fit_curves", "probability",
+        "in_series",
     }  # fmt: skip
 
 
@@ -296,6 +298,33 @@ def test_options_are_keywords():
     assert len(by_place) > 100
     assert {"Record", "OneSidedWall", "Record.band_pass", "typology", "pulses.ricker"} <= set(by_place)
     assert {name: count for name, count in by_place.items() if count > 3} == {}
+
+
+# What may be left out and still goes by its place: the one thing that a call is about
+BY_PLACE = {"ax", "edp_threshold", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table", "weights"}
+
+
+def test_what_may_be_left_out_goes_by_name():
+    found = {
+        f"{name}: {what}"
+        for name, thing in public_callables()
+        for what, one in inspect.signature(thing).parameters.items()
+        if one.default is not one.empty and one.kind is not one.KEYWORD_ONLY and what not in BY_PLACE
+    }
+    assert found == set()
+
+
+def test_results_are_made_by_the_names_of_their_fields():
+    """What users make has a few values by place, what analyses make none."""
+    made_by_users = {
+        "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
+        "Population", "Record", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+    }  # fmt: skip
+    kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
+    assert made_by_users < set(kinds)
+    assert len(kinds) > 30
+    for name in set(kinds) - made_by_users:
+        assert all(field.kw_only for field in dataclasses.fields(kinds[name])), name
 
 
 def test_no_name_hides_a_module():
@@ -392,3 +421,14 @@ def test_linters(command, root):
         pytest.skip(f"{tool.name} is not installed")
     run = subprocess.run([tool, *options], cwd=root, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_limits_are_documented(root):
+    """docs/files.md lists every limit with its value."""
+    source = (root / "src/dondolo/base/text/limits.f90").read_text()
+    limits = {}
+    for line in re.findall(r"parameter, public :: (.*)", source):
+        for name, value in re.findall(r"(\w+) = ([^,]+)", line):
+            limits[name] = eval(value.replace("_int64", ""))
+    rows = re.findall(r"^\|.*`(\w+)` \| (\d+) \|$", (root / "docs/files.md").read_text(), flags=re.MULTILINE)
+    assert {name: int(value) for name, value in rows} == limits

@@ -40,7 +40,7 @@ def exact(kind, x, frequency):
 @pytest.mark.parametrize("pulse", [dd.pulses.one_sine, dd.pulses.one_cosine, dd.pulses.ricker])
 def test_chords_keep_their_bound(pulse, error):
     record = pulse(3.0, 0.7, error=error)
-    assert record.pga == 3.0
+    assert record.peak_acceleration == 3.0
     origin = 0.5 * record.duration if pulse is dd.pulses.ricker else 0.0
     time = np.linspace(0.0, record.duration, 20011)
     far = np.abs(np.interp(time, record.time, record.acceleration) - exact(pulse.__name__, time - origin, 0.7)).max()

@@ -41,7 +41,7 @@ def test_every_history_is_the_motion_it_stands_for(analysis, wall, few):
     records = 2 * list(few)
     for j in range(3):
         for i, record in enumerate(records):
-            assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.pga, rel=1e-15)
+            assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.peak_acceleration, rel=1e-15)
             scale = analysis.polarity[i] * analysis.scale[j, i]
             motion = dd.simulate(wall, record, scale, solver=dd.Solver(engine="lanes"), history=False)
             assert motion.edp == analysis.edp[j, i]
@@ -178,7 +178,7 @@ def test_values_in_other_units_warn(sine):
     sentences = [
         "wall 'strip': density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?",
         "wall 'strip': overburden = 15 N/m is less than 200 N/m: is it in kN/m?",
-        f"record 'strong': a PGA of {strong.pga / 9.81:.4g} g, more than 3 g: wrong units?",
+        f"record 'strong': a PGA of {strong.peak_acceleration / 9.81:.4g} g, more than 3 g: wrong units?",
     ]
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.multiple_stripe(strip, strong, [0.1], progress=False)

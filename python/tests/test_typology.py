@@ -245,7 +245,7 @@ def test_wrong_levels_and_shares(typology):
     for wrong in ("a", [0.5, "b"], 0.0, 1.5, np.nan):
         with pytest.raises(dd.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
             typology["all"].fractiles(0.5, wrong)
-    with pytest.raises(dd.InputError, match=r"edp = 1\.0000001: must be one of 1"):
+    with pytest.raises(dd.InputError, match=r"edp_threshold = 1\.0000001: must be one of 1"):
         typology.at(1.0000001)
 
 

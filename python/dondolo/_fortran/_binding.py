@@ -351,12 +351,13 @@ def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
 
 
 def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
-    """The same for many walls: values of each property for all of them; what is not there gets its default."""
+    """The same for many walls: values of each property for all of them; what is None or not there gets its default."""
     shape = (count, len(WALL_NUMBERS))
     numbers, given = np.zeros(shape), np.zeros(shape, dtype=np.int32)
     for i, what in enumerate(WALL_NUMBERS):
         if what in values:
-            numbers[:, i], given[:, i] = values[what], 1
+            given[:, i] = [value is not None for value in values[what]]
+            numbers[:, i] = [0.0 if value is None else value for value in values[what]]
     nothing = [None] * count
     texts = b"\n".join(
         b"" if text is None else as_text(what, text)
@@ -575,6 +576,12 @@ def curve_of_population(
         parcel = receive(*sent)
         found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
     return mean, fractiles, found
+
+
+def in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+    """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
+    whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
+    return whole
 
 
 def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:

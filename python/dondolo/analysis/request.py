@@ -151,7 +151,7 @@ class Request:
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
             _binding.check(stat, message)
-            works.append(Work(*map(int, counts)))
+            works.append(Work.of(counts))
 
         done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted

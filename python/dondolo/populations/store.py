@@ -93,7 +93,7 @@ class Store:
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
         flags = Flags(histories[complete], levels, states, len(request.records), packed)
-        return Contents(complete, exceedances, flags, Work(*map(int, counts)))
+        return Contents(complete, exceedances, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
         there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))
