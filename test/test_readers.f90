@@ -21,7 +21,8 @@ program test_readers
    use dondolo_row_result, only : row_result_type
    use dondolo_store, only : look_into_store, store_type
    use dondolo_text, only : to_text
-   use small_files, only : list_contents, peer_content, sample_type, write_file
+   use small_files, only : asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
+      & peer_content, smtk_content, write_file
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_readers'
@@ -57,23 +58,34 @@ contains
 
    !> Write a small accelerogram of every format to the folder that the second argument names
    subroutine write_samples()
-      type(sample_type), allocatable :: all(:)
+      character(len=*), parameter :: lf = new_line('a')
+
+      call write_sample('peer', peer_content('Valley, 1/2/1990, Hall, 67', ''))
+      call write_sample('dyna', dyna_content('STREAM: HNE'))
+      call write_sample('smtk', smtk_content())
+      call write_sample('knet', knet_content('N-S'))
+      call write_sample('cwa', cwa_content())
+      call write_sample('asa', asa_content('7'))
+      call write_sample('eqsig', eqsig_content('7'))
+      call write_sample('columns_1', columns_content('# remark: x'//lf//'t,a,b,c'//lf))
+      call write_sample('columns_2', '0 1'//lf//'.01 2'//lf//'.02 -1.5'//lf)
+      call write_sample('cosmos_1', cosmos(cosmos_type()))
+      call write_sample('cosmos_2', cosmos(cosmos_type())//with_crlf(cosmos(cosmos_type(format='(1E15.6)'))))
+      call write_sample('csmip_1', csmip('90 DEG', '13', '.02 SEC. (UNITS: CM/SEC/SEC)', '(8F10.3)', 10.0_wp))
+      call write_sample('csmip_2', csmip('UP', '13', '.02 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp))
+      call write_sample('geonet', geonet('S16W', 13, 10.0_wp)//with_crlf(geonet('Up', 12, 10.0_wp)))
+      call write_sample('smc_1', smc('2 CORRECTED ACCELEROGRAM', 13, 2))
+      call write_sample('smc_2', smc('2 CORRECTED ACCELEROGRAM', 13, 0, 7))
+   end subroutine write_samples
+
+   !> Write a sample to the folder that the second argument names
+   subroutine write_sample(name, content)
+      character(len=*), intent(in) :: name, content
       character(len=4000) :: folder
-      integer :: i
 
       call get_command_argument(2, folder)
-      call list_contents(all)
-      do i = 1, size(all)
-         call write_file(trim(folder)//'/'//all(i)%format//'_'//to_text(i), all(i)%content)
-      end do
-      call write_file(trim(folder)//'/cosmos_1', cosmos(cosmos_type()))
-      call write_file(trim(folder)//'/cosmos_2', cosmos(cosmos_type())//with_crlf(cosmos(cosmos_type(format='(1E15.6)'))))
-      call write_file(trim(folder)//'/csmip_1', csmip('90 DEG', '13', '.02 SEC. (UNITS: CM/SEC/SEC)', '(8F10.3)', 10.0_wp))
-      call write_file(trim(folder)//'/csmip_2', csmip('UP', '13', '.02 sec, in cm/sec2. (5f11.6)', '(5f11.6)', 0.1_wp))
-      call write_file(trim(folder)//'/geonet_1', geonet('S16W', 13, 10.0_wp)//with_crlf(geonet('Up', 12, 10.0_wp)))
-      call write_file(trim(folder)//'/smc_1', smc('2 CORRECTED ACCELEROGRAM', 13, 2))
-      call write_file(trim(folder)//'/smc_2', smc('2 CORRECTED ACCELEROGRAM', 13, 0, 7))
-   end subroutine write_samples
+      call write_file(trim(folder)//'/'//name, content)
+   end subroutine write_sample
 
    !> The answers to files that are right, wrong and missing
    subroutine test_answers()

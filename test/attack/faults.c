@@ -96,7 +96,7 @@ static int note(int descriptor)
    return descriptor;
 }
 
-static int open_as(const char *name, const char *path, int flags, mode_t mode)
+static int open_as(const char *path, int flags, mode_t mode)
 {
    REAL(int, "open", const char *, int, ...);
    int is_hit, made;
@@ -104,7 +104,6 @@ static int open_as(const char *name, const char *path, int flags, mode_t mode)
    if (!below(path))
       return real(path, flags, mode);
    is_hit = hit("open", path);
-   (void)name;
    if (fails(is_hit))
       return -1;
    made = note(real(path, flags, mode));
@@ -120,7 +119,7 @@ static int open_as(const char *name, const char *path, int flags, mode_t mode)
       va_start(rest, flags); \
       mode = (flags & O_CREAT) ? va_arg(rest, mode_t) : 0; \
       va_end(rest); \
-      return open_as(#name, path, flags, mode); \
+      return open_as(path, flags, mode); \
    }
 OPEN(open)
 OPEN(open64)
@@ -265,7 +264,12 @@ extern void *__libc_realloc(void *, size_t);
 
 static int too_large(size_t bytes)
 {
-   return large > 0 && is_ready && bytes >= (size_t)large && hit("malloc", "") && how != -2;
+   char number[24];
+
+   if (large == 0 || !is_ready || bytes < (size_t)large)
+      return 0;
+   snprintf(number, sizeof number, "%zu", bytes);
+   return hit("malloc", number);
 }
 
 void *malloc(size_t bytes)

@@ -16,12 +16,12 @@ from pathlib import Path
 
 from readers import Tally
 from runs import Ended, Judge, Study, changed
-from samples import Programs, case, write_inputs
+from samples import Programs, write_inputs
 
 ERRORS = (errno.ENOSPC, errno.EIO, errno.EDQUOT)
 SHORT, KILL, KILL_AFTER = 0, -1, -2
-# Allocations that are as large as the input, not as a sentence [bytes]
-LARGE = 32768
+# Allocations that fail; from the second size on they are of the input's size, and the run says what it lacks [bytes]
+SMALL, LARGE = 32768, 2**20
 
 
 def build(folder: Path) -> Path:
@@ -70,8 +70,8 @@ class Faults:
         yield self.executable("stripes", step)
         yield self.python("typology", step)
         yield self.python("save", step)
-        yield self.executable("typology", step, LARGE)
-        yield self.executable("stripes", step, LARGE)
+        yield self.executable("typology", step, SMALL)
+        yield self.executable("stripes", step, SMALL)
         self.judge.end()
 
     def executable(self, task: str, step: int, large: int = 0) -> Tally:
@@ -138,7 +138,9 @@ class Faults:
                 label = f"{tally.family}: call {number} ({calls[number - 1].split(' ', 1)[1]}) {name_of(how)}"
                 ended = run(self.environment(number, how, large))
                 found = self.judge.digest(prefix)
-                wrong = ended.unclear()
+                # What gfortran says of a small allocation is its own.
+                waived = large and ended.code != 0 and int(calls[number - 1].split()[2]) < LARGE
+                wrong = "" if waived else ended.unclear()
                 if not wrong and found not in (old_digest, new_digest):
                     wrong = f"code {ended.code}, and then: {found}"
                 if not wrong and ended.code == 0 and found != new_digest:

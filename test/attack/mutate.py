@@ -153,7 +153,7 @@ class Damage:
         """A line that is very long."""
         i = self.chance.randrange(len(lines))
         more = self.chance.choice((",", " ", "x", '"', "1,", "(", "\t", "'"))
-        lines[i] += more * self.chance.choice((100, 5000, 5000, 5000, 300_000, 1_100_000))
+        lines[i] += more * self.chance.choice((100, *[5000] * 8, 1_100_000))
         return lines
 
     _LINES: tuple[Callable[[Damage, list[str]], list[str]], ...] = (

@@ -30,7 +30,7 @@ SANITIZERS = {
     "UBSAN_OPTIONS": "print_stacktrace=1",
     "OMP_NUM_THREADS": "1",
 }
-FORTRAN = ("case", "walls", "catalogue", "numbers", "store")
+FORTRAN = ("case", "walls", "catalogue", "numbers", "records", "store")
 PYTHON = ("results", "archive", "hazard")
 EXECUTABLE = ("study", "merge")
 
@@ -176,7 +176,6 @@ class Attack:
         self.results = result_sets(programs, folder / "results")
         self.samples["archive"] = self.archives()
         self.samples["hazard"] = self.samples["numbers"]
-        self.formats = sorted(set(self.samples) - {*FORTRAN, *PYTHON})
 
     def archives(self) -> list[bytes]:
         """Results that Python saves."""
@@ -185,9 +184,10 @@ class Attack:
         subprocess.run([self.programs.python, Path(__file__).with_name("results.py"), "samples", out], check=True)
         return [path.read_bytes() for path in sorted(out.iterdir())]
 
-    def families(self) -> list[str]:
-        """Names of all families."""
-        return [*FORTRAN, *self.formats, *PYTHON, *EXECUTABLE]
+    def shares(self, cases: int) -> Iterator[tuple[str, int]]:
+        """How many cases each family gets: a whole run of the executable costs as much as many readings."""
+        for family in (*FORTRAN, *PYTHON, *EXECUTABLE):
+            yield family, max(1, cases // 10) if family in EXECUTABLE else cases
 
     def damaged(self, family: str, number: int) -> tuple[random.Random, bytes]:
         """Contents of a case: always the same for its family and number."""
@@ -196,8 +196,8 @@ class Attack:
         damage = Damage(chance, samples)
         kinds = {"store": damage.store, "archive": damage.archive}
         content = chance.choice(samples)
-        if len(content) > 20_000 and chance.random() < 0.9:
-            content = min(samples, key=len)
+        if len(content) > 20_000 and chance.random() < 0.95:
+            content = chance.choice([one for one in samples if len(one) <= 20_000])
         return chance, kinds.get(family, damage.text)(content)
 
     def prepare(self, family: str, number: int) -> tuple[str, Path]:
@@ -207,7 +207,7 @@ class Attack:
         suffix = {"archive": ".npz", "case": ".nml"}.get(family, "")
         path = self.inputs / f"attacked{suffix}"
         path.write_bytes(self.damaged(family, number)[1])
-        return family if family in (*FORTRAN, *PYTHON) else "records", path
+        return family, path
 
     def damaged_results(self, number: int) -> Path:
         """A set of result files one of which is damaged, or that of another run."""
@@ -220,6 +220,8 @@ class Attack:
         files[name] = kind(files[name])
         folder = self.folder / "attacked"
         folder.mkdir(exist_ok=True)
+        for old in folder.iterdir():
+            old.unlink()
         for suffix, content in files.items():
             (folder / f"study{suffix}").write_bytes(content)
         return folder / "study"
@@ -311,9 +313,3 @@ def not_numbers(files: list[Path]) -> list[str]:
     """Cells of result files that are NaN or infinite."""
     bad = re.compile(rb"(?i)(?:^|[,\s:\[])[-+]?(?:nan|inf(?:inity)?)(?=[,\s\]}]|$)", re.M)
     return [f"{path.name}: {bad.search(content)!r}" for path in files if bad.search(content := path.read_bytes())]
-
-
-def shares(cases: int, attack: Attack) -> Iterator[tuple[str, int]]:
-    """How many cases each family gets: a whole run of the executable costs as much as many readings."""
-    for family in attack.families():
-        yield family, max(1, cases // 10) if family in EXECUTABLE else cases

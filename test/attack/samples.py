@@ -105,21 +105,11 @@ def readers_samples(programs: Programs, folder: Path) -> dict[str, list[bytes]]:
     made["store"] = [checkpoint(programs, folder, more) for more in ("", "   histories = .true.\n")]
     (folder / "samples").mkdir(exist_ok=True)
     subprocess.run([programs.readers, "samples", folder / "samples"], check=True)
-    for path in sorted((folder / "samples").iterdir()):
-        made.setdefault(path.name.partition("_")[0], []).append(path.read_bytes())
-    add_recorded(made)
-    return made
-
-
-def add_recorded(made: dict[str, list[bytes]]) -> None:
-    """Recorded accelerograms of the folder DONDOLO_RECORDS, where there is one: to the format that its file is in."""
+    # Recorded accelerograms too, where there are any
     recorded = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "formats"
-    formats = {"asa": "asa_", "dyna": "dyna", "smtk": "smtk", "peer": "peer", "columns": "column"}
-    for folder in sorted(recorded.glob("*")):
-        names = [one for one in made if one in folder.name or formats.get(one, "?") in folder.name]
-        for path in sorted(folder.iterdir()):
-            if names and path.is_file() and path.stat().st_size <= LONGEST:
-                made[names[0]].append(path.read_bytes())
+    paths = [path for path in (*(folder / "samples").iterdir(), *recorded.glob("*/*")) if path.stat().st_size <= LONGEST]
+    made["records"] = [path.read_bytes() for path in sorted(paths)]
+    return made
 
 
 def checkpoint(programs: Programs, folder: Path, more: str) -> bytes:
