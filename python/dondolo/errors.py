@@ -8,8 +8,21 @@ from contextlib import contextmanager
 from typing import Any
 
 
+# Longest line of a message [characters]; the middle of a longer one is left out
+_LONGEST = 2000
+
+
 class DondoloError(Exception):
-    """The work failed."""
+    """The work failed.
+
+    Messages quote files; control characters and marks of direction in them are escaped, and the middle of a long line is
+    left out.
+    """
+
+    def __str__(self) -> str:
+        lines = super().__str__().split("\n")
+        shown = (line if len(line) <= _LONGEST else f"{line[:1500]} ... {line[-400:]}" for line in lines)
+        return "\n".join("".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line) for line in shown)
 
 
 class InputError(DondoloError, ValueError):
@@ -28,7 +41,7 @@ class DondoloWarning(UserWarning):
     sentence : str
         What `str` gives.
     code : str
-        What it is, such as ``scale_factors_large``; docs/files.md lists the codes. Empty if it has none.
+        What it is, such as ``scale_factors_large``; docs/files.md lists the codes.
     subject : mapping
         What it is about: kind -> name, such as ``{"record": "tolmezzo"}``.
     numbers : mapping
@@ -38,7 +51,7 @@ class DondoloWarning(UserWarning):
     def __init__(
         self,
         sentence: str,
-        code: str = "",
+        code: str,
         subject: Mapping[str, str] | None = None,
         numbers: Mapping[str, float] | None = None,
     ) -> None:
