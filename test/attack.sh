@@ -25,13 +25,33 @@ fi
 # program WORD...: build a program and print its path
 program() {
    local said
-   said=$("$venv/bin/fpm" "$@" --profile debug --flag "$flags" --runner echo 2>"$log") || { cat "$log" >&2; return 1; }
+   said=$("$venv/bin/fpm" "$@" --profile debug --flag "$flags" --runner echo 2>"$work/log") || { cat "$work/log" >&2; return 1; }
    awk 'END { print $1 }' <<<"$said"
 }
-log=$(mktemp)
-trap 'rm -f "$log"' EXIT
-# In this order: fpm leaves modules out of the library that the executable does not use, and does not notice later.
-readers=$(program test test_readers)
-checked=$exe
-[ $# -eq 1 ] || checked=$(program run dondolo)
+
+# link_readers EXECUTABLE: build test/test_readers.f90 with the library of an executable that fpm has built last, and print its
+# path. fpm itself would compile every test, and leaves out of the library what the executable does not use. Sanitizers paint
+# the reserve that dondolo_memory tries for each file, 96 MB, again and again: here it is 64 kB.
+link_readers() {
+   local library modules
+   library=$(find build -name libdondolo.a -exec grep -q __asan_init {} \; -printf '%T@ %p\n' | sort -n | awk 'END { print $2 }')
+   modules=$(find build -name 'src_dondolo*_text_text.f90.o' -exec grep -q __asan_init {} \; -printf '%T@ %h/..\n' |
+      sort -n | awk 'END { print $2 }')
+   sed 's/small_things = 2_int64\*\*26, stack = 2_int64\*\*24/small_things = 2_int64**16, stack = 0_int64/' \
+      src/dondolo/base/system/memory.f90 >"$work/memory.f90"
+   # shellcheck disable=SC2086
+   gfortran $flags -g -fopenmp -J "$work" -I "$modules" -o "$work/readers" "$work/memory.f90" \
+      src/dondolo/base/system/number_table.f90 test/{checks,small_files,archive_files,test_readers}.f90 "$library" -llapack -lblas
+   echo "$work/readers"
+}
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+if [ $# -eq 1 ]; then
+   checked=$exe
+   readers=$(program test test_readers)
+else
+   checked=$(program run dondolo)
+   readers=$(link_readers)
+fi
 "$venv/bin/python" test/attack/attack.py --programs "$exe" "$checked" "$readers" --cases "$cases" "${@:3}"

@@ -29,8 +29,12 @@ KEPT = ROOT / "build/attack"
 def main() -> int:
     """Attack, print the table, say how it went."""
     parser = argparse.ArgumentParser(description="attack dondolo")
-    parser.add_argument("--programs", nargs=3, type=Path, required=True, help="the executable; it and the readers with sanitizers")
-    parser.add_argument("--cases", type=int, default=1000, help="damaged files of each family; all else is in proportion")
+    parser.add_argument(
+        "--programs", nargs=3, type=Path, required=True, help="the executable; it and the readers with sanitizers"
+    )
+    parser.add_argument(
+        "--cases", type=int, default=1000, help="damaged files of each family; all else is in proportion"
+    )
     parser.add_argument("--only", nargs="*", help="families, or files, faults, kills, workers")
     parser.add_argument("--case", metavar="FAMILY:NUMBER", help="a damaged file, as a failure names it")
     given = parser.parse_args()
@@ -85,7 +89,10 @@ def report(tallies: list[Tally]) -> int:
     """Print the table and the failures; 1 if there are any."""
     print(f"{'family':<26}{'cases':>9}{'accepted':>10}{'refused':>9}{'failures':>10}")
     for one in tallies:
-        print(f"{one.family:<26}{one.cases:>9}{one.read:>10}{one.refused:>9}{len(one.failures):>10}  {one.skipped}".rstrip())
+        print(
+            f"{one.family:<26}{one.cases:>9}{one.read:>10}{one.refused:>9}{len(one.failures):>10}",
+            f" {one.skipped}" if one.skipped else "",
+        )
     for one in tallies:
         for failure in one.failures[:20]:
             print(f"FAILED  {failure}")

@@ -50,7 +50,12 @@ class Faults:
 
     def environment(self, at: int, how: int, large: int = 0) -> dict[str, str]:
         """What makes the call `at` fail."""
-        given = {"LD_PRELOAD": str(self.library), "ATTACK_FOLDER": str(self.folder), "ATTACK_AT": str(at), "ATTACK_HOW": str(how)}
+        given = {
+            "LD_PRELOAD": str(self.library),
+            "ATTACK_FOLDER": str(self.folder),
+            "ATTACK_AT": str(at),
+            "ATTACK_HOW": str(how),
+        }
         if at == 0:
             given["ATTACK_LOG"] = str(self.folder / "log")
         return given | ({"ATTACK_LARGE": str(large)} if large else {})
@@ -92,7 +97,11 @@ class Faults:
 
         def run(faults: dict[str, str]) -> Ended:
             done = subprocess.run(
-                [self.programs.python, script, what, str(self.folder)], env=os.environ | faults, capture_output=True, text=True, check=False
+                [self.programs.python, script, what, str(self.folder)],
+                env=os.environ | faults,
+                capture_output=True,
+                text=True,
+                check=False,
             )
             return Ended(done.returncode, done.stderr.splitlines())
 
@@ -131,7 +140,9 @@ class Faults:
         for number in range(1, len(calls) + 1, step):
             kinds = (errno.ENOMEM,) if large else (ERRORS[number % 3], SHORT, KILL, KILL_AFTER)
             for how in kinds:
-                if how == SHORT and not any(f" {name} " in calls[number - 1] for name in ("fwrite", "write", "pwrite", "read")):
+                if how == SHORT and not any(
+                    f" {name} " in calls[number - 1] for name in ("fwrite", "write", "pwrite", "read")
+                ):
                     continue
                 old.clean()
                 shutil.copytree(kept, old.out)
@@ -150,7 +161,11 @@ class Faults:
                         wrong = wrong or f"{path.name}: {said}"
                 again = run({})
                 if not wrong and (again.code != 0 or (differ := changed(contents(), expected))):
-                    wrong = f"the next run: code {again.code} {again.said[-1:]}" if again.code else f"the next run differs: {differ}"
+                    wrong = (
+                        f"the next run: code {again.code} {again.said[-1:]}"
+                        if again.code
+                        else f"the next run differs: {differ}"
+                    )
                 tally.cases += 1
                 if wrong:
                     tally.failures.append(f"{label}: {wrong}")

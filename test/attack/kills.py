@@ -89,7 +89,9 @@ class Kills:
                 ended = end(start())
                 differ = changed(new.contents(), expected)
                 if ended.code != 0 or differ:
-                    tally.failures.append(f"{label}: goes on with code {ended.code} {ended.said[-1:]}; differs: {differ}")
+                    tally.failures.append(
+                        f"{label}: goes on with code {ended.code} {ended.said[-1:]}; differs: {differ}"
+                    )
         return tally
 
     def together(self, trials: int) -> Tally:
@@ -188,7 +190,14 @@ class Kills:
         return tally
 
     def after_full(
-        self, tally: Tally, label: str, ended: Ended, new: Study, digests: tuple[str, str], expected: dict[str, bytes], found: str = ""
+        self,
+        tally: Tally,
+        label: str,
+        ended: Ended,
+        new: Study,
+        digests: tuple[str, str],
+        expected: dict[str, bytes],
+        found: str = "",
     ) -> None:
         """The old results or the new ones; then the next run has room."""
         found = found or self.judge.digest(self.prefix)

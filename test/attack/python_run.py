@@ -2,7 +2,7 @@
 
     python python_run.py typology|save|pool|dask|mpi FOLDER
 
-It reads FOLDER/new and writes FOLDER/out/study. Except for ``save``, which saves another result too, it has a checkpoint.
+It reads FOLDER/new and writes FOLDER/out/study. It has a checkpoint, except for ``save``, which saves another result.
 """
 
 from __future__ import annotations
@@ -26,7 +26,10 @@ def executor(what: str) -> Iterator[Executor | None]:
     elif what == "dask":
         from distributed import Client, LocalCluster
 
-        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+        with (
+            LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+            Client(cluster) as client,
+        ):
             yield client.get_executor()
     elif what == "mpi":
         from mpi4py.futures import MPIPoolExecutor

@@ -6,6 +6,7 @@ names it. It must not crash, hang, leak, take much memory, or take what cannot b
 
 from __future__ import annotations
 
+import json
 import os
 import random
 import re
@@ -13,12 +14,13 @@ import select
 import signal
 import subprocess
 import time
+import zlib
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mutate import Damage
+from mutate_data import Damage
 from samples import TASKS, Programs, case, readers_samples, result_sets, write_inputs
 
 # CPU time that one small file may take [s], and memory of a process that reads many of them [kB]
@@ -72,7 +74,12 @@ class Reader:
         if self.process is None:
             self.stderr = (self.folder / "stderr").open("w+b")
             self.process = subprocess.Popen(
-                self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.stderr, cwd=self.folder, env=self.environment
+                self.command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self.stderr,
+                cwd=self.folder,
+                env=self.environment,
             )
             self.rest = b""
         return self.process
@@ -108,7 +115,15 @@ class Reader:
         self.process = None
         self.stderr.seek(0)
         lines = self.stderr.read().decode(errors="replace").splitlines()
-        marks = ("ERROR: ", "runtime error", "Fortran runtime", "Error allocating", "Error termination", "Traceback", "Error:")
+        marks = (
+            "ERROR: ",
+            "runtime error",
+            "Fortran runtime",
+            "Error allocating",
+            "Error termination",
+            "Traceback",
+            "Error:",
+        )
         why = [line.strip() for line in lines if any(mark in line for mark in marks)] + lines[-1:]
         place = [line.strip() for line in lines if re.search(r"in __dondolo\S+ |#\d+ .*dondolo_", line)][:2]
         return f"ENDS with code {code}: {' / '.join(why[:1] + place)}"
@@ -138,6 +153,18 @@ class Reader:
         return "" if self.process.wait() == 0 else self.died()
 
 
+def agreeing(files: dict[str, bytes]) -> bytes:
+    """The file of a run with the lengths and check sums of its tables made right, so that their contents are read."""
+    run = json.loads(files["_run.json"])
+    for one in run.get("files", []):
+        content = files[one["name"]]
+        body = (
+            content.split(b"\n", 2)[2:] if content.split(b"\n", 2)[1:2] and b"\n# run: " in content[:200] else [content]
+        )
+        one |= {"bytes": len(content), "crc32": f"{zlib.crc32(b''.join(body)):08x}"}
+    return json.dumps(run).encode()
+
+
 def judged(said: bytes, path: Path) -> str:
     """An answer, and what is wrong with its sentence if anything is."""
     try:
@@ -148,7 +175,9 @@ def judged(said: bytes, path: Path) -> str:
         lines = text.removeprefix("refused ").split("|")
         if not lines[0].strip():
             return "UNCLEAR: no sentence"
-        if any(ord(c) < 32 or 127 <= ord(c) < 160 or c in "\u2028\u2029\u202a\u202b\u202d\u202e\u2066\u2067" for c in text):
+        if any(
+            ord(c) < 32 or 127 <= ord(c) < 160 or c in "\u2028\u2029\u202a\u202b\u202d\u202e\u2066\u2067" for c in text
+        ):
             return f"UNCLEAR: control characters: {text[:300]!r}"
         if max(map(len, lines)) > LONGEST_MESSAGE:
             return f"UNCLEAR: {max(map(len, lines))} characters: {text[:100]}"
@@ -218,6 +247,8 @@ class Attack:
         name = chance.choice(("_run.json", "_walls.csv", chance.choice(sorted(files))))
         kind = damage.json if name.endswith(".json") else damage.text
         files[name] = kind(files[name])
+        if name != "_run.json" and chance.random() < 0.7:
+            files["_run.json"] = agreeing(files)
         folder = self.folder / "attacked"
         folder.mkdir(exist_ok=True)
         for old in folder.iterdir():

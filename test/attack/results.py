@@ -1,6 +1,6 @@
 """Readers of the Python package, many files in one process: answers lines `FAMILY PATH` of standard input.
 
-    python results.py attack | samples FOLDER
+python results.py attack | samples FOLDER
 """
 
 from __future__ import annotations
@@ -25,7 +25,9 @@ def samples(folder: Path) -> None:
     """Save results of many kinds."""
     wall = dd.TwoBlockWall(3.0, 0.3, name="a")
     t = 0.01 * np.arange(400)
-    records = [dd.Record((1.0 + i) * np.sin((4.0 + i) * t) * np.exp(-((t - 2.0) ** 2)), 0.01, name=f"r{i}") for i in range(4)]
+    records = [
+        dd.Record((1.0 + i) * np.sin((4.0 + i) * t) * np.exp(-((t - 2.0) ** 2)), 0.01, name=f"r{i}") for i in range(4)
+    ]
     levels = [0.1, 0.3, 0.5, 0.8]
     stripes = dd.multiple_stripe(wall, records, levels=levels, progress=False)
     curve = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10])
@@ -44,7 +46,11 @@ def unsound(value: Any) -> str:
             inner = getattr(value, field.name)
             if isinstance(inner, np.ndarray) and inner.dtype.hasobject:
                 return f"{field.name}: objects"
-            if isinstance(inner, np.ndarray) and field.name in ("edp", "levels", "acceleration") and not np.isfinite(inner).all():
+            if (
+                isinstance(inner, np.ndarray)
+                and field.name in ("edp", "levels", "acceleration")
+                and not np.isfinite(inner).all()
+            ):
                 return f"{field.name}: not finite"
     return ""
 
@@ -53,7 +59,11 @@ def digest(stored: dd.StoredResults) -> str:
     """A digest of all that makes one study another: walls, settings, and what came of the histories."""
     parts = [(wall.name, wall.height, wall.thickness) for wall in stored.population.walls]
     settings = [stored.run.setting("job", "title", ""), stored.run.settings.get("stripes", {})]
-    numbers = [one.tobytes() for one in (getattr(stored.response, "rotation", None), getattr(stored.stripes, "edp", None)) if one is not None]
+    numbers = [
+        one.tobytes()
+        for one in (getattr(stored.response, "rotation", None), getattr(stored.stripes, "edp", None))
+        if one is not None
+    ]
     if stored.typology is not None:
         numbers += [stored.typology.collapses.tobytes(), stored.typology.levels.tobytes()]
     return hashlib.sha256(repr((parts, settings, numbers)).encode()).hexdigest()[:16]

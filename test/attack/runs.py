@@ -33,7 +33,11 @@ class Ended:
             return f"code 0, but: {told[0]}"
         if self.code in (1, 2) and not told:
             return f"code {self.code} without a sentence"
-        return "" if self.code in (0, 1, 2, -signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT) else f"code {self.code}: {told}"
+        return (
+            ""
+            if self.code in (0, 1, 2, -signal.SIGKILL, -signal.SIGTERM, -signal.SIGINT)
+            else f"code {self.code}: {told}"
+        )
 
 
 class Study:
@@ -51,7 +55,14 @@ class Study:
     """
 
     def __init__(
-        self, programs: Programs, folder: Path, task: str, walls: int = 4, samples: int = 300, threads: int = 1, more: str = ""
+        self,
+        programs: Programs,
+        folder: Path,
+        task: str,
+        walls: int = 4,
+        samples: int = 300,
+        threads: int = 1,
+        more: str = "",
     ) -> None:
         self.programs, self.folder, self.task = programs, folder, task
         self.out = folder.parent / "out"
@@ -67,7 +78,12 @@ class Study:
     def run(self, environment: dict[str, str] | None = None, *arguments: str | Path) -> Ended:
         """Run it to its end."""
         done = subprocess.run(
-            self.command(*arguments), capture_output=True, text=True, env=os.environ | (environment or {}), timeout=120, check=False
+            self.command(*arguments),
+            capture_output=True,
+            text=True,
+            env=os.environ | (environment or {}),
+            timeout=120,
+            check=False,
         )
         return Ended(done.returncode, done.stderr.splitlines())
 

@@ -34,7 +34,9 @@ class Programs:
 
 def write_record(path: Path, strength: float, samples: int = 300) -> None:
     """A burst of a sine of growing and falling strength."""
-    values = (strength * math.sin(0.09 * i) * math.exp(-(((i - samples / 2) / (samples / 5)) ** 2)) for i in range(samples))
+    values = (
+        strength * math.sin(0.09 * i) * math.exp(-(((i - samples / 2) / (samples / 5)) ** 2)) for i in range(samples)
+    )
     path.write_text("".join(f"{value:.6f}\n" for value in values))
 
 
@@ -63,7 +65,8 @@ def case(task: str, output: str = "out/study", more: str = "") -> str:
     levels = "" if task == "history" else "   levels = 0.1, 0.2, 0.3, 0.5, 0.8\n"
     states = "" if task == "history" else "   edp_thresholds = 0.1, 0.4\n"
     return (
-        f"! a case\n&job\n   task = '{task}'\n   title = 'It''s a study'\n   output = '{output}'\n   threads = 1\n{more}/\n"
+        f"! a case\n&job\n   task = '{task}'\n   title = 'It''s a study'\n   output = '{output}'\n"
+        f"   threads = 1\n{more}/\n"
         f"{people if task == 'typology' else wall}"
         f"&records\n   catalogue = 'records.csv'\n   polarity = '{'as_recorded' if task == 'history' else 'both'}'\n/\n"
         f"&stripes\n   im = 'pga'\n{levels}{states}/\n&solver\n   engine = 'auto'\n   rtol = 1e-6\n/\n{history}"
@@ -90,13 +93,17 @@ _NUMBERS = [
 
 
 def readers_samples(programs: Programs, folder: Path) -> dict[str, list[bytes]]:
-    """Valid files of each family that the sanitized readers are attacked with; writes the inputs of cases to `folder`."""
+    """Valid files of each family of Fortran readers; the inputs of cases are written to `folder`."""
     write_inputs(folder)
     made: dict[str, list[bytes]] = {}
     made["case"] = [case(task).encode() for task in TASKS]
     for task in TASKS:
-        template = subprocess.run([programs.executable, "--template", task], capture_output=True, text=True, check=True).stdout
-        template = template.replace("data/records/synthetic44.csv", "records.csv").replace("data/walls/population.csv", "walls.csv")
+        template = subprocess.run(
+            [programs.executable, "--template", task], capture_output=True, text=True, check=True
+        ).stdout
+        template = template.replace("data/records/synthetic44.csv", "records.csv").replace(
+            "data/walls/population.csv", "walls.csv"
+        )
         made["case"].append(template.encode())
     made["catalogue"] = [(folder / "records.csv").read_bytes(), *(text.encode() for text in _CATALOGUES)]
     made["walls"] = [(folder / "walls.csv").read_bytes(), *(text.encode() for text in _WALLS)]
@@ -107,7 +114,9 @@ def readers_samples(programs: Programs, folder: Path) -> dict[str, list[bytes]]:
     subprocess.run([programs.readers, "samples", folder / "samples"], check=True)
     # Recorded accelerograms too, where there are any
     recorded = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "formats"
-    paths = [path for path in (*(folder / "samples").iterdir(), *recorded.glob("*/*")) if path.stat().st_size <= LONGEST]
+    paths = [
+        path for path in (*(folder / "samples").iterdir(), *recorded.glob("*/*")) if path.stat().st_size <= LONGEST
+    ]
     made["records"] = [path.read_bytes() for path in sorted(paths)]
     return made
 

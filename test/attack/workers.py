@@ -65,7 +65,10 @@ class Workers:
             self.study.clean()
             self.study.out.mkdir()
             process = subprocess.Popen(
-                [*before, *self.command(what)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+                [*before, *self.command(what)],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
             )
             time.sleep(chance.uniform(0.4, 0.95) * length)
             if alive := workers_of(process.pid):
@@ -83,7 +86,9 @@ class Workers:
             tally.refused += code != 0
             if again.returncode != 0 or (differ := changed(self.study.contents(), expected)):
                 why = again.stderr.splitlines()[-1:] if again.returncode else differ
-                tally.failures.append(f"{what}:{number}: ended with code {code}, and goes on with {again.returncode}: {why}")
+                tally.failures.append(
+                    f"{what}:{number}: ended with code {code}, and goes on with {again.returncode}: {why}"
+                )
         return tally
 
     def undisturbed(self, command: list[str | Path]) -> tuple[dict[str, bytes], float]:
