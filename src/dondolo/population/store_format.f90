@@ -111,8 +111,7 @@ contains
 
       character(len=line_bytes) :: line
       character(len=:), allocatable :: head
-      character(len=10) :: words(5)
-      integer :: length, stat, keeps, bits, at, ends
+      integer :: length, stat, keeps, bits, at, ends, numbers(6)
 
       bytes = 0
       length = -1
@@ -127,11 +126,14 @@ contains
          read (unit, iostat=stat) head
          if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
             at = index(head, new_line('a'))
-            keeps = -1
-            bits = -1
-            read (head(:at - 1), *, iostat=stat) words(1), identity%first, identity%last, words(2), &
-               & identity%shape%levels, words(3), identity%shape%states, words(4), keeps, words(5), bits
-            if (stat == 0 .and. can_be() .and. head(length:) == new_line('a')) bytes = line_bytes + length
+            call find_numbers(head(:at - 1), numbers)
+            identity%first = numbers(1)
+            identity%last = numbers(2)
+            identity%shape%levels = numbers(3)
+            identity%shape%states = numbers(4)
+            keeps = numbers(5)
+            bits = numbers(6)
+            if (can_be() .and. head(length:) == new_line('a')) bytes = line_bytes + length
          end if
       end if
       if (bytes == 0) then
@@ -157,6 +159,28 @@ contains
       end function can_be
 
    end subroutine read_head
+
+   !> Find the numbers of a line among its words (a list-directed READ of a made-up line leaks memory)
+   pure subroutine find_numbers(line, numbers)
+      character(len=*), intent(in) :: line
+      !> Its numbers, in their order; -1: there are fewer
+      integer, intent(out) :: numbers(:)
+
+      character(len=*), parameter :: digits = '0123456789'
+      integer :: found, first, length
+
+      numbers = -1
+      first = 1
+      do found = 1, size(numbers)
+         length = scan(line(first:), digits) - 1
+         if (length < 0) return
+         first = first + length
+         length = verify(line(first:)//' ', digits) - 1
+         if (length > range(1)) return
+         read (line(first:first + length - 1), '(i9)') numbers(found)
+         first = first + length
+      end do
+   end subroutine find_numbers
 
    !> Bytes of a row in a file
    pure integer(int64) function bytes_of_entry(shape, histories) result(bytes)
