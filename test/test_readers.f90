@@ -105,6 +105,10 @@ contains
       call write_file(scratch//'/walls', 'mechanism,height,thickness'//new_line('a')//'one_sided,2,0.3')
       call answer('walls', scratch//'/walls', said)
       call check(said == 'read 1', said)
+      call write_file(scratch//'/far', 'mechanism,height,thickness'//new_line('a')//'one_sided,2,0.3'//repeat(' ', 1000000)// &
+         & char(233))
+      call answer('walls', scratch//'/far', said)
+      call check(index(said, 'byte 1000016 (E9) is not UTF-8') > 0, said)
       do i = 1, size(families)
          call answer(trim(families(i)), scratch//'/nothing', said)
          call check(index(said, 'refused ') == 1 .or. said == 'read 0', said)

@@ -147,7 +147,9 @@ def load(path: str | os.PathLike[str]) -> Any:
         raise InputError(f"{source}: is no result saved by dondolo")
     result, origin, arrays = _unpack(data, source)
     try:
-        return _decode(result, arrays)
+        loaded = _decode(result, arrays)
+        # Arrays of shapes that do not belong together are found here, not where the result is shown first.
+        repr(loaded)
     except (AttributeError, InputError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
 
