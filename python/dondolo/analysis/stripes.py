@@ -248,14 +248,19 @@ class Stripes(Shown, Saved):
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "histories") -> None:
-        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "histories", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
@@ -347,17 +352,12 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     """The stripes up to a level."""
     shape = (complete, len(plan.record))
     size = complete * len(plan.record)
-    flat: tuple[Any, ...] = outcome[:5]
-    edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=request.levels[:complete],
-        edp=edp,
-        collapsed=collapsed,
-        impacts=impacts,
-        time_of_peak=time_of_peak,
         scale=plan.scale[:complete],
         record_names=tuple(records[i].name for i in plan.record),
         polarity=plan.polarity,
@@ -366,7 +366,7 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
-        edp_error=error if estimated else None,
+        **{name: getattr(outcome, name)[:size].reshape(shape) for name in names},
     )
 
 
