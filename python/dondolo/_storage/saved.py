@@ -152,6 +152,7 @@ def load(path: str | os.PathLike[str]) -> Any:
         repr(loaded)
     except (AttributeError, InputError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
+    return loaded
 
 
 def _member(place: int) -> str:
