@@ -301,7 +301,11 @@ def test_options_are_keywords():
 
 
 # What may be left out and still goes by its place: the one thing that a call is about
-BY_PLACE = {"ax", "edp_threshold", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table", "weights"}
+# Height and thickness may be those of sections
+BY_PLACE = {
+    "ax", "edp_threshold", "height", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table",
+    "thickness", "weights",
+}  # fmt: skip
 
 
 def test_what_may_be_left_out_goes_by_name():
