@@ -263,6 +263,69 @@ subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, 
    call report(error, stat, message)
 end subroutine new_study
 
+! Choose the records of each level: n rows of record (from 1), level and factor, as those of a catalogue; 0: every level,
+! and a factor computed from the measure
+subroutine choose_records(study, record, level, factor, n, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : report
+   use dondolo_catalogue, only : record_rows_type
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_study
+   use dondolo_study, only : study_type
+   use dondolo_text, only : to_text
+   implicit none
+   integer(c_int64_t), intent(in) :: study
+   integer(c_int), intent(in) :: n, record(n)
+   real(c_double), intent(in) :: level(n), factor(n)
+   integer(c_int), intent(out) :: stat
+   character(len=2048), intent(out) :: message
+   type(study_type), pointer :: chosen
+   type(record_rows_type) :: rows
+   type(error_type), allocatable :: error
+   integer :: i
+
+   call find_study(study, chosen, error)
+   if (.not. allocated(error)) then
+      rows%have_levels = .true.
+      rows%record = record
+      rows%level = level
+      rows%factor = factor
+      do i = 1, n
+         call rows%place%add('row '//to_text(i))
+      end do
+      call chosen%set_rows(rows, error)
+   end if
+   call report(error, stat, message)
+end subroutine choose_records
+
+! Which of the n records run at each of the m levels of a study: 1 or 0
+subroutine runs_of_records(study, n, m, runs, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_study
+   use dondolo_study, only : study_type
+   implicit none
+   integer(c_int64_t), intent(in) :: study
+   integer(c_int), intent(in) :: n, m
+   integer(c_int), intent(out) :: runs(n, m), stat
+   character(len=2048), intent(out) :: message
+   type(study_type), pointer :: chosen
+   type(error_type), allocatable :: error
+   integer :: i, j
+
+   runs = 0
+   call find_study(study, chosen, error)
+   if (.not. allocated(error)) then
+      do j = 1, m
+         do i = 1, n
+            if (chosen%runs(i, j)) runs(i, j) = 1
+         end do
+      end do
+   end if
+   call report(error, stat, message)
+end subroutine runs_of_records
+
 ! Walls with their defaults filled in and their static quantities, as pack_walls has them
 subroutine describe_walls(texts, numbers, given, q, gravity, w, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
@@ -514,11 +577,12 @@ subroutine significant_times(suite, number, low, high, times, stat, message)
 end subroutine significant_times
 
 ! Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
-! where they are not given
+! where they are not given. Integers before those of pack_records: number of records, and of a catalogue with levels the
+! record of each row; reals before them: level and factor of each row, 0 where it has none
 subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_intptr_t
    use dondolo_boundary, only : check_parcel, pack_note, pack_records, parcel_type, report, send
-   use dondolo_catalogue, only : read_catalogue
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_error, only : error_type
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record, read_all => read_records
@@ -534,6 +598,7 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
    type(error_type), allocatable :: error
    character(len=:), allocatable :: note
    real(c_double), allocatable :: step
+   type(record_rows_type) :: rows
 
    handle = 0
    sizes = 0
@@ -544,12 +609,18 @@ subroutine read_records(path, what, dt_given, dt, units, channel, layout, handle
       allocate (records(1))
       call read_record(path, records(1), error, step, units, channel, layout)
    case (1)
-      call read_catalogue(path, records, error, note)
+      call read_catalogue(path, records, error, note, rows)
    case default
       call read_all(path, records, error, step, units, layout)
    end select
    if (.not. allocated(error)) call check_parcel(error, 0, records)
    if (.not. allocated(error)) then
+      parcel%integers = [size(records)]
+      parcel%reals = [real(c_double) ::]
+      if (rows%have_levels) then
+         parcel%integers = [size(records), rows%record]
+         parcel%reals = [rows%level, rows%factor]
+      end if
       call pack_records(records, parcel)
       call pack_note(note, parcel)
       call send(parcel, handle, sizes)
@@ -769,7 +840,8 @@ subroutine simulate(walls, suite, number, scale, engine, settings, history, &
    call report(error, stat, message)
 end subroutine simulate
 
-! Check what stripes of walls would be, without running them: histories of a stripe of each, and the parcel of the warnings
+! Check what stripes of walls would be, without running them: histories of all records in a stripe of each, and the parcel of
+! the warnings
 subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
    use, intrinsic :: iso_c_binding, only : c_int, c_int64_t, c_intptr_t
    use dondolo_boundary, only : pack_warnings, parcel_type, report, send
@@ -836,8 +908,9 @@ subroutine plan(study, walls, w, histories, handle, sizes, stat, message)
    call report(error, stat, message)
 end subroutine plan
 
-! Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels
-subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, message)
+! Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels; ran = 0 where one
+! does not run
+subroutine scales(study, walls, number, k, m, record, polarity, scale, ran, stat, message)
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : report
    use dondolo_error, only : error_type
@@ -848,7 +921,7 @@ subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, mes
    implicit none
    integer(c_int64_t), intent(in) :: study, walls
    integer(c_int), intent(in) :: number, k, m
-   integer(c_int), intent(out) :: record(k), polarity(k), stat
+   integer(c_int), intent(out) :: record(k), polarity(k), ran(k, m), stat
    real(c_double), intent(out) :: scale(k, m)
    character(len=2048), intent(out) :: message
    type(study_type), pointer :: chosen
@@ -859,6 +932,7 @@ subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, mes
    record = 0
    polarity = 0
    scale = 0
+   ran = 0
    call find_study(study, chosen, error)
    if (.not. allocated(error)) call find_walls(walls, people, error)
    if (.not. allocated(error)) call plan_stripes(stripes, people(number), chosen, error)
@@ -866,6 +940,7 @@ subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, mes
       record = stripes%record
       polarity = stripes%polarity
       scale = stripes%scale
+      ran = merge(1, 0, stripes%ran)
    end if
    call report(error, stat, message)
 end subroutine scales
@@ -910,7 +985,7 @@ subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impa
       range(1, :) = 1
       range(1, one) = first
       do i = one, last
-         range(2, i) = min(histories_of(chosen, people(i))*size(chosen%levels), range(1, i) + left - 1)
+         range(2, i) = min(histories_of(chosen, people(i)), range(1, i) + left - 1)
          left = left - (range(2, i) - range(1, i) + 1)
       end do
       ! As in run_rows: as many walls as go round evenly are shared out, all threads work on each of the others.
@@ -1099,7 +1174,7 @@ subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, r
    use dondolo_warnings, only : fit_warning_type
    implicit none
    character(len=*), intent(in) :: texts, names
-   integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
+   integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(m, r), rows(w)
    real(c_double), intent(in) :: levels(m), shares(2, r)
    integer(c_intptr_t), intent(out) :: handle
    integer(c_int), intent(out) :: sizes(3), stat
@@ -1165,7 +1240,7 @@ subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares
    use dondolo_roster, only : number_of_group
    implicit none
    character(len=*), intent(in) :: texts, mechanism, group
-   integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(r), rows(w), statuses(r)
+   integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), rows(w), statuses(r)
    real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
    real(c_double), intent(out) :: mean(n), fractiles(k, n)
    integer(c_intptr_t), intent(out) :: handle
@@ -1519,7 +1594,8 @@ subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, handle, s
    records(1)%name = record
    stripes%levels = [level]
    stripes%record = spread(1, 1, n)
-   allocate (stripes%response(n, 1))
+   allocate (stripes%response(n, 1), stripes%ran(n, 1))
+   stripes%ran = .true.
    stripes%response(:, 1)%edp = edp
    stripes%response(:, 1)%edp_error = edp_error
    if (len(record) == 0) then

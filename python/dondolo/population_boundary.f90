@@ -107,8 +107,8 @@ contains
       real(c_double), intent(in) :: levels(:)
       !> Histories that reach the state (levels, rows)
       integer(c_int), intent(in) :: collapses(:, :)
-      !> Histories of a stripe of each row
-      integer(c_int), intent(in) :: histories(:)
+      !> Histories of each stripe (levels, rows)
+      integer(c_int), intent(in) :: histories(:, :)
       !> Weight of the wall and probability that the mechanism can occur (2, rows)
       real(c_double), intent(in) :: shares(:, :)
       !> How many rows each wall has
@@ -121,7 +121,7 @@ contains
       integer :: i, first, group
 
       call split_lines(texts, words)
-      roster%count = size(histories)
+      roster%count = size(histories, 2)
       allocate (roster%row(roster%count))
       do i = 1, roster%count
          group = 0

@@ -149,7 +149,7 @@ class FlatPopulation(NamedTuple):
         Mechanism and group of each row, a line each.
     levels : ndarray, shape (levels,)
     counts : ndarray of int, shape (levels, rows)
-    histories : ndarray of int, shape (rows,)
+    histories : ndarray of int, shape (levels, rows)
     shares : ndarray, shape (2, rows)
         Weight of the wall and probability of occurrence.
     rows : ndarray of int, shape (walls,)
@@ -175,7 +175,7 @@ class GroupData(NamedTuple):
     beta_records: float
     fitted: float
     saturation: float
-    histories: float
+    histories: FloatArray
     mean_fraction: FloatArray
     mean_curve: FloatArray
     fractiles: FloatArray
@@ -442,17 +442,22 @@ def read_records(
     units: str | None = None,
     channel: str | None = None,
     layout: str | None = None,
-) -> list[RecordData]:
-    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2)."""
+) -> tuple[list[RecordData], tuple[NDArray[np.int32], FloatArray, FloatArray]]:
+    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2).
+
+    Of a catalogue with levels also the record (from 1), level and factor of each row, 0 where it has none; else empty.
+    """
     step = 0.0 if dt is None else as_number("dt", dt)
     texts = (
         b"" if text is None else as_text(name, text)
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
     parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
-    count = len(parcel.integers) // 2
-    warn(parcel.lines[records_end(parcel, count) :])
-    return unpack_records(parcel, count)
+    count = int(parcel.integers[0])
+    rows = len(parcel.integers) - 1 - 2 * count
+    warn(parcel.lines[records_end(parcel, count, 1 + rows) :])
+    level, factor = parcel.reals[: 2 * rows].reshape(2, rows)
+    return unpack_records(parcel, count, 2 * rows, 1 + rows), (parcel.integers[1 : 1 + rows], level, factor)
 
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
@@ -519,16 +524,16 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     Names are those of the wall of each row, one a line.
     """
     parcel = receive(*_core.fit_walls(population.texts, names, *population[1:]))
-    levels, histories, rows = population.levels, population.histories, population.rows
-    m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
+    levels, rows = population.levels, population.rows
+    m, r, w, number = len(levels), population.counts.shape[1], len(rows), int(parcel.integers[0])
     known = ("", *constants().statuses)
     status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
     walls = parcel.integers[1 + r + w + number :]
     numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
     together = []
-    for i, row in enumerate(groups.reshape(number, 6 + 5 * m + 8)):
-        mean_fraction, mean_curve, fractiles, curve = np.split(row[6:], np.cumsum([m, m, 3 * m]))
+    for i, row in enumerate(groups.reshape(number, 5 + 6 * m + 8)):
+        histories, mean_fraction, mean_curve, fractiles, curve = np.split(row[5:], np.cumsum([m, m, m, 3 * m]))
         together.append(
             GroupData(
                 parcel.lines[2 * i],
@@ -539,7 +544,7 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
                 float(row[2]),
                 float(row[3]),
                 float(row[4]),
-                float(row[5]),
+                histories,
                 mean_fraction,
                 mean_curve,
                 np.ascontiguousarray(fractiles.reshape(m, 3).T),

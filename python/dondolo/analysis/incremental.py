@@ -263,7 +263,7 @@ def incremental(stripes: Stripes) -> Incremental:
     Raises
     ------
     InputError
-        What is given is no stripes.
+        What is given is no stripes, or their levels have records of their own.
 
     Notes
     -----
@@ -271,6 +271,8 @@ def incremental(stripes: Stripes) -> Incremental:
     """
     if not isinstance(stripes, Stripes):
         raise InputError(f"stripes: {type(stripes).__name__} are no stripes")
+    if not stripes.ran.all():
+        raise InputError("stripes: have records of their own at each level: every record must run at every level")
     levels, collapsed = stripes.levels, stripes.collapsed
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])

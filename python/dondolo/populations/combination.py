@@ -42,7 +42,7 @@ def combine(
             raise Interrupted("interrupted: no wall of any weight is complete")
         people = people._chosen(chosen.tolist())
     counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
-    sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
+    sizes = np.ascontiguousarray(histories[:, chosen], dtype=np.int32)
     return combine_rows(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
 
 
@@ -64,21 +64,21 @@ def combine_rows(
     names = b"".join(as_text("name", wall.name) + b"\n" for wall in walls)
     data = _binding.fit_walls(names, flat_population(people, levels, counts, histories))
     own = tuple(
-        curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
-        for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)
+        curve_of(curve, levels, z, n, **origin, wall=wall)
+        for curve, z, n, wall in zip(data.rows, counts.astype(float), histories.T.astype(float), walls, strict=True)
     )
     combined = {}
     for i, fraction, curve, number in zip(first, data.fractions, data.walls, rows, strict=True):
         if number == 1 and people.p_occ[i] == 1.0:
             combined[walls[i].name] = own[i]
             continue
-        n = np.full(len(levels), float(histories[i : i + number].min()))
+        n = histories[:, i : i + number].min(axis=1).astype(np.float64)
         occurrence = float(in_series(people.p_occ[i : i + number], np.zeros(1, dtype=np.intp))[0])
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
         combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin, saturation=occurrence)
     together = []
     for group in data.groups:
-        n = np.full(len(levels), group.histories)
+        n = group.histories
         share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
         fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
