@@ -98,14 +98,14 @@ class Request:
         suite = upload_records(self.records)
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
-            _binding.check(*_core.measure_suite(suite.number, words[0], self.threads))
-        number, stat, message = _core.new_study(
+            _binding.check(*_core.records.measure_suite(suite.number, words[0], self.threads))
+        number, stat, message = _core.stripes.new_study(
             suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
         )
         _binding.check(stat, message)
         study = Handle(number, suite)
         if self.rows is not None:
-            _binding.check(*_core.choose_records(number, *self.rows))
+            _binding.check(*_core.stripes.choose_records(number, *self.rows))
         return study
 
     @functools.cached_property
@@ -127,7 +127,7 @@ class Request:
         """1 where a record runs at a level, else 0, shape (records, levels)."""
         if self.rows is None:
             return np.ones((len(self.records), len(self.levels)))
-        runs, stat, message = _core.runs_of_records(self._study.number, len(self.records), len(self.levels))
+        runs, stat, message = _core.stripes.runs_of_records(self._study.number, len(self.records), len(self.levels))
         _binding.check(stat, message)
         return np.asarray(runs, dtype=np.float64)
 
@@ -139,16 +139,18 @@ class Request:
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
-        histories, handle, sizes, stat, message = _core.plan(study, people, walls)
-        _binding.check(stat, message)
-        found = _binding.unpack_warnings(_binding.receive(handle, sizes, stat, message).lines) if handle else []
-        record, polarity, scale, ran, stat, message = _core.scales(study, people, walls, histories[-1], len(self.levels))
+        histories, *sent = _core.stripes.plan(study, people, walls)
+        found = _binding.unpack_warnings(_binding.receive(*sent).lines)
+        record, polarity, scale, ran, stat, message = _core.stripes.scales(
+            study, people, walls, histories[-1], len(self.levels)
+        )
         _binding.check(stat, message)
         return Plan(histories, record - 1, polarity, scale.T, ran.T == 1, found)
 
     def totals(self, histories: IntArray) -> NDArray[np.int64]:
         """Histories of each wall in all stripes."""
-        return np.rint(np.asarray(histories, dtype=np.float64) * self.share.sum()).astype(np.int64)
+        totals: NDArray[np.int64] = np.rint(np.asarray(histories, dtype=np.float64) * self.share.sum()).astype(np.int64)
+        return totals
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
@@ -172,9 +174,11 @@ class Request:
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with _binding.stoppable():
-                counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
+                counts, stat, message = _core.stripes.run_block(
+                    study, people, one + 1, last + 1, first + 1, *rows, count
+                )
             _binding.check(stat, message)
-            works.append(Work(*map(int, counts)))
+            works.append(Work.of(counts))
 
         done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted

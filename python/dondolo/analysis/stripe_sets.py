@@ -45,11 +45,11 @@ def cut(stripes: Stripes, which: Any) -> Stripes:
     """The stripes of some levels, and of some records if there is a second index."""
     levels, records = which if isinstance(which, tuple) and len(which) == 2 else (which, slice(None))
     rows = _chosen("levels", len(stripes.levels), levels)
-    kept = np.zeros(stripes.records, dtype=bool)
-    kept[_chosen("records", stripes.records, records)] = True
+    kept = np.zeros(stripes.n_records, dtype=bool)
+    kept[_chosen("records", stripes.n_records, records)] = True
     columns = kept[stripes.record_index]
     # A record that runs at none of the levels takes no part.
-    ran = (stripes.ran[rows] & columns).reshape(len(rows), -1, stripes.records).any(axis=(0, 1))
+    ran = (stripes.ran[rows] & columns).reshape(len(rows), -1, stripes.n_records).any(axis=(0, 1))
     columns &= ran[stripes.record_index]
     if not columns.any() or not stripes.ran[np.ix_(rows, columns)].any(axis=1).all():
         raise InputError("stripes: a level is left without records")
@@ -71,7 +71,7 @@ def join(one: Stripes, other: Stripes) -> Stripes:
         raise InputError("stripes: were run with other polarities: must be the same")
     if (one.edp_error is None) != (other.edp_error is None):
         raise InputError("stripes: only one has estimated errors")
-    names = [part.record_names[: part.records] for part in (one, other)]
+    names = [part.record_names[: part.n_records] for part in (one, other)]
     for own in names:
         if len(set(own)) < len(own):
             raise InputError("stripes: two records have the same name, so that they cannot be joined")
@@ -79,7 +79,7 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     levels = np.union1d(one.levels, other.levels)
     rows = [np.searchsorted(levels, part.levels) for part in (one, other)]
     place = {name: i for i, name in enumerate(joint)}
-    order = one.polarity[:: one.records]
+    order = one.polarity[:: one.n_records]
     columns = []
     for part, own in zip((one, other), names, strict=True):
         block = np.array([int(np.flatnonzero(order == sign)[0]) for sign in part.polarity])

@@ -32,13 +32,13 @@ if TYPE_CHECKING:
 _Table = Literal["histories", "stripes", "walls"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
     """Records at levels of intensity, and who collapses.
 
     Stripes of one wall are joined by ``+``, and cut by indexing: ``stripes[:5]`` are the five lowest,
-    ``stripes[stripes.levels < 1.0]`` those of a mask, and a second index chooses among the records. What is left has the
-    records that run at one of its levels.
+    ``stripes[stripes.levels < 1.0]`` those of a mask, and a second index chooses among the records. What is left has
+    the records that run at one of its levels.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Stripes(Shown, Saved):
     edp_error: FloatArray | None = None
 
     def __getitem__(self, which: Any) -> Stripes:
-        """The stripes of some levels, chosen by a slice, numbers or a mask; a second index chooses among the records."""
+        """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
         return cut(self, which)
 
     def __add__(self, other: Stripes) -> Stripes:
@@ -97,7 +97,7 @@ class Stripes(Shown, Saved):
         return join(self, other)
 
     @property
-    def records(self) -> int:
+    def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names) // len(np.unique(self.polarity))
 
@@ -105,7 +105,7 @@ class Stripes(Shown, Saved):
     def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
         # All records come in one polarity, and again in the other if there are two.
-        return np.arange(len(self.record_names)) % self.records
+        return np.arange(len(self.record_names)) % self.n_records
 
     @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -124,12 +124,12 @@ class Stripes(Shown, Saved):
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
 
-    def exceedances(self, edp: float) -> np.ndarray[Any, np.dtype[np.int64]]:
+    def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe that reach a threshold, shape (levels,).
 
         Parameters
         ----------
-        edp : float
+        edp_threshold : float
             Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
 
         Returns
@@ -141,18 +141,20 @@ class Stripes(Shown, Saved):
         InputError
             A threshold beyond that.
         """
-        threshold = as_number("edp", edp)
+        threshold = as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
+            raise InputError(
+                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            )
         counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
         return counts
 
-    def fit(self, edp: float | None = None) -> Fragility:
+    def fit(self, edp_threshold: float | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood.
 
         Parameters
         ----------
-        edp : float, optional
+        edp_threshold : float, optional
             Rotation / capacity that makes a damage state; collapse if left out.
 
         Returns
@@ -165,14 +167,14 @@ class Stripes(Shown, Saved):
         DondoloWarning
             With the sentence of the executable, where there is no curve or it extrapolates.
         """
-        state = self if edp is None else self._state(edp)
+        state = self if edp_threshold is None else self._state(edp_threshold)
         curve = fit(
             self.levels,
             state.collapses.astype(np.float64),
             self.histories.astype(np.float64),
             im=self.im,
             wall=self.wall,
-            edp=state.edp_limit,
+            edp_threshold=state.edp_limit,
             sample=state._sample(),
         )
         low, high = curve.bracket
@@ -180,7 +182,7 @@ class Stripes(Shown, Saved):
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = _binding.CurveData(curve.status, numbers)
         sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
-        where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
+        where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
         _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
 
@@ -203,14 +205,14 @@ class Stripes(Shown, Saved):
 
         return draw_stripes(self, ax)
 
-    def plot_damage_states(self, ax: Axes | None = None, *, edp: Sequence[float] | None = None) -> Axes:
+    def plot_damage_states(self, ax: Axes | None = None, *, edp_thresholds: Sequence[float] | None = None) -> Axes:
         """Draw the fitted curve of each damage state, collapse the boldest.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        edp : sequence of float, optional
+        edp_thresholds : sequence of float, optional
             Rotation / capacity of the states, as for `fit`; 0.1, 0.4 and 1 times `edp_limit` if left out.
 
         Returns
@@ -225,16 +227,23 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_damage_states
 
-        return draw_damage_states(self, ax, edp)
+        return draw_damage_states(self, ax, edp_thresholds)
 
-    def _state(self, edp: float) -> Stripes:
+    def _state(self, edp_threshold: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
-        self.exceedances(edp)
-        return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
+        self.exceedances(edp_threshold)
+        edp, collapsed = np.minimum(self.edp, edp_threshold), self.edp >= edp_threshold
+        return dataclasses.replace(self, edp=edp, collapsed=collapsed, edp_limit=edp_threshold)
 
     def _sample(self) -> Sample:
         """The histories as a curve keeps them."""
-        return Sample(self.levels, self.collapsed, self.ran, self.record_index, self.record_names[: self.records])
+        return Sample(
+            levels=self.levels,
+            collapsed=self.collapsed,
+            ran=self.ran,
+            record_index=self.record_index,
+            record_names=self.record_names[: self.n_records],
+        )
 
     def _tables(self) -> dict[_Table, Any]:
         return {
@@ -293,8 +302,8 @@ def multiple_stripe(
     wall : Wall
         The wall.
     records : Record, iterable of Record, RecordSet, or mapping of float to these
-        The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its levels
-        only, with the factor of the set where it has one.
+        The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its
+        levels only, with the factor of the set where it has one.
     levels : array_like, shape (levels,)
         Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
         levels.
@@ -357,28 +366,25 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     levels, ran = request.levels[:complete], plan.ran[:complete]
     flat: tuple[Any, ...] = outcome[:5]
     edp, collapsed, impacts, time_of_peak, error = (in_matrix(values[: ran.sum()], ran) for values in flat)
-    scale = np.where(ran, plan.scale[:complete], np.nan)
-    for array in (edp, collapsed, impacts, time_of_peak, error, scale, ran, plan.polarity):
-        array.flags.writeable = False
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     return Stripes(
-        request.walls[0],
-        request.im,
-        levels,
-        edp,
-        collapsed,
-        impacts,
-        time_of_peak,
-        scale,
-        ran,
-        tuple(request.records[i].name for i in plan.record),
-        plan.polarity,
-        request.engine,
-        rtol,
-        atol,
-        edp_limit,
-        outcome.work,
-        error if estimated else None,
+        wall=request.walls[0],
+        im=request.im,
+        levels=levels,
+        edp=edp,
+        collapsed=collapsed,
+        impacts=impacts,
+        time_of_peak=time_of_peak,
+        scale=np.where(ran, plan.scale[:complete], np.nan),
+        ran=ran,
+        record_names=tuple(request.records[i].name for i in plan.record),
+        polarity=plan.polarity,
+        engine=request.engine,
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        work=outcome.work,
+        edp_error=error if estimated else None,
     )
 
 

@@ -17,7 +17,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Comparison(Saved):
     """Two curves compared.
 
@@ -30,7 +30,7 @@ class Comparison(Saved):
         medians were ('bootstrap').
     ratio : float
         Median of the first / median of the second.
-    interval : (float, float)
+    ratio_interval : (float, float)
         Confidence interval of the ratio.
     statistic : float
         Twice the gain in log likelihood of two curves over one, chi-squared with 2 degrees of freedom if there is but
@@ -40,7 +40,7 @@ class Comparison(Saved):
     method: str
     p_value: float
     ratio: float
-    interval: tuple[float, float]
+    ratio_interval: tuple[float, float]
     statistic: float
 
 
@@ -49,8 +49,8 @@ def compare(
     second: Fragility,
     *,
     method: Literal["likelihood", "bootstrap"] = "likelihood",
-    level: float = 0.95,
-    n: int = 2000,
+    confidence: float = 0.95,
+    n_resamples: int = 2000,
     seed: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,
 ) -> Comparison:
@@ -64,9 +64,9 @@ def compare(
         Likelihood ratio test of equal theta and beta, for curves from independent records; or bootstrap over records of
         the ratio of the medians, which draws the same records for both where both have the same, and so keeps what they
         share.
-    level : float
+    confidence : float
         Confidence of the interval of the ratio.
-    n, seed
+    n_resamples, seed
         Number of samples of the bootstrap, and seed of its random numbers.
     events : sequence, optional
         A label for each record of the first curve, for the bootstrap of curves from the same records: those with the
@@ -98,15 +98,15 @@ def compare(
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):
         curve._need_fit()
-    if any(curve.wall is None and curve.edp is not None for curve in (first, second)):
+    if any(curve.wall is None and curve.edp_threshold is not None for curve in (first, second)):
         sentence = "walls of a population share their records: the comparison is too sure; its bootstrap tells more"
         _binding.warn([sentence])
     if method == "likelihood":
-        return _by_likelihood(first, second, level)
-    return _by_bootstrap(first, second, level, n, seed, events)
+        return _by_likelihood(first, second, confidence)
+    return _by_bootstrap(first, second, confidence, n_resamples, seed, events)
 
 
-def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Comparison:
+def _by_likelihood(first: Fragility, second: Fragility, confidence: float) -> Comparison:
     if np.isnan([first.log_likelihood, second.log_likelihood]).any():
         raise DondoloError("method = 'likelihood': is for curves fitted to counts, not to first collapses")
     pairs = zip(
@@ -118,25 +118,25 @@ def _by_likelihood(first: Fragility, second: Fragility, level: float) -> Compari
     together._need_fit()
     statistic = max(0.0, 2.0 * (first.log_likelihood + second.log_likelihood - together.log_likelihood))
     ratio = first.theta / second.theta
-    half = fragility._quantile(level) * np.hypot(first.se_ln_theta, second.se_ln_theta)
+    half = fragility._quantile(confidence) * np.hypot(first.se_ln_theta, second.se_ln_theta)
     # The survival function of chi-squared with 2 degrees of freedom is exp(-x/2).
     return Comparison(
-        "likelihood",
-        float(np.exp(-0.5 * statistic)),
-        ratio,
-        fragility._spread(ratio, half),
-        statistic,
+        method="likelihood",
+        p_value=float(np.exp(-0.5 * statistic)),
+        ratio=ratio,
+        ratio_interval=fragility._spread(ratio, half),
+        statistic=statistic,
     )
 
 
 def _by_bootstrap(
-    first: Fragility, second: Fragility, level: float, n: int, seed: Any, events: Sequence[Any] | None
+    first: Fragility, second: Fragility, confidence: float, n_resamples: int, seed: Any, events: Sequence[Any] | None
 ) -> Comparison:
     if first.sample is None or second.sample is None:
         raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
     random = as_generator(seed)
-    count = first.sample.records
-    times = draw_records(count, n, random, events)
+    count = first.sample.n_records
+    times = draw_records(count, n_resamples, random, events)
     # The same records, by position or, where names are unique, by name
     names = [sample.record_names for sample in (first.sample, second.sample)]
     if names[0] == names[1]:
@@ -146,14 +146,20 @@ def _by_bootstrap(
     elif events is not None:
         raise InputError("events: is for curves from the same records")
     else:
-        others = draw_records(second.sample.records, n, random)
+        others = draw_records(second.sample.n_records, n_resamples, random)
     difference = np.log(resample(first.sample, times).theta)
     difference = difference - np.log(resample(second.sample, others).theta)
     difference = difference[~np.isnan(difference)]
     if not len(difference):
         raise DondoloError("none of the samples of the bootstrap has a fit")
-    low, high = np.exp(np.quantile(difference, tails(level)))
+    low, high = np.exp(np.quantile(difference, tails(confidence)))
     below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)
     above = (np.sum(difference >= 0.0) + 1.0) / (len(difference) + 1.0)
     p_value = float(min(1.0, 2.0 * min(below, above)))
-    return Comparison("bootstrap", p_value, first.theta / second.theta, (float(low), float(high)), float("nan"))
+    return Comparison(
+        method="bootstrap",
+        p_value=p_value,
+        ratio=first.theta / second.theta,
+        ratio_interval=(float(low), float(high)),
+        statistic=np.nan,
+    )

@@ -30,7 +30,7 @@ Interval = tuple[float, float]
 Method = Literal["delta", "profile"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Fragility(Shown, Saved):
     """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
 
@@ -51,7 +51,7 @@ class Fragility(Shown, Saved):
         What it was fitted to.
     im : str
         Intensity measure.
-    edp : float or None
+    edp_threshold : float or None
         Rotation / capacity of the damage state; None where only counts were given.
     saturation : float
         What the probability tends to: 1, but for populations in which no mechanism may occur (`Group`); theta and beta
@@ -71,7 +71,7 @@ class Fragility(Shown, Saved):
     histories: FloatArray
     im: str = ""
     wall: Wall | None = None
-    edp: float | None = None
+    edp_threshold: float | None = None
     saturation: float = 1.0
     sample: Sample | None = field(default=None, repr=False)
 
@@ -113,14 +113,14 @@ class Fragility(Shown, Saved):
         values = as_levels(x)
         return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
 
-    def interval(self, x: ArrayLike, level: float = 0.95, *, method: Method = "delta") -> tuple[Any, Any]:
+    def interval(self, x: ArrayLike, *, confidence: float = 0.95, method: Method = "delta") -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
 
         Parameters
         ----------
         x : array_like
             Levels of intensity, positive.
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
         method : {'delta', 'profile'}
             From the covariance, on the scale of the normal quantile of the probability; or from the profile likelihood,
@@ -139,7 +139,7 @@ class Fragility(Shown, Saved):
         """
         one_of("method", method, get_args(Method))
         self._need_fit()
-        quantile = _quantile(level)
+        quantile = _quantile(confidence)
         values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError(f"x = {values.min():g}: must be positive")
@@ -156,12 +156,12 @@ class Fragility(Shown, Saved):
 
         return shaped(self.saturation * ndtr(low), values), shaped(self.saturation * ndtr(high), values)
 
-    def parameter_interval(self, level: float = 0.95, *, method: Method = "delta") -> dict[str, Interval]:
+    def parameter_interval(self, *, confidence: float = 0.95, method: Method = "delta") -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
 
         Parameters
         ----------
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
         method : {'delta', 'profile'}
             From the covariance, on logarithmic scales; or from the profile likelihood, where 0 and inf are bounds that
@@ -181,7 +181,7 @@ class Fragility(Shown, Saved):
         """
         one_of("method", method, get_args(Method))
         self._need_fit()
-        quantile = _quantile(level)
+        quantile = _quantile(confidence)
         if method == "delta":
             theta = _spread(self.theta, quantile * self.se_ln_theta)
             return {"theta": theta, "beta": _spread(self.beta, quantile * self.se_beta / self.beta)}
@@ -195,9 +195,9 @@ class Fragility(Shown, Saved):
 
     def bootstrap(
         self,
-        n: int = 2000,
-        seed: int | np.random.Generator | None = 0,
         *,
+        n_resamples: int = 2000,
+        seed: int | np.random.Generator | None = 0,
         events: Sequence[Any] | None = None,
     ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
@@ -207,7 +207,7 @@ class Fragility(Shown, Saved):
 
         Parameters
         ----------
-        n : int
+        n_resamples : int
             Number of samples.
         seed : int, Generator or None
             Of the random numbers; None: different every time.
@@ -230,13 +230,13 @@ class Fragility(Shown, Saved):
         self._need_fit()
         if self.sample is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-        return resample(self.sample, draw_records(self.sample.records, n, seed, events))
+        return resample(self.sample, draw_records(self.sample.n_records, n_resamples, seed, events))
 
     def plot(
         self,
         ax: Axes | None = None,
         *,
-        level: float = 0.95,
+        confidence: float = 0.95,
         label: str | None = None,
         color: str = style.BLUE,
         linestyle: str = "-",
@@ -251,7 +251,7 @@ class Fragility(Shown, Saved):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        level : float
+        confidence : float
             Confidence of band and bars.
         label : str, optional
             Name of the curve where several are drawn into the same axes; median and dispersion if left out.
@@ -270,7 +270,7 @@ class Fragility(Shown, Saved):
         """
         from dondolo.curves.plots import draw_fragility
 
-        return draw_fragility(self, ax, level, label, color, linestyle, marker)
+        return draw_fragility(self, ax, confidence, label, color, linestyle, marker)
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""
@@ -365,19 +365,16 @@ def curve_of(
     if data.status not in ("ok", "extrapolated"):
         theta = beta = var_theta = both = var_beta = height = np.nan
     largest = np.finfo(np.float64).max
-    covariance = np.array([[var_theta, both], [both, var_beta]])
-    for array in (covariance, levels, collapses, histories):
-        array.flags.writeable = False
     return Fragility(
-        theta,
-        beta,
-        covariance,
-        data.status,
-        height,
-        (low, np.inf if high >= largest else high),
-        levels,
-        collapses,
-        histories,
+        theta=theta,
+        beta=beta,
+        covariance=np.array([[var_theta, both], [both, var_beta]]),
+        status=data.status,
+        log_likelihood=height,
+        bracket=(low, np.inf if high >= largest else high),
+        levels=levels,
+        collapses=collapses,
+        histories=histories,
         **origin,
     )
 
@@ -394,10 +391,10 @@ def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tu
     return x, z, n
 
 
-def _quantile(level: float) -> float:
+def _quantile(confidence: float) -> float:
     from scipy.special import ndtri
 
-    return float(ndtri(tails(level)[1]))
+    return float(ndtri(tails(confidence)[1]))
 
 
 def _spread(value: float, log_width: float) -> Interval:
@@ -418,5 +415,5 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "status": [curve.status for curve in curves],
         "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
         "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
-        "edp_threshold": [curve.edp for curve in curves],
+        "edp_threshold": [curve.edp_threshold for curve in curves],
     }

@@ -12,7 +12,7 @@ from dondolo._storage.saved import part_of_results
 
 
 @part_of_results
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Sample:
     """Histories of one wall, stripe by stripe.
 
@@ -37,6 +37,6 @@ class Sample:
     record_names: tuple[str, ...]
 
     @property
-    def records(self) -> int:
+    def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names)

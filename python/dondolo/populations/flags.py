@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
+from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
 
 
+@part_of_results
 @dataclass(frozen=True, eq=False)
 class Flags:
     """The states that every history of every wall reaches.
@@ -32,8 +34,8 @@ class Flags:
     states : int
         Number of states, collapse among them.
     runs : ndarray, shape (records, levels)
-        1 where a record runs at a level, else 0. The histories of a wall are those of all records, and again in the other
-        polarity if there are two.
+        1 where a record runs at a level, else 0. The histories of a wall are those of all records, and again in the
+        other polarity if there are two.
     bits : ndarray of uint8
         Eight flags a byte.
     state : int
@@ -71,7 +73,7 @@ class Flags:
         return len(self.runs)
 
     def drawn(self, records: FloatArray) -> FloatArray:
-        """Histories at each level, relative to all records, where each record comes so many times: (samples, levels)."""
+        """Histories at each level (samples, levels), relative to all records, if each record comes so many times."""
         if self.runs.all():
             return np.ones((len(records), self.levels))
         return np.asarray(records @ self.runs / self.records)

@@ -1,4 +1,4 @@
-"""Conditions on the columns of a table, as ``magnitude >= 6 and 0.1 < pga < 0.5``: parsed by Python, computed by NumPy."""
+"""Conditions on the columns of a table, such as ``magnitude >= 6 and 0.1 < pga < 0.5``."""
 
 from __future__ import annotations
 
@@ -76,15 +76,15 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
                 return ~condition(inner)
             case ast.BinOp(op=operation, left=left, right=right) if type(operation) in _OPERATIONS:
                 return _OPERATIONS[type(operation)](value(left), value(right))
-            case ast.BoolOp(op=operation, values=parts):
-                join = np.logical_and if isinstance(operation, ast.And) else np.logical_or
+            case ast.BoolOp(op=both, values=parts):
+                join = np.logical_and if isinstance(both, ast.And) else np.logical_or
                 return join.reduce([condition(part) for part in parts])
             case ast.Compare(left=left, ops=operations, comparators=others):
                 held, one = np.ones(length, dtype=bool), value(left)
-                for operation, other in zip(operations, map(value, others), strict=True):
-                    if type(operation) not in _COMPARISONS:
+                for sign, other in zip(operations, map(value, others), strict=True):
+                    if type(sign) not in _COMPARISONS:
                         break
-                    held &= _COMPARISONS[type(operation)](one, other)
+                    held &= _COMPARISONS[type(sign)](one, other)
                     one = other
                 else:
                     return held

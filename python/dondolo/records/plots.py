@@ -18,9 +18,7 @@ if TYPE_CHECKING:
 _PERIODS = np.geomspace(0.05, 4.0, 100)
 
 
-def draw_spectra(
-    records: RecordSet, target: TargetSpectrum | None, periods: ArrayLike | None, ax: Axes | None
-) -> Axes:
+def draw_spectra(records: RecordSet, target: TargetSpectrum | None, periods: ArrayLike | None, ax: Axes | None) -> Axes:
     """Draw the spectra of records, their median and dispersion, and a target."""
     ax = style.axes(ax)
     if periods is None:

@@ -81,9 +81,9 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     Parameters
     ----------
     path : path
-        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder. The columns
-        level and factor say which records run at which levels of intensity, and how they are scaled. All other columns
-        are metadata of the records.
+        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder. The
+        columns level and factor say which records run at which levels of intensity, and how they are scaled. All other
+        columns are metadata of the records.
 
     Returns
     -------
@@ -99,8 +99,8 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     if not len(place):
         return RecordSet(records)
     given = factor if factor.any() else None
-    rows = (None if values is None else np.where(values > 0.0, values, np.nan) for values in (level, given))
-    return RecordSet([records[i - 1] for i in place], *rows)
+    rows = [None if values is None else np.where(values > 0.0, values, np.nan) for values in (level, given)]
+    return RecordSet([records[i - 1] for i in place], level=rows[0], factor=rows[1])
 
 
 def _as_record(data: _binding.RecordData) -> Record:

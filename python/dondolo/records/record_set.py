@@ -51,8 +51,8 @@ class LevelRows(NamedTuple):
 class RecordSet(Shown, Saved):
     """A table of records: metadata, intensity measures, and the level and factor of each row where they are given.
 
-    A set is used wherever records are: it has a length and can be iterated. A record may have several rows, one for each
-    level at which it runs.
+    A set is used wherever records are: it has a length and can be iterated. A record may have several rows, one for
+    each level at which it runs.
 
     Parameters
     ----------
@@ -88,10 +88,16 @@ class RecordSet(Shown, Saved):
     def __init__(
         self,
         records: Record | Iterable[Record],
+        *,
         level: ArrayLike | None = None,
         factor: ArrayLike | None = None,
     ) -> None:
         several = as_records(records)
+        if len({record.name for record in several}) < len(several):
+            # A record with several rows is one object, also where it comes from a file.
+            known: dict[tuple[str, float, bytes], Record] = {}
+            keys = ((record.name, record.dt, record.acceleration.tobytes()) for record in several)
+            several = tuple(known.setdefault(key, record) for key, record in zip(keys, several, strict=True))
         object.__setattr__(self, "records", several)
         for what, given in (("level", level), ("factor", factor)):
             values = None if given is None else _positive(what, given, len(several))
@@ -124,7 +130,7 @@ class RecordSet(Shown, Saved):
             if isinstance(several, Sequence) and not several:
                 raise InputError(f"levels = {level:g}: no record runs at this level")
             part = several if isinstance(several, RecordSet) else RecordSet(several)
-            parts.append(RecordSet(part.records, float(level), part.factor))
+            parts.append(RecordSet(part.records, level=float(level), factor=part.factor))
         return sum(parts[1:], start=parts[0])
 
     def __len__(self) -> int:
@@ -158,9 +164,12 @@ class RecordSet(Shown, Saved):
         """The rows of both."""
         if not isinstance(other, RecordSet):
             other = RecordSet(other)
-        pairs = ((self.level, other.level), (self.factor, other.factor))
-        joined = (None if a is None and b is None else _joined(a, b, len(self), len(other)) for a, b in pairs)
-        return RecordSet((*self.records, *other.records), *joined)
+        pairs = {"level": (self.level, other.level), "factor": (self.factor, other.factor)}
+        joined = {
+            what: None if a is None and b is None else _joined(a, b, len(self), len(other))
+            for what, (a, b) in pairs.items()
+        }
+        return RecordSet((*self.records, *other.records), **joined)
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -231,7 +240,9 @@ class RecordSet(Shown, Saved):
         found: dict[int, FloatArray] = {}
         for record in self.records:
             if id(record) not in found:
-                found[id(record)] = record.spectrum(periods, damping=damping).sa / _binding.constants().gravity
+                found[id(record)] = (
+                    record.spectrum(periods, damping=damping).pseudo_acceleration / _binding.constants().gravity
+                )
         factor = np.ones(len(self)) if self.factor is None else np.nan_to_num(self.factor, nan=1.0)
         return factor[:, None] * np.stack([found[id(record)] for record in self.records])
 
@@ -269,12 +280,15 @@ class RecordSet(Shown, Saved):
 
         write_catalogue(self, path)
 
-    def plot(self, target: TargetSpectrum | None = None, *, periods: ArrayLike | None = None, ax: Axes | None = None) -> Axes:
+    def plot(
+        self, *, target: TargetSpectrum | None = None, periods: ArrayLike | None = None, ax: Axes | None = None
+    ) -> Axes:
         """Draw the response spectra of the rows, times their factors, their mean and dispersion, and a target.
 
         Parameters
         ----------
         target : TargetSpectrum, optional
+            Drawn too.
         periods : array_like, optional
             [s]; those of the target, or 100 from 0.05 to 4 s, if left out.
         ax : Axes, optional
@@ -305,14 +319,16 @@ class RecordSet(Shown, Saved):
             places = {id(record): i for i, record in enumerate(dict.fromkeys(self.records))}
             found = intensities(tuple(dict.fromkeys(self.records)), name)
         except InputError as error:
-            raise InputError(f"{name!r}: is neither a column ({', '.join(self.columns)}) nor a measure ({error})") from None
+            raise InputError(
+                f"{name!r}: is neither a column ({', '.join(self.columns)}) nor a measure ({error})"
+            ) from None
         return found[[places[id(record)] for record in self.records]]
 
     def _rows(self, rows: NDArray[np.int64]) -> RecordSet:
         if not len(rows):
             raise InputError("records: none are left")
-        chosen = (None if values is None else values[rows] for values in (self.level, self.factor))
-        return RecordSet([self.records[i] for i in rows], *chosen)
+        level, factor = (None if values is None else values[rows] for values in (self.level, self.factor))
+        return RecordSet([self.records[i] for i in rows], level=level, factor=factor)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("rows", str(len(self)))]

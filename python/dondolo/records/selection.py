@@ -9,10 +9,10 @@ sigma of the target at all its periods. The cost is
 2. For each spectrum the record is taken that lies nearest, by the sum of squares of ln Sa.
 3. Each record is replaced in turn by the one that lowers the cost most, until none does.
 
-The factor on a record brings it to the target's ordinate at the period that the target is conditional on; of other targets
-it is that of least squares between the record and the spectrum drawn in its place, so that scaling does not take away the
-dispersion. Without a dispersion all spectra drawn are the target itself, and the cost keeps the records close to it, not
-their mean alone.
+The factor on a record brings it to the target's ordinate at the period that the target is conditional on; of other
+targets it is that of least squares between the record and the spectrum drawn in its place, so that scaling keeps the
+dispersion. Without a dispersion all spectra drawn are the target itself, and the cost keeps the records close to
+it, not their mean alone.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _GAIN = 1e-12
 _MOST_ROUNDS = 50
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Selection(Shown, Saved):
     """Records selected and scaled to a target spectrum.
 
@@ -68,7 +68,7 @@ class Selection(Shown, Saved):
 
     @property
     def median(self) -> FloatArray:
-        """exp of the mean of ln Sa of the records, shape (periods,) [g]."""
+        """Geometric mean of the spectra of the records, shape (periods,) [g]."""
         return np.asarray(np.exp(np.log(self.sa).mean(axis=0)))
 
     @property
@@ -78,7 +78,7 @@ class Selection(Shown, Saved):
 
     @property
     def misfit(self) -> tuple[float, float]:
-        """Root mean squares over the periods: of the mean of ln Sa less the target's, and of the dispersion likewise."""
+        """Root mean squares over the periods of mean and dispersion of ln Sa, less those of the target."""
         mean = np.log(self.median / self.target.sa)
         spread = self.dispersion - self.target.dispersion
         return float(np.sqrt(np.mean(mean**2))), float(np.sqrt(np.mean(spread**2)))
@@ -101,7 +101,7 @@ class Selection(Shown, Saved):
         -------
         Axes
         """
-        return self.records.plot(self.target, ax=ax)
+        return self.records.plot(target=self.target, ax=ax)
 
     def _facts(self) -> list[tuple[str, str]]:
         low, high = self.largest_deviation
@@ -115,7 +115,7 @@ class Selection(Shown, Saved):
 
 
 class _Candidates(NamedTuple):
-    """ln Sa of the records (records, periods), their factors for each place (places, records): ln, NaN if not allowed."""
+    """Logarithms of Sa (records, periods), and of the factors (places, records), NaN where they are not allowed."""
 
     ln_sa: FloatArray
     ln_factor: FloatArray
@@ -159,8 +159,8 @@ def select_records(
 
     Notes
     -----
-    Jayaram, Lin and Baker (2011); the docstring of the module dondolo.records.selection has what is done. It finds a good
-    selection, not the best of all.
+    Jayaram, Lin and Baker (2011); the docstring of the module dondolo.records.selection has the steps. They find a
+    good selection, not the best of all.
 
     Examples
     --------
@@ -196,7 +196,7 @@ def select_records(
     chosen, factor = chosen[order], factor[order]
     scaled = factor[:, None] * sa[chosen]
     scaled.flags.writeable = False
-    return Selection(RecordSet([several[i] for i in chosen], factor=factor), target, scaled)
+    return Selection(records=RecordSet([several[i] for i in chosen], factor=factor), target=target, sa=scaled)
 
 
 def _draw(target: TargetSpectrum, count: int, weight: float, generator: np.random.Generator) -> FloatArray:

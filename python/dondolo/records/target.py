@@ -11,8 +11,8 @@ Codes
         T_D <= T:          S_e = a_g S eta F0 T_C T_D/T^2
 
 Conditional spectra
-    Given Sa(T*), the logarithms of the other ordinates of a ground motion model, mean mu and deviation sigma, are normal
-    with (Baker 2011; Jayaram, Lin and Baker 2011)::
+    Given Sa(T*), the logarithms of the other ordinates of a ground motion model, mean mu and deviation sigma, are
+    normal with (Baker 2011; Jayaram, Lin and Baker 2011)::
 
         mean mu_i + rho(T_i, T*) eps sigma_i,  eps = (ln Sa(T*) - mu*)/sigma*
         covariance sigma_i sigma_j (rho(T_i, T_j) - rho(T_i, T*) rho(T_j, T*))
@@ -21,8 +21,8 @@ Conditional spectra
 
 References: Baker and Jayaram (2008), Correlation of spectral acceleration values from NGA ground motion models,
 Earthquake Spectra 24(1):299-317; Baker (2011), Conditional mean spectrum: tool for ground-motion selection, Journal of
-Structural Engineering 137(3):322-331; Jayaram, Lin and Baker (2011), A computationally efficient ground-motion selection
-algorithm for matching a target response spectrum mean and variance, Earthquake Spectra 27(3):797-815.
+Structural Engineering 137(3):322-331; Jayaram, Lin and Baker (2011), A computationally efficient ground-motion
+selection algorithm for matching a target response spectrum mean and variance, Earthquake Spectra 27(3):797-815.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ class TargetSpectrum(Shown, Saved):
     Examples
     --------
     >>> import dondolo as dd
-    >>> target = dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], 0.6).conditional(0.5, 0.8)
+    >>> target = dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], dispersion=0.6).conditional(0.5, 0.8)
     >>> [round(float(x), 4) for x in target.sa]
     [0.6947, 0.8, 0.3361]
     """
@@ -119,7 +119,7 @@ class TargetSpectrum(Shown, Saved):
     anchor: float | None
 
     def __init__(
-        self, periods: ArrayLike, sa: ArrayLike, dispersion: ArrayLike | None = None, *, damping: float = 0.05
+        self, periods: ArrayLike, sa: ArrayLike, *, dispersion: ArrayLike | None = None, damping: float = 0.05
     ) -> None:
         several, median = increasing("periods", periods), as_array("sa", sa).copy()
         if len(median) != len(several):
@@ -132,7 +132,9 @@ class TargetSpectrum(Shown, Saved):
         if spread.shape != several.shape or not np.all((spread >= 0.0) & (spread < np.inf)):
             raise InputError("dispersion: must be one number, or one for each period, not negative")
         if spread.any() and not 0.01 <= several[0] < several[-1] <= 10.0:
-            raise InputError("periods: must lie between 0.01 and 10 s for the correlations of a target with a dispersion")
+            raise InputError(
+                "periods: must lie between 0.01 and 10 s for the correlations of a target with a dispersion"
+            )
         covariance = correlation(several, several) * np.outer(spread, spread)
         self._set(several, median, as_number("damping", damping), covariance, None)
 
@@ -241,6 +243,7 @@ def ntc_spectrum(
     tc_star : float
         Period at which the constant velocity begins on such ground [s].
     soil : {'A', 'B', 'C', 'D', 'E'}
+        Class of soil.
     topography : {'T1', 'T2', 'T3', 'T4'}
         The factor of the table, which is that of the top of a slope.
     damping : float
@@ -326,7 +329,9 @@ def _code_spectrum(
     tb, tc, td = corners
     peak = max(np.sqrt(10.0 / (5.0 + 100.0 * ratio)), 0.55) * f0
     shape = np.select(
-        [t < tb, t < tc, t < td], [1.0 + t / tb * (peak - 1.0), np.full(len(t), peak), peak * tc / t], peak * tc * td / t**2
+        [t < tb, t < tc, t < td],
+        [1.0 + t / tb * (peak - 1.0), np.full(len(t), peak), peak * tc / t],
+        peak * tc * td / t**2,
     )
     return TargetSpectrum(t, a * shape, damping=ratio)
 
