@@ -60,8 +60,8 @@ EDITS = [
     ),
     Edit(
         "fragility curves tend to 1 where not all walls can collapse",
-        "self.saturation * _binding.probability(self.theta, self.beta, values.ravel())",
-        "_binding.probability(self.theta, self.beta, values.ravel())",
+        "self.saturation * probability(self.theta, self.beta, values.ravel())",
+        "probability(self.theta, self.beta, values.ravel())",
         "test_combination.py::test_saturation",
     ),
     # Bootstrap over records

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dondolo._base.files import whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.library import build_variant
 from dondolo._storage import tables
 
 import dondolo as dd
@@ -94,7 +94,7 @@ def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
     before = [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]]
     (tmp_path / "city_walls.csv").unlink()
     (tmp_path / "city_walls.csv").mkdir()
-    changed = dataclasses.replace(people, warnings=(dd.DondoloWarning("other"),))
+    changed = dataclasses.replace(people, warnings=(dd.DondoloWarning("other", "note"),))
     with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written"):
         changed.write_results(tmp_path / "city")
     assert [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]] == before
@@ -263,7 +263,7 @@ def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path)
     case = root / "data/cases/population.nml"
     assert run("--quiet", case).returncode == 0
     # The same build variant, so that digits agree
-    assert _binding.build_variant() in run("--version").stdout
+    assert build_variant() in run("--version").stdout
     dd.run_case(case, progress=False).typology.write_results(tmp_path / "mine")
     for table in ("walls", "stripes", "fragility", "typology"):
         rows = [

@@ -190,7 +190,7 @@ def test_what_the_curve_cannot_do(stripes):
         curve.bootstrap()
     with pytest.raises(dd.DondoloError, match="not to first collapses"):
         dd.compare(curve, stripes.fit())
-    with pytest.raises(dd.InputError, match="list are no stripes"):
+    with pytest.raises(dd.InputError, match="list is no Stripes"):
         dd.incremental([])
 
 

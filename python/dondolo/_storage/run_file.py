@@ -10,7 +10,7 @@ from datetime import datetime
 from typing import Any
 
 from dondolo._base.files import read_text
-from dondolo._fortran import _binding
+from dondolo._fortran.library import unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 1"
@@ -139,7 +139,7 @@ def read_run_file(path: str) -> RunFile:
             {name: _member(work, name, int) for name in work},
             _history(history) if history else None,
             tuple(_all(content, "notes", str)),
-            tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
+            tuple(unpack_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
         )

@@ -42,14 +42,16 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
+from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.curves.fragility import Fragility, extrapolation
+from dondolo.errors import DondoloError, DondoloWarning
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -158,14 +160,9 @@ class Incremental(Shown, Saved):
             mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
             theta = float(np.exp(mean))
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
-        if status == "extrapolated":
-            low, high = levels[[0, -1]]
-            _binding.warn([f"theta = {theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
-        elif status != "ok":
-            _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
-        return FirstCollapseFragility(
+        curve = FirstCollapseFragility(
             theta=theta,
             beta=beta,
             covariance=covariance,
@@ -178,6 +175,12 @@ class Incremental(Shown, Saved):
             im=self.stripes.im,
             wall=self.stripes.wall,
         )
+        if status == "extrapolated":
+            warn([extrapolation(curve)])
+        elif status != "ok":
+            sentence = f"no curve of first collapses is fitted (status '{status}')"
+            warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
+        return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw a line for each history, and their fractiles, bold.
@@ -206,7 +209,7 @@ class Incremental(Shown, Saved):
             "records": lambda: {
                 "wall": [stripes.wall.name] * len(self.first_collapse),
                 "record": stripes.record_names,
-                "polarity": ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity],
+                "polarity": polarity_names(stripes.polarity),
                 "im": [stripes.im] * len(self.first_collapse),
                 "first_collapse": np.where(np.isfinite(self.first_collapse), self.first_collapse, np.nan),
                 "last_survival": np.where(self.last_survival > 0.0, self.last_survival, np.nan),
@@ -230,11 +233,11 @@ class Incremental(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
-        comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
+        comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.stripes.im)}".rstrip()
+        unit = blank_unit(self.stripes.im)
         none = f"above {self.levels[-1]:g}"
         fractiles = (f"{level:g}" if np.isfinite(level) else none for level in self.level_fractiles)
         return [
@@ -267,8 +270,7 @@ def incremental(stripes: Stripes) -> Incremental:
     -----
     Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
     """
-    if not isinstance(stripes, Stripes):
-        raise InputError(f"stripes: {type(stripes).__name__} are no stripes")
+    instance_of("stripes", stripes, Stripes, "no Stripes")
     if not stripes.ran.all():
         raise InputError("stripes: have records of their own at each level: every record must run at every level")
     levels, collapsed = stripes.levels, stripes.collapsed

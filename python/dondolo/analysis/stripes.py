@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_number, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import CurveData, warnings_of_curve
+from dondolo._fortran.histories import warnings_of_errors
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
+from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request, polarity_names
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_sets import cut, in_matrix, join, span
 from dondolo.analysis.work import Work
@@ -180,10 +183,10 @@ class Stripes(Shown, Saved):
         low, high = curve.bracket
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
-        data = _binding.CurveData(curve.status, numbers)
-        sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
+        data = CurveData(curve.status, numbers)
+        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
         where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
-        _binding.warn(sentence.placed(where) for sentence in sentences)
+        warn(sentence.placed(where) for sentence in sentences)
         return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -268,15 +271,14 @@ class Stripes(Shown, Saved):
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
-            f"unit of im_level: {_binding.unit_of(self.im) or '1'}",
+            f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = _binding.unit_of(self.im)
         return [
             ("wall", self.wall.name),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
             ("histories of a stripe", span(self.histories)),
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
@@ -343,18 +345,17 @@ def multiple_stripe(
     -----
     Section 3.3 of Nale et al.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error)
     try:
         plan = request.plan()
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
-    _binding.warn(plan.warnings)
+    warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
         stripes = _stripes(request, plan, outcome, len(request.levels))
-        _binding.warn(_warnings(stripes))
+        warn(_warnings(stripes))
         return stripes
     complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
     partial = _stripes(request, plan, outcome, complete) if complete else None
@@ -393,7 +394,7 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     if stripes.edp_error is None:
         return []
     level, history = np.unravel_index(np.nanargmax(stripes.edp_error), stripes.edp_error.shape)
-    return _binding.warnings_of_errors(
+    return warnings_of_errors(
         stripes.edp[stripes.ran],
         stripes.edp_error[stripes.ran],
         stripes.edp_limit,
@@ -406,11 +407,12 @@ def histories_table(stripes: Stripes) -> tables.Table:
     """Columns of ``_histories.csv``."""
     ran = stripes.ran
     level, history = np.nonzero(ran)
+    signs = polarity_names(stripes.polarity)
     table: tables.Table = {
         "wall": [stripes.wall.name] * len(level),
         "mechanism": [stripes.wall.mechanism] * len(level),
         "record": [stripes.record_names[i] for i in history],
-        "polarity": ["reversed" if stripes.polarity[i] < 0 else "as_recorded" for i in history],
+        "polarity": [signs[i] for i in history],
         "im": [stripes.im] * len(level),
         "im_level": stripes.levels[level],
         "scale": stripes.scale[ran],

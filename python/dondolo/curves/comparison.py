@@ -8,13 +8,13 @@ from typing import Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import as_generator, one_of, tails
-from dondolo._fortran import _binding
+from dondolo._base.arguments import as_generator, instance_of, one_of, tails
+from dondolo._fortran.library import warn
 from dondolo._storage.saved import Saved
 from dondolo.curves import fragility
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,8 +90,7 @@ def compare(
     """
     one_of("method", method, ("likelihood", "bootstrap"))
     for curve in (first, second):
-        if not isinstance(curve, Fragility):
-            raise InputError(f"curves: {type(curve).__name__} is no fragility curve")
+        instance_of("curves", curve, Fragility, "no fragility curve")
     if events is not None and method == "likelihood":
         raise InputError("events: is for method = 'bootstrap'")
     if first.im != second.im:
@@ -100,7 +99,7 @@ def compare(
         curve._need_fit()
     if any(curve.wall is None and curve.edp_threshold is not None for curve in (first, second)):
         sentence = "walls of a population share their records: the comparison is too sure; its bootstrap tells more"
-        _binding.warn([sentence])
+        warn([DondoloWarning(sentence, "records_shared")])
     if method == "likelihood":
         return _by_likelihood(first, second, confidence)
     return _by_bootstrap(first, second, confidence, n_resamples, seed, events)

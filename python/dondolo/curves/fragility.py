@@ -12,12 +12,14 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, one_of, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import CurveData, fit_curves, probability
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.sample import Sample
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures import style
 from dondolo.walls.wall import Wall
 
@@ -111,7 +113,7 @@ class Fragility(Shown, Saved):
         """
         self._need_fit()
         values = as_levels(x)
-        return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
+        return shaped(self.saturation * probability(self.theta, self.beta, values.ravel()), values)
 
     def interval(self, x: ArrayLike, *, confidence: float = 0.95, method: Method = "delta") -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
@@ -278,7 +280,7 @@ class Fragility(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as the executable's ``_fragility.csv``."""
-        comments = [f"unit of theta: {_binding.unit_of(self.im) or '1'}"] if self.im else []
+        comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
         tables.write_csv(path, fragility_table([self.wall], [self]), comments)
 
     def _need_fit(self) -> None:
@@ -294,7 +296,7 @@ class Fragility(Shown, Saved):
         return Likelihood(self.levels, self.collapses, self.histories, self.theta, self.beta)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.im)}".rstrip()
+        unit = blank_unit(self.im)
         if not self.has_fit:
             low, high = self.bracket
             return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
@@ -346,19 +348,28 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     """
     curve = fit(*_counts(levels, collapses, histories), im=im)
     if curve.status == "extrapolated":
-        low, high = curve.levels.min(), curve.levels.max()
-        _binding.warn([f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
+        warn([extrapolation(curve)])
     return curve
+
+
+def extrapolation(curve: Fragility) -> DondoloWarning:
+    """The warning that a curve with its median outside the levels is worth."""
+    low, high = float(curve.levels.min()), float(curve.levels.max())
+    return DondoloWarning(
+        f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates",
+        "extrapolated",
+        numbers={"levels": len(curve.levels), "first_level": low, "last_level": high, "theta": curve.theta},
+    )
 
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
     """Fit without a warning."""
-    curves, statuses = _binding.fit_curves(levels, collapses[None, :], histories[None, :])
-    return curve_of(_binding.CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
+    return curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
 
 
 def curve_of(
-    data: _binding.CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
+    data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
 ) -> Fragility:
     """A curve as Fortran has fitted it."""
     theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)

@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
-from dondolo._fortran import _binding
+from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -25,7 +25,7 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall
 
 # Columns of _walls.csv and the numbers of a wall
-_WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
+_WALL_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column and row.kind != "text"}
 
 
 @dataclass(frozen=True, kw_only=True)

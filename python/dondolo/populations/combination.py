@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_text
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import fit_walls
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.curves.series import in_series
@@ -59,7 +59,7 @@ def combine_rows(
     """The curves of the last state."""
     origin = {"im": im, "edp_threshold": float(edp_thresholds[-1])}
     names = b"".join(as_text("name", wall.name) + b"\n" for wall in people.walls)
-    data = _binding.fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
+    data = fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
     own = curves_of_rows(people, levels, exceedances[-1], histories, data.rows, **origin)
     first = people.first_rows
     occurrences, least = in_series(people.p_occ, first), np.minimum.reduceat(histories, first, axis=1)

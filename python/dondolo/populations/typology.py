@@ -14,7 +14,8 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file, remove_old, whole_file
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants, warn
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
@@ -168,7 +169,7 @@ class Typology(Shown, Saved):
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             flags = None if self.flags is None else self.flags.at(int(place[0]))
             self._states[value] = dataclasses.replace(state, flags=flags)
-            _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
+            warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -298,7 +299,7 @@ class Typology(Shown, Saved):
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
         comments = [
             *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
-            f"unit of im_level and theta: {_binding.unit_of(self.im) or '1'}",
+            f"unit of im_level and theta: {unit_of(self.im) or '1'}",
             f"work: {counts}",
             *(f"warning: {sentence}" for sentence in self.warnings),
         ]
@@ -357,15 +358,15 @@ class Typology(Shown, Saved):
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
         solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
         settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
-        version, work = _binding.constants().version, dataclasses.asdict(self.work)
+        version, work = constants().version, dataclasses.asdict(self.work)
         return RunFile(version, settings=settings, work=work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
-        unit, whole = _binding.unit_of(self.im), self["all"]
+        whole = self["all"]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
         ]
         if len(self.edp_thresholds) > 1:
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dondolo._base.files import as_file, check_replaced
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo.errors import DondoloError, InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
@@ -153,7 +153,7 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
         values = getattr(records, what)
         if values is not None:
             table[what] = ["" if np.isnan(value) else tables.shortest(value) for value in values]
-    lines = tables.csv_lines(table, [f"dondolo {_binding.constants().version}"])
+    lines = tables.csv_lines(table, [f"dondolo {constants().version}"])
     tables.write_lines(target, [lines[0], _MARK, *lines[1:]])
 
 

@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 
-from dondolo._fortran import _binding
+from dondolo._fortran.records import RecordData, records_of_file
 from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet
 
@@ -44,7 +44,7 @@ def read_record(
         The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
     """
     name = str(channel) if isinstance(channel, int) else channel
-    ((data,), _) = _binding.read_records(path, 0, dt, units, name, format)
+    ((data,), _) = records_of_file(path, 0, dt, units, name, format)
     return _as_record(data)
 
 
@@ -72,7 +72,7 @@ def read_records(
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [_as_record(data) for data in _binding.read_records(path, 2, dt, units, layout=format)[0]]
+    return [_as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
 
 
 def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
@@ -94,7 +94,7 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     InputError
         The catalogue or one of its records is wrong.
     """
-    several, (place, level, factor) = _binding.read_records(path, 1)
+    several, (place, level, factor) = records_of_file(path, 1)
     records = [_as_record(data) for data in several]
     if not len(place):
         return RecordSet(records)
@@ -103,5 +103,5 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     return RecordSet([records[i - 1] for i in place], level=rows[0], factor=rows[1])
 
 
-def _as_record(data: _binding.RecordData) -> Record:
+def _as_record(data: RecordData) -> Record:
     return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)

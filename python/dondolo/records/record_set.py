@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_measures, as_number
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
+from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
@@ -240,9 +241,7 @@ class RecordSet(Shown, Saved):
         found: dict[int, FloatArray] = {}
         for record in self.records:
             if id(record) not in found:
-                found[id(record)] = (
-                    record.spectrum(periods, damping=damping).pseudo_acceleration / _binding.constants().gravity
-                )
+                found[id(record)] = record.spectrum(periods, damping=damping).pseudo_acceleration / constants().gravity
         factor = np.ones(len(self)) if self.factor is None else np.nan_to_num(self.factor, nan=1.0)
         return factor[:, None] * np.stack([found[id(record)] for record in self.records])
 
@@ -256,7 +255,7 @@ class RecordSet(Shown, Saved):
         """
         table: tables.Table = {name: self._column(name) for name in self.columns}
         for im in as_measures(ims):
-            measure = _binding.describe_measure(im, of_record=True)
+            measure = describe_measure(im, of_record=True)
             table[f"{measure.name} [{measure.unit}]"] = self._column(im)
         return tables.frame(table)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._fortran.records import blank_unit
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
@@ -16,7 +17,6 @@ from dondolo.reporting.content import (
     THETA,
     Piece,
     Table,
-    blank_unit,
     figure,
     level,
     level_head,
