@@ -51,7 +51,7 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility, extrapolation
-from dondolo.errors import DondoloError, DondoloWarning
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
