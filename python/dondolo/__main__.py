@@ -172,7 +172,14 @@ def _plot(options: argparse.Namespace) -> None:
         _save(options, "wall", motion.plot_peak)
         if options.animate:
             path = f"{options.prefix}_motion.gif"
-            motion.animate(frames_per_second=20).save(path, writer="pillow")
+            with whole_file(path) as part:
+                # Pillow chooses the format by the name.
+                image = part.with_name(part.name + ".gif")
+                try:
+                    motion.animate(frames_per_second=20).save(image, writer="pillow")
+                    image.replace(part)
+                finally:
+                    image.unlink(missing_ok=True)
             print(f"drawn: {path}")
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes

@@ -150,7 +150,7 @@ def damaged(executable, root, tmp_path_factory):
         ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "no JSON: .*line"),
         ("history", "run.json", r'"impacts": ', '"impacts": 1.5, "i": ', "impacts = 1.5: must be of type int"),
         ("history", "run.json", r'^  "history": {$', '"none": {', "no 'history'"),
-        ("parapet", "run.json", r"dondolo run 1", "dondolo run 0", "not a run file: format must be 'dondolo run 1'"),
+        ("parapet", "run.json", r"dondolo run 2", "dondolo run 0", "not a run file: format must be 'dondolo run 2'"),
         (
             "parapet",
             "run.json",

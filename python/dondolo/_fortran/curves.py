@@ -47,20 +47,10 @@ class FlatPopulation(NamedTuple):
 
 
 class GroupData(NamedTuple):
-    """A curve of a population, or of one of its groups."""
+    """A curve of a population, or of one of its groups: the values of a `Group`, and its curve with its histories."""
 
-    group: str
-    mechanism: str
-    walls: int
-    weight: float
-    beta_walls: float
-    beta_records: float
-    fitted: float
-    saturation: float
+    values: dict[str, Any]
     histories: FloatArray
-    mean_fraction: FloatArray
-    mean_curve: FloatArray
-    fractiles: FloatArray
     curve: CurveData
 
 
@@ -98,24 +88,13 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
     together = []
     for i, row in enumerate(groups.reshape(number, 5 + 6 * m + 8)):
-        histories, mean_fraction, mean_curve, fractiles, curve = np.split(row[5:], np.cumsum([m, m, m, 3 * m]))
-        together.append(
-            GroupData(
-                parcel.lines[2 * i],
-                parcel.lines[2 * i + 1],
-                int(walls[i]),
-                float(row[0]),
-                float(row[1]),
-                float(row[2]),
-                float(row[3]),
-                float(row[4]),
-                histories,
-                mean_fraction,
-                mean_curve,
-                np.ascontiguousarray(fractiles.reshape(m, 3).T),
-                CurveData(status[r + w + i], curve),
-            )
-        )
+        single, histories, mean_fraction, mean_curve, fractiles, curve = np.split(row, np.cumsum([5, m, m, m, 3 * m]))
+        means = ("weight", "beta_walls", "beta_records", "fitted", "saturation")
+        values: dict[str, Any] = dict(zip(means, single.tolist(), strict=True))
+        values |= {"group": parcel.lines[2 * i], "mechanism": parcel.lines[2 * i + 1], "n_walls": int(walls[i])}
+        values |= {"mean_fraction": mean_fraction, "mean_curve": mean_curve}
+        values["level_fractiles"] = np.ascontiguousarray(fractiles.reshape(m, 3).T)
+        together.append(GroupData(values, histories, CurveData(status[r + w + i], curve)))
     found = unpack_warnings(parcel.lines[2 * number :])
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 

@@ -59,7 +59,12 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
     comments : iterable of str
         Lines for the head of the file.
     """
-    write_lines(path, csv_lines(table, [f"dondolo {constants().version}", *comments]))
+    write_lines(path, result_lines(table, comments))
+
+
+def result_lines(table: Table, comments: Iterable[str]) -> list[str]:
+    """Lines of a table of results; the first names dondolo."""
+    return csv_lines(table, [f"dondolo {constants().version}", *comments])
 
 
 def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], str] = digits) -> list[str]:

@@ -365,17 +365,12 @@ def multiple_stripe(
 def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:
     """The stripes up to a level."""
     levels, ran = request.levels[:complete], plan.ran[:complete]
-    flat: tuple[Any, ...] = outcome[:5]
-    edp, collapsed, impacts, time_of_peak, error = (in_matrix(values[: ran.sum()], ran) for values in flat)
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=levels,
-        edp=edp,
-        collapsed=collapsed,
-        impacts=impacts,
-        time_of_peak=time_of_peak,
         scale=np.where(ran, plan.scale[:complete], np.nan),
         ran=ran,
         record_names=tuple(request.records[i].name for i in plan.record),
@@ -385,7 +380,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
-        edp_error=error if estimated else None,
+        **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},
     )
 
 

@@ -71,26 +71,14 @@ def combine_rows(
         others.append(curve_of(data.walls[k], levels, n * conditional, n, **origin, saturation=occurrence))
     together = []
     for group in data.groups:
-        n = group.histories
-        share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
-        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
-        betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
-        together.append(
-            Group(
-                group=group.group,
-                mechanism=group.mechanism,
-                n_walls=group.walls,
-                weight=group.weight,
-                mean_fraction=group.mean_fraction,
-                mean_curve=group.mean_curve,
-                level_fractiles=group.fractiles,
-                beta_walls=betas[0],
-                beta_records=betas[1],
-                fitted=group.fitted,
-                saturation=group.saturation,
-                fit=fit,
-            )
-        )
+        n, values = group.histories, group.values
+        share, saturation = values["mean_fraction"], values["saturation"]
+        if saturation > 0.0:
+            share = share / saturation
+        if not values["fitted"] > 0.0:
+            values |= {"beta_walls": math.nan, "beta_records": math.nan}
+        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=saturation)
+        together.append(Group(**values, fit=fit))
     return Typology(
         population=people,
         im=im,

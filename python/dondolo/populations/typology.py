@@ -5,15 +5,15 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterable, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
-from dondolo._base.files import as_file, remove_old, whole_file
+from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
+from dondolo._base.transactions import publishing
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
@@ -296,14 +296,16 @@ class Typology(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
+        tables.write_csv(path, tables.choose(self._tables(), table), self._comments())
+
+    def _comments(self) -> list[str]:
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
-        comments = [
+        return [
             *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
             f"unit of im_level and theta: {unit_of(self.im) or '1'}",
             f"work: {counts}",
             *(f"warning: {sentence}" for sentence in self.warnings),
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
@@ -322,9 +324,9 @@ class Typology(Shown, Saved):
     def write_results(self, prefix: str | os.PathLike[str]) -> None:
         """Write all tables into files of the names that the executable gives them.
 
-        They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of
-        these names are replaced when all are written; what an earlier run has left with this prefix beside them, such
-        as ``out/centre_histories.csv``, is removed.
+        They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. They are
+        published at once, in place of those of an earlier run; what that run has left with this prefix beside them,
+        such as ``out/centre_histories.csv``, is removed.
 
         Parameters
         ----------
@@ -334,7 +336,7 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            Walls of different gravity, for which the files have no place.
+            Walls of different gravity, for which the files have no place; or another run is writing them.
         DondoloError
             A file cannot be written.
         """
@@ -344,15 +346,18 @@ class Typology(Shown, Saved):
                 f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
             )
         start = as_file("prefix", prefix)
-        with ExitStack() as files:
-            # The last to get its name, which makes the others a run
-            part = files.enter_context(whole_file(start.with_name(f"{start.name}_run.json")))
-            part.write_text(self._run_file(pulls.pop()).to_json() + "\n", encoding="utf-8")
-            for table in self._tables():
-                part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
-                self.to_csv(part, table)
-        for other in ("histories", "history"):
-            remove_old(start.with_name(f"{start.name}_{other}.csv"), "# dondolo ")
+        shape = self._shape()
+        comments = [f"shape: {', '.join(f'{name} = {count}' for name, count in shape.items())}", *self._comments()]
+        with publishing(start) as files:
+            for name, table in self._tables().items():
+                files.write(f"_{name}.csv", tables.result_lines(table(), [f"run: {files.run}", *comments]))
+            run = self._run_file(pulls.pop())
+            run = dataclasses.replace(run, run=files.run, shape=shape, files=tuple(files.written))
+            files.write("_run.json", [run.to_json()])
+            files.publish()
+
+    def _shape(self) -> dict[str, int]:
+        return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}
 
     def _run_file(self, gravity: float) -> RunFile:
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
