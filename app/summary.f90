@@ -192,8 +192,8 @@ contains
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse; filled up with blanks
-      character(len=100) :: text
+      !> The levels and their unit; a dash where so many cannot collapse, and why; filled up with blanks
+      character(len=160) :: text
 
       real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
       integer :: i
@@ -207,6 +207,7 @@ contains
          end if
       end do
       text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
+      if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
    end function fractiles
 
    !> Print the curves of a population

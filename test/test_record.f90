@@ -3,6 +3,7 @@ program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_row, only : cell_type, split_row, text_cell
    use dondolo_encoding, only : is_utf8, take_utf16
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
@@ -270,7 +271,30 @@ contains
          & ': read with '//semicolons//', decimal commas')
       call check_csv('a;b'//lf//'#N/D;2'//lf//'1,5;2'//lf, ': line 2: begins with # as a comment does')
       call check_csv('a;b'//lf//'1,5;2'//lf//'#12;2'//lf, ': line 3: begins with # as a comment does')
+      call check_cell('plain', 'plain', 'plain')
+      call check_cell(' a, "b" ', '" a, ""b"" "', '" a, ""b"" "')
+      call check_cell('=1+1', '=1+1', '''=1+1')
+      call check_cell('@a,b', '"@a,b"', '"''@a,b"')
+      call check_cell('-5', '-5', '''-5')
+      call check_cell('''=1', '''''=1', '''''=1')
+      call check_cell('''''', '''''''', '''''''')
+      call check_cell('''s Hertogenbosch', '''s Hertogenbosch', '''s Hertogenbosch')
+      call check_cell('''', '''', '''')
+      call check_cell('', '', '')
    end subroutine test_spreadsheets
+
+   !> A text as a cell, without and with a guard against spreadsheets, and read back
+   subroutine check_cell(text, cell, safe)
+      character(len=*), intent(in) :: text, cell, safe
+      type(cell_type), allocatable :: cells(:)
+      character(len=:), allocatable :: problem
+
+      call check_text(text_cell(text, .false.), cell, 'cell of '//text)
+      call check_text(text_cell(text, .true.), safe, 'safe cell of '//text)
+      call split_row('x,'//cell//','//safe, ',', cells, problem)
+      call check_text(cells(2)%text, text, 'cell read back')
+      call check_text(cells(3)%text, text, 'safe cell read back')
+   end subroutine check_cell
 
    !> A table of two numbers, and how it was read
    subroutine check_numbers(content, want, note)

@@ -231,10 +231,15 @@ class Incremental(Shown, Saved):
         """One of the tables 'records' and 'fractiles' as a pandas DataFrame; what is infinite is empty."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
-        """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "records", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'records' and 'fractiles'; what is infinite is empty.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.stripes.im)

@@ -266,14 +266,19 @@ class Stripes(Shown, Saved):
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "histories") -> None:
-        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "histories", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

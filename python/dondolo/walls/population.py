@@ -299,13 +299,15 @@ class Population(Shown):
         """
         return tables.frame(self._table())
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
+    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write the table that `read_population` and the executable read.
 
         Parameters
         ----------
         path : path
             The file; its folder must exist.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_population` takes it away.
 
         Raises
         ------
@@ -317,7 +319,8 @@ class Population(Shown):
         What is read back is the same to the bit. Gravity is no column: it is given again when the table is read. The
         lines of `origin` stand at the head.
         """
-        tables.write_lines(path, tables.csv_lines(population_table(self), self.origin, tables.shortest))
+        lines = tables.csv_lines(population_table(self), self.origin, tables.shortest, spreadsheet_safe)
+        tables.write_lines(path, lines)
 
     def _table(self) -> tables.Table:
         return walls_table(self.walls, self.weights, self.groups, self.p_occ)

@@ -198,6 +198,8 @@ contains
       if (table%column('file') == 0) then
          call raise_input(error, file//': no column ''file'': must have file, and dt_s and units '// &
             & 'where the files do not state them')
+      else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
+         call raise_input(error, file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
       else
          do
             call table%next(found, error)

@@ -8,7 +8,7 @@ module dondolo_wall
    use dondolo_one_sided, only : one_sided_type, new_one_sided
    use dondolo_property, only : check_number
    use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_two_block, only : two_block_type, new_two_block
    use dondolo_wall_properties, only : gravity_property, mechanism_names, standard_gravity, wall_input_type
    implicit none
@@ -27,6 +27,8 @@ module dondolo_wall
       real(wp) :: radius = 0.0_wp
       !> Slenderness angle of the wall, of the lower block for two_block [rad]
       real(wp) :: alpha = 0.0_wp
+      !> Was a bearing given?
+      logical :: bears = .false.
       !> What the motion integrates
       class(mechanism_type), allocatable :: mechanism
    contains
@@ -79,23 +81,22 @@ contains
 
       type(problems_type) :: problems
       character(len=:), allocatable :: mechanism, allowed
-      logical :: bears
 
       if (present(gravity)) wall%gravity = gravity
       wall%input = input
       mechanism = input%word('mechanism')
       if (.not. any(mechanism == mechanism_names)) mechanism = ''
-      bears = input%has('bearing') .or. input%has('bearing_distance')
+      wall%bears = input%has('bearing') .or. input%has('bearing_distance')
       call wall%input%fill(mechanism)
       call wall%input%set('name', trim(wall%input%word('name')))
-      if (bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
+      if (wall%bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
       call wall%input%check(problems, 'mechanism', mechanism)
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
       if (mechanism == 'two_block') call check_load(problems, wall%input)
       call problems%raise(error)
       if (allocated(error)) return
-      if (bears) call replace_bearing(wall%input)
+      if (wall%bears) call replace_bearing(wall%input)
       call build_mechanism(wall, error)
    end subroutine new_wall
 
@@ -179,7 +180,8 @@ contains
       eccentricity = input%number('eccentricity')
       if (.not. (input%has('bearing') .or. input%has('bearing_distance'))) then
          if (half > 0.0_wp .and. .not. abs(eccentricity) <= half) call problems%note('eccentricity = '// &
-            & to_text(eccentricity)//': must lie between -'//to_text(half)//' and '//to_text(half)// &
+            & to_text(eccentricity)//': must lie between -'//brief(half)//' and '// &
+            & brief(half)// &
             & ' (half the thickness)')
       else if (input%has('eccentricity')) then
          call problems%note('eccentricity = '//to_text(eccentricity)// &
@@ -193,7 +195,7 @@ contains
          call problems%note('bearing_distance: must be given with bearing = '''//input%word('bearing')//'''')
       else if (thickness > 0.0_wp .and. .not. (distance >= 0.0_wp .and. distance <= thickness)) then
          call problems%note('bearing_distance = '//to_text(distance)//': must lie between 0 and '// &
-            & to_text(thickness)//' (the thickness)')
+            & brief(thickness)//' (the thickness)')
       end if
    end subroutine check_load
 

@@ -26,7 +26,7 @@ module dondolo_case
    use dondolo_suite, only : new_suite, suite_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type
    implicit none
@@ -137,6 +137,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(study_type) :: study
+      character(len=:), allocatable :: note
       integer :: range(2)
 
       range = [1, huge(1)]
@@ -146,8 +147,14 @@ contains
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       case%survey%is_part = present(rows)
-      if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
-         & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
+      if (.not. present(rows) .or. case%survey%last == range(2)) return
+      note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
+         & to_text(case%survey%rows)//' rows'
+      if (case%survey%first > case%survey%rows) then
+         call raise_input(error, note)
+      else
+         call case%notes%add(note)
+      end if
    end subroutine survey
 
    !> Check that the groups suit the task
@@ -348,7 +355,7 @@ contains
                call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
                   & ' of 0 and cannot be scaled to a level', error)
             else
-               call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
+               call raise_input(error, group%place()//': the scale '//brief(scale)//' makes record '''// &
                   & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
                   & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
             end if

@@ -2,6 +2,7 @@
 !> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
+   use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_report_rows, only : fragility_head, history_head, make_fragility_row, make_history_row, &
@@ -140,7 +141,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_row(member, line)
+         call make_wall_row(member, case%job%spreadsheet_safe, line)
          call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)
@@ -168,13 +169,14 @@ contains
       call case%make_study(study)
       call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (.not. plan%ran(i, j)) cycle
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
-            call make_history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
+            call make_history_row(cells, text_cell(case%suite%records(plan%record(i))%name, &
+               & case%job%spreadsheet_safe), plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j), line)
             call files%line(line//last)
          end do
@@ -191,7 +193,7 @@ contains
       character(len=:), allocatable :: cells, line
       integer :: j, k
 
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
             call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), &
@@ -211,7 +213,7 @@ contains
       character(len=:), allocatable :: cells, line
       integer :: k
 
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do k = 1, size(case%stripes%thresholds)
          call make_fragility_row(cells, case%stripes%scaling%name, row%curve(k), case%stripes%thresholds(k), line)
          call files%line(line)
