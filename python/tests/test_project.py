@@ -302,17 +302,19 @@ def test_options_are_keywords():
 
 # What may be left out and still goes by its place: the one thing that a call is about
 BY_PLACE = {
-    "levels",
     "ax",
     "edp_threshold",
+    "height",
     "ims",
     "kind",
+    "levels",
     "measure",
     "name",
     "probabilities",
     "q",
     "scale",
     "table",
+    "thickness",
     "weights",
 }
 

@@ -12,7 +12,7 @@ import numpy as np
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
-from dondolo._fortran.walls import WALL_PROPERTIES
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -24,10 +24,12 @@ from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
-from dondolo.walls.wall import MECHANISMS, Wall
+from dondolo.walls.wall import MECHANISMS, Wall, numbered
 
 # Columns of _walls.csv and the numbers of a wall
-_WALL_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column and row.kind != "text"}
+_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
+_WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
+_LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,8 +145,11 @@ def _population(table: ResultFile, gravity: float) -> Population:
     walls: list[Wall] = []
     for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
-            argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
+            argument: table.number(column, i)
+            for column, argument in _WALL_COLUMNS.items()
+            if (column in table or argument not in WALL_EXTRAS) and table.texts(column)[i]
         }
+        given |= {argument: values for column, argument in _LIST_COLUMNS.items() if (values := _list(table, column, i))}
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
@@ -153,6 +158,15 @@ def _population(table: ResultFile, gravity: float) -> Population:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
     return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
+
+
+def _list(table: ResultFile, column: str, i: int) -> list[Any]:
+    """Values of a list in a row, up to the first that is not there."""
+    values: list[Any] = []
+    while (one := numbered(column, len(values) + 1)) in table and table.texts(one)[i]:
+        is_word = _LIST_COLUMNS[column] in WALL_WORDS
+        values.append(table.texts(one)[i] if is_word else table.number(one, i))
+    return values
 
 
 def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:

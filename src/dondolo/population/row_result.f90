@@ -51,13 +51,13 @@ contains
    ! The lengths precede what is as long; otherwise gfortran 12 reports an implicit interface.
 
    !> Bytes that the flags of a row take
-   pure integer function bytes_of_flags(shape, histories)
+   pure integer(int64) function bytes_of_flags(shape, histories)
       !> How many levels and states there are
       type(shape_type), intent(in) :: shape
       !> Histories of a stripe
       integer, intent(in) :: histories
 
-      bytes_of_flags = int((int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64)
+      bytes_of_flags = (int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64
    end function bytes_of_flags
 
    !> Bytes that a row takes
@@ -67,7 +67,7 @@ contains
       !> Histories of a stripe
       integer, intent(in) :: histories
 
-      bytes_of_row = work_bytes + int(bytes_of_flags(shape, histories), int64)
+      bytes_of_row = work_bytes + bytes_of_flags(shape, histories)
       if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
    end function bytes_of_row
 
@@ -161,8 +161,7 @@ contains
       !> The row: its number and its histories are given, all else is set
       type(row_result_type), intent(inout) :: row
 
-      integer(int64) :: counts(work_counts), at, number
-      integer :: flags
+      integer(int64) :: counts(work_counts), at, number, flags
 
       counts = transfer(bytes(:work_bytes), counts)
       row%work = work_type(histories=counts(1), still=counts(2), in_lanes=counts(3), intervals=counts(4), &

@@ -4,12 +4,12 @@ module dondolo_report_rows
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type
-   use dondolo_property, only : column_name
+   use dondolo_property, only : column_name, is_list, is_many, is_words, word_of
    use dondolo_response, only : response_type
    use dondolo_text, only : to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : is_beyond_bare, wall_properties
    implicit none
    private
 
@@ -40,15 +40,23 @@ contains
    end subroutine make_wall_cells
 
    !> Names of the columns of a wall: its properties, and what follows from them
-   subroutine make_wall_head(head)
+   subroutine make_wall_head(lengths, head)
+      !> How many values each property has at most; as many columns has a list
+      integer, intent(in) :: lengths(:)
       !> Names
       character(len=:), allocatable, intent(out) :: head
 
-      integer :: i
+      integer :: i, k
 
       head = ''
       do i = 1, size(wall_properties)
-         if (wall_properties(i)%replaced) cycle
+         if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+         if (is_many(wall_properties(i)%kind)) then
+            do k = 1, lengths(i)
+               head = head//','//trim(column_name(wall_properties(i), k))
+            end do
+            cycle
+         end if
          if (len(head) > 0) head = head//','
          head = head//trim(column_name(wall_properties(i)))
       end do
@@ -56,21 +64,36 @@ contains
    end subroutine make_wall_head
 
    !> A wall: its properties, empty cells for those that it does not have, and its static quantities
-   subroutine make_wall_row(member, is_safe, row)
+   subroutine make_wall_row(member, lengths, is_safe, row)
       !> The wall, one mechanism of it
       type(member_type), intent(in) :: member
+      !> How many values each property has at most
+      integer, intent(in) :: lengths(:)
       !> Are texts to be no formulas in a spreadsheet?
       logical, intent(in) :: is_safe
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      integer :: i
+      real(wp), allocatable :: values(:)
+      integer :: i, k
 
       row = ''
       associate (wall => member%wall)
          do i = 1, size(wall_properties)
             associate (name => wall_properties(i)%name)
-               if (wall_properties(i)%replaced) cycle
+               if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+               if (wall_properties(i)%kind == is_list) values = wall%input%list(name)
+               if (is_many(wall_properties(i)%kind)) then
+                  do k = 1, lengths(i)
+                     row = row//','
+                     if (wall_properties(i)%kind == is_words) then
+                        row = row//trim(word_of(wall%input%word(name), k))
+                     else if (k <= size(values)) then
+                        row = row//to_table(values(k))
+                     end if
+                  end do
+                  cycle
+               end if
                if (i > 1) row = row//','
                if (wall%input%has_word(name)) then
                   row = row//text_cell(wall%input%word(name), is_safe)

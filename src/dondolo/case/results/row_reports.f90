@@ -111,7 +111,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_head(line)
+         call make_wall_head(list_lengths(case), line)
          call files%line(line)
       case ('_histories.csv')
          if (case%solver%solver%estimate_error) then
@@ -125,6 +125,19 @@ contains
          call files%line(fragility_head)
       end select
    end subroutine write_names
+
+   !> How many values each property of the walls has at most
+   function list_lengths(case) result(lengths)
+      type(case_type), intent(in) :: case
+      !> Their numbers, in the order of the table of properties
+      integer, allocatable :: lengths(:)
+
+      if (case%job%task == 'typology') then
+         lengths = case%survey%lengths
+      else
+         lengths = case%wall%input%lengths()
+      end if
+   end function list_lengths
 
    !> Lines of a wall, or of one of its mechanisms, in a table
    subroutine write_row(case, member, row, name, files, error)
@@ -141,7 +154,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_row(member, case%job%spreadsheet_safe, line)
+         call make_wall_row(member, list_lengths(case), case%job%spreadsheet_safe, line)
          call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)

@@ -2,6 +2,7 @@
 module dondolo_plausibility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
+   use dondolo_property, only : is_list
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_warning, only : warning_type, warnings_type
@@ -42,17 +43,21 @@ contains
       class(wall_warning_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
 
-      real(wp) :: value
+      real(wp), allocatable :: values(:)
+      real(wp) :: low, high
       logical :: outside(2)
       integer :: i
 
       self%walls = self%walls + 1
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
-            value = wall%input%number(property%name)
+            values = [wall%input%number(property%name)]
+            if (property%kind == is_list) values = wall%input%list(property%name)
             ! No overburden is no mistake
-            outside = value > 0.0_wp .and. [value < property%usual_least, value > property%usual_most]
-            call note(self, wall, i, outside, value)
+            low = minval(values, mask=values > 0.0_wp)
+            high = maxval(values)
+            call note(self, wall, i, [low < property%usual_least, .false.], low)
+            call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate
       end do
       associate (input => wall%input)
