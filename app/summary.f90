@@ -144,13 +144,13 @@ contains
       character(len=120) :: line
       character(len=24) :: counts
       real(wp) :: fraction
-      integer :: j, k, histories
+      integer :: j, k
 
       call make_head(case, head)
-      histories = results%row%histories
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
-         associate (collapses => results%row%reached(j, size(results%row%reached, 2)))
+         associate (collapses => results%row%reached(j, size(results%row%reached, 2)), &
+            & histories => results%row%histories(j))
             counts = to_text(collapses)//'/'//to_text(histories)
             fraction = real(collapses, wp)/real(histories, wp)
          end associate

@@ -51,7 +51,7 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility, extrapolation
-from dondolo.errors import DondoloError, DondoloWarning
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -269,13 +269,15 @@ def incremental(stripes: Stripes) -> Incremental:
     Raises
     ------
     InputError
-        What is given is no stripes.
+        What is given is no stripes, or their levels have records of their own.
 
     Notes
     -----
     Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
     """
     instance_of("stripes", stripes, Stripes, "no Stripes")
+    if not stripes.ran.all():
+        raise InputError("stripes: have records of their own at each level: every record must run at every level")
     levels, collapsed = stripes.levels, stripes.collapsed
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])

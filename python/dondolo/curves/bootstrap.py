@@ -144,7 +144,7 @@ def resample(sample: Sample, times: FloatArray) -> Bootstrap:
     """Fit the histories again with each record taken so many times."""
     place = sample.record_index
     collapses = times[:, place] @ sample.collapsed.T.astype(np.float64)
-    histories = np.repeat(times[:, place].sum(axis=1, keepdims=True), len(sample.levels), axis=1)
+    histories = times[:, place] @ sample.ran.T.astype(np.float64)
     theta, beta, status = fit_samples(sample.levels, np.minimum(collapses, histories), histories)
     return Bootstrap(theta=theta, beta=beta, status=status)
 

@@ -22,6 +22,8 @@ class Sample:
         Intensities of the stripes.
     collapsed : ndarray of bool, shape (levels, histories)
         Which histories collapse, or reach the damage state of the curve.
+    ran : ndarray of bool, shape (levels, histories)
+        Which histories were run.
     record_index : ndarray of int, shape (histories,)
         Record of each history, from 0.
     record_names : tuple of str
@@ -30,6 +32,7 @@ class Sample:
 
     levels: FloatArray
     collapsed: np.ndarray[Any, np.dtype[np.bool_]]
+    ran: np.ndarray[Any, np.dtype[np.bool_]]
     record_index: np.ndarray[Any, np.dtype[np.int64]]
     record_names: tuple[str, ...]
 

@@ -208,29 +208,44 @@ def _stripes(
     table: ResultFile, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
 ) -> Stripes:
     """All histories of a wall."""
-    levels = np.unique(table.numbers("im_level"))
-    if len(table) % len(levels):
-        raise ValueError(f"{len(table)} rows: must be as many at each of the {len(levels)} levels")
-    shape = (len(levels), len(table) // len(levels))
-    first = slice(0, shape[1])
-    polarity = [-1 if word == "reversed" else 1 for word in table.texts("polarity")[first]]
+    levels, row = np.unique(table.numbers("im_level"), return_inverse=True)
+    # The histories of a stripe are those of all records, and again in the other polarity if there are two.
+    signs = [-1 if word == "reversed" else 1 for word in table.texts("polarity")]
+    names, both = tuple(dict.fromkeys(table.texts("record"))), tuple(dict.fromkeys(signs))
+    places = {pair: i for i, pair in enumerate((sign, name) for sign in both for name in names)}
+    column = np.array([places[pair] for pair in zip(signs, table.texts("record"), strict=True)])
+    ran = np.zeros((len(levels), len(places)), dtype=bool)
+    ran[row, column] = True
+    if np.count_nonzero(ran) < len(table):
+        raise ValueError(f"{len(table)} rows: a record is a duplicate at a level")
+    # To estimate errors every history runs twice.
+    histories = work.histories // (2 if "edp_error" in table else 1)
+    if len(table) != histories:
+        raise ValueError(f"{len(table)} rows: must be {histories}, the histories of the run")
+
+    def matrix(values: Any) -> Any:
+        found = np.full(ran.shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
+        found[row, column] = values
+        return found
+
     return Stripes(
         wall=wall,
         im=table.texts("im")[0],
         levels=levels,
-        edp=table.numbers("edp").reshape(shape),
-        collapsed=table.numbers("collapsed").reshape(shape) == 1.0,
-        impacts=table.counts("impacts").reshape(shape),
-        time_of_peak=table.numbers("time_of_peak_s").reshape(shape),
-        scale=table.numbers("scale").reshape(shape),
-        record_names=tuple(table.texts("record")[first]),
-        polarity=np.asarray(polarity, dtype=np.int32),
+        edp=matrix(table.numbers("edp")),
+        collapsed=matrix(table.numbers("collapsed")) == 1.0,
+        impacts=matrix(table.counts("impacts")),
+        time_of_peak=matrix(table.numbers("time_of_peak_s")),
+        scale=matrix(table.numbers("scale")),
+        ran=ran,
+        record_names=names * len(both),
+        polarity=np.repeat(np.asarray(both, dtype=np.int32), len(names)),
         engine=engine,
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
         work=work,
-        edp_error=table.numbers("edp_error").reshape(shape) if "edp_error" in table else None,
+        edp_error=matrix(table.numbers("edp_error")) if "edp_error" in table else None,
     )
 
 
@@ -243,7 +258,7 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
         product = " x ".join(map(str, shape))
         raise ValueError(f"{len(table)} rows: must be {product}, one for each wall, damage state and level")
     counts = table.counts("collapses").reshape(shape).transpose(1, 2, 0)
-    histories = table.counts("histories", 1).reshape(shape)[:, 0, 0]
+    histories = table.counts("histories", 1).reshape(shape)[:, 0].T
     everyone = np.ones(len(population), dtype=bool)
     im = table.texts("im")[0]
     result = combine(population, im, levels, thresholds, counts, histories, everyone, work)

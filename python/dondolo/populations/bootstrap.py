@@ -142,7 +142,8 @@ def resample_population(
     ]
     fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
     counted = np.isfinite(fraction[:, 0])
-    histories = np.full_like(fraction, _histories_behind(rows, flags))
+    # Levels at which none of the drawn records runs count for nothing.
+    histories = np.broadcast_to(_histories_behind(rows, flags) * flags.drawn(records), fraction.shape)
     occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
     share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
     theta, beta, status = fit_samples(levels, share * histories, histories)
@@ -213,7 +214,9 @@ def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> Flo
         # Both polarities of a record stay together.
         of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
         drawn = records @ of_record.reshape(walls * levels, -1).T
-        fractions[places] = np.moveaxis(drawn.reshape(len(records), walls, levels), 1, 0) / histories
+        number = np.broadcast_to(histories * flags.drawn(records), (walls, len(records), levels))
+        found = np.moveaxis(drawn.reshape(len(records), walls, levels), 1, 0)
+        fractions[places] = np.divide(found, number, out=np.zeros(number.shape), where=number > 0.0)
     return fractions
 
 
@@ -229,7 +232,7 @@ def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]
 
 
 def _histories_behind(rows: _Rows, flags: Flags) -> float:
-    """Histories at each level that the fit takes the mean fraction for."""
+    """Histories that the fit takes the mean fraction for, at a level at which every record runs."""
     begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
     histories = np.minimum.reduceat(flags.histories[rows.row], begins)
     weight = rows.weight[begins]

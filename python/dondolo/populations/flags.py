@@ -28,14 +28,14 @@ class Flags:
     Attributes
     ----------
     histories : ndarray of int, shape (walls,)
-        Histories of a stripe of each wall.
+        Histories of each wall in a stripe in which every record runs.
     levels : int
         Number of levels.
     states : int
         Number of states, collapse among them.
-    records : int
-        Number of records: the histories of a stripe are those of all records, and again in the other polarity if there
-        are two.
+    runs : ndarray, shape (records, levels)
+        1 where a record runs at a level, else 0. The histories of a wall are those of all records, and again in the
+        other polarity if there are two.
     bits : ndarray of uint8
         Eight flags a byte.
     state : int
@@ -45,22 +45,38 @@ class Flags:
     histories: NDArray[np.int32]
     levels: int
     states: int
-    records: int
+    runs: FloatArray
     bits: Bits
     state: int = -1
 
     @classmethod
-    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, records: int) -> Flags:
+    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, runs: FloatArray) -> Flags:
         """No history reaches anything."""
         sizes = _bytes_of(histories, levels * states)
-        return cls(histories, levels, states, records, np.zeros(int(sizes.sum()), dtype=np.uint8))
+        return cls(histories, levels, states, runs, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
     @classmethod
     def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
-        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
+        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known.
+
+        Histories are (levels, walls).
+        """
         states, levels, walls = exceedances.shape
-        bits = [np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None]) for i in range(walls)]
-        return cls(histories, levels, states, 1, np.concatenate(bits))
+        most = histories.max(axis=0)
+        bits = [np.packbits(np.arange(most[i]) < exceedances[:, :, i, None]) for i in range(walls)]
+        # Levels have the same share of the records for all walls.
+        return cls(most, levels, states, (histories[:, 0] / most[0])[None, :], np.concatenate(bits))
+
+    @property
+    def records(self) -> int:
+        """Number of records."""
+        return len(self.runs)
+
+    def drawn(self, records: FloatArray) -> FloatArray:
+        """Histories at each level (samples, levels), relative to all records, if each record comes so many times."""
+        if self.runs.all():
+            return np.ones((len(records), self.levels))
+        return np.asarray(records @ self.runs / self.records)
 
     @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:

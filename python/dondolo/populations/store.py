@@ -93,7 +93,7 @@ class Store:
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
-        flags = Flags(histories[complete], levels, states, len(request.records), packed)
+        flags = Flags(histories[complete], levels, states, request.runs, packed)
         return Contents(complete, exceedances, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:

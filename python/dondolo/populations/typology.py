@@ -53,8 +53,8 @@ class Typology(Shown, Saved):
         Rotation / capacity, increasing; the last is that of collapse, edp_limit.
     exceedances : ndarray of int, shape (thresholds, levels, rows)
         How many histories of each row reach them.
-    histories : ndarray of int, shape (rows,)
-        Histories of a stripe of each row.
+    histories : ndarray of int, shape (levels, rows)
+        Histories of each row in each stripe.
     curves : tuple of Fragility
         Curve of each row.
     combined : dict of str to Fragility

@@ -11,8 +11,8 @@ module dondolo_stripe_counts
 
    !> Counts and curves of a wall, or of one of its mechanisms
    type :: stripe_counts_type
-      !> Histories of a stripe
-      integer :: histories = 0
+      !> Histories of each stripe
+      integer, allocatable :: histories(:)
       !> Histories that reach a threshold (levels, thresholds)
       integer, allocatable :: reached(:, :)
       !> Curve of each threshold
@@ -35,15 +35,14 @@ contains
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: histories(:)
       integer :: k
 
-      self%histories = size(stripes%record)
+      self%histories = stripes%histories()
       allocate (self%reached(size(stripes%levels), size(thresholds)), self%curve(size(thresholds)))
-      histories = spread(real(self%histories, wp), 1, size(stripes%levels))
       do k = 1, size(thresholds)
          self%reached(:, k) = stripes%exceedances(thresholds(k))
-         call fit_fragility(self%curve(k), stripes%levels, real(self%reached(:, k), wp), histories, error)
+         call fit_fragility(self%curve(k), stripes%levels, real(self%reached(:, k), wp), &
+            & real(self%histories, wp), error)
          if (allocated(error)) return
       end do
    end subroutine counts_of

@@ -1,6 +1,6 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
-   use dondolo_catalogue, only : read_catalogue
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, history_input_type, read_history_group
@@ -54,6 +54,8 @@ module dondolo_case
       type(records_input_type) :: records_input
       !> The accelerograms, measured where they are scaled to levels
       type(suite_type) :: suite
+      !> Factor on each at each level, as in study_type; not allocated: every record runs at every level
+      real(wp), allocatable :: factor(:, :)
       !> Intensity measure and levels
       type(stripes_input_type) :: stripes
       !> How the motions are computed
@@ -91,6 +93,7 @@ contains
 
       type(namelist_type) :: namelist
       type(wall_input_type) :: wall
+      type(record_rows_type) :: runs
 
       case%file = file
       call check_variant(error)
@@ -111,8 +114,9 @@ contains
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
       if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
-      if (.not. allocated(error)) call read_records(namelist%group('records'), case, error)
+      if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
       if (.not. allocated(error)) call measure_case(namelist, case, error)
+      if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
@@ -242,11 +246,13 @@ contains
    end subroutine check_combinations
 
    !> Read the accelerograms
-   subroutine read_records(group, case, error)
+   subroutine read_records(group, case, rows, error)
       !> The group &records
       type(group_type), intent(in) :: group
       !> The case: its records are read
       type(case_type), intent(inout) :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(out) :: rows
       !> What is wrong with them, or too little memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -260,7 +266,7 @@ contains
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note)
+      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows)
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return
@@ -308,6 +314,26 @@ contains
       if (allocated(error)) return
       if (case%is_scaled()) call case%suite%measure(case%stripes%scaling%measure, case%job%threads)
    end subroutine measure_case
+
+   !> Choose the records of each level
+   subroutine choose_records(namelist, case, rows, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(inout), target :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(in) :: rows
+      !> A level that is not among the others, or has no record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(study_type) :: study
+
+      if (case%job%task == 'history') return
+      call case%make_study(study)
+      call study%set_rows(rows, error)
+      group = namelist%group('stripes')
+      call group%locate(error)
+      if (.not. allocated(error)) call move_alloc(study%factor, case%factor)
+   end subroutine choose_records
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(namelist, case, error)
@@ -364,6 +390,7 @@ contains
       if (present(threads)) team = threads
       call new_study(study, self%suite, self%stripes%scaling, self%stripes%levels, self%records_input%polarity, &
          & self%solver%solver, team)
+      if (allocated(self%factor)) study%factor = self%factor
       study%thresholds = self%stripes%thresholds
       study%keeps_histories = self%job%task == 'stripes' .or. self%job%histories
       study%solver%collapses_only = size(study%thresholds) == 1 .and. .not. study%keeps_histories

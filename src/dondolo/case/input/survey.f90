@@ -102,7 +102,7 @@ contains
             call survey%scales%look(plan, study%suite%records)
             call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
-               survey%histories = survey%histories + size(plan%scale)
+               survey%histories = survey%histories + count(plan%ran)
             end if
          end if
          call problems%take(error)

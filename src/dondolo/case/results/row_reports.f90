@@ -47,7 +47,7 @@ contains
                call raise_failure(error, case%population_path()//': has changed while it was read')
             end if
             if (allocated(error) .or. .not. found) exit
-            row%histories = population%histories(i)
+            row%histories = population%histories(:, i)
             row%reached = population%reached(:, :, i)
             row%curve = population%curve(:, i)
             if (name == '_histories.csv') call read_histories(results, i, row, error)
@@ -186,6 +186,7 @@ contains
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
+            if (.not. plan%ran(i, j)) cycle
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
             call make_history_row(cells, text_cell(case%suite%records(plan%record(i))%name, &
                & case%job%spreadsheet_safe), plan%polarity(i), plan%im, &
@@ -208,7 +209,7 @@ contains
       call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
-            call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories, &
+            call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), &
                & row%reached(j, k), case%stripes%thresholds(k), line)
             call files%line(line)
          end do

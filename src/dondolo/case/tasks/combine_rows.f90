@@ -2,10 +2,12 @@
 module dondolo_combine_rows
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type, raise_failure
+   use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_population_counts, only : new_population_counts
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
+   use dondolo_study, only : study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_warnings, only : fit_warning_type, warn_of_records
    implicit none
@@ -17,19 +19,21 @@ contains
 
    !> Curves of the population, and what there is to warn of
    subroutine combine_rows(case, results, error)
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its results: the stores are there; counts, curves and warnings are set
       type(results_type), intent(inout) :: results
       !> What cannot be combined
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(typology_type), allocatable :: typologies(:)
       type(fit_warning_type) :: fits
       integer :: k, states
 
       states = size(case%stripes%thresholds)
       call new_population_counts(results%population, case%survey%roster, case%stripes%levels, states, error)
-      if (.not. allocated(error)) call gather(results, error)
+      call case%make_study(study)
+      if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (allocated(error)) return
@@ -46,9 +50,11 @@ contains
    end subroutine combine_rows
 
    !> Counts of all rows
-   subroutine gather(results, error)
+   subroutine gather(results, share, error)
       !> Results: the counts of the population are set
       type(results_type), intent(inout) :: results
+      !> Share of the records that run at each level
+      real(wp), intent(in) :: share(:)
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
@@ -60,7 +66,7 @@ contains
             do i = store%identity%first, store%identity%last
                call store%read(i, row, error)
                if (allocated(error)) exit
-               population%histories(i) = row%histories
+               population%histories(:, i) = nint(real(row%histories, wp)*share)
                population%reached(:, :, i) = row%reached(store%identity%shape)
             end do
             call store%close()

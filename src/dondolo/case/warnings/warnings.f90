@@ -79,7 +79,7 @@ contains
 
       integer :: at(2)
 
-      self%histories = self%histories + size(stripes%scale, kind=int64)
+      self%histories = self%histories + count(stripes%ran, kind=int64)
       self%large = self%large + count(stripes%scale > large_scale, kind=int64)
       if (maxval(stripes%levels) > self%highest) then
          self%highest = maxval(stripes%levels)
@@ -273,7 +273,7 @@ contains
          call warning%about('record', records(stripes%record(at(1)))%name)
          call warning%with('limit', largest_sure_error)
          call warning%with('histories_beyond', number)
-         call warning%with('histories', size(stripes%response))
+         call warning%with('histories', count(stripes%ran))
          call warning%with('largest', stripes%response(at(1), at(2))%edp_error)
          call warning%with('level', stripes%levels(at(2)))
          call warnings%add(warning)
@@ -282,7 +282,7 @@ contains
       if (number == 0) return
       warning = warning_type('collapse_in_doubt')
       call warning%with('histories_in_doubt', number)
-      call warning%with('histories', size(stripes%response))
+      call warning%with('histories', count(stripes%ran))
       call warnings%add(warning)
    end subroutine warn_of_errors
 
