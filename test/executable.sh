@@ -536,7 +536,7 @@ s/one_sided'/two_block' overburden = -1/|bad.nml: &wall: overburden = -1: must l
 s/one_sided'/two_block' eccentricity = 0.2/|bad.nml: &wall: eccentricity = 0.2: must lie between -0.125 and 0.125
 s/one_sided'/two_block' bearing = 'inner'/|bad.nml: &wall: bearing_distance: must be given with bearing = 'inner'
 s/one_sided'/two_block' bearing = 'centre' eccentricity = 0/|bad.nml: &wall: eccentricity = 0: give either eccentricity or bearing
-s/one_sided'/one_sided' restitution = 'impulse'/|bad.nml: &wall: restitution = 'impulse': must be one of
+s/one_sided'/free_standing' restitution = 'sorrentino'/|bad.nml: &wall: restitution = 'sorrentino': must be one of
 s/one_sided'/one_sided' restitution = 'constant'/|bad.nml: &wall: restitution_value: must be given with
 s/one_sided'/one_sided' restitution_value = 0.5/|bad.nml: &wall: restitution_value = 0.5: only with restitution
 s/one_sided'/one_sided' restitution = 'constant' restitution_value = 1/|bad.nml: &wall: restitution_value = 1: must be at least 0

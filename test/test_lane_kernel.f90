@@ -114,7 +114,7 @@ contains
    subroutine test_promises()
       type(lanes_type) :: lanes, before
       integer, parameter :: points = 200
-      real(wp) :: y(0:points), h, rest
+      real(wp) :: y(0:points), h, rest, series(2:9)
       integer :: i, j, k, round, taken, wrong(5)
 
       taken = 0
@@ -135,7 +135,8 @@ contains
                cycle
             end if
             taken = taken + 1
-            y = [(value(before%y(j), before%v(j), lanes%series(j, :), h*k/points), k=0, points)]
+            series = lanes%series(j, :)
+            y = [(value(before%y(j), before%v(j), series, h*k/points), k=0, points)]
             if (any(y < 0.0_wp)) wrong(3) = wrong(3) + 1
             ! A new peak only at the end, where the motion goes on to rise
             if (maxval(y) > max(before%peak(j), y(0), y(points)) .or. maxval(y) >= y_limit .or. &
@@ -161,12 +162,13 @@ contains
    subroutine graze(lanes, form)
       type(lanes_type), intent(inout) :: lanes
       type(normal_form_type), intent(in) :: form
-      real(wp) :: y(0:50), off
+      real(wp) :: y(0:50), off, series(2:9)
       integer :: j, k
 
       call step_lanes(lanes, lane_width, form, samples, 0.0_wp, 0.0_wp)
       do j = 1, lane_width
-         y = [(value(lanes%y(j), lanes%v(j), lanes%series(j, :), lanes%step(j)*k/50.0_wp), k=0, 50)]
+         series = lanes%series(j, :)
+         y = [(value(lanes%y(j), lanes%v(j), series, lanes%step(j)*k/50.0_wp), k=0, 50)]
          off = between(random, -1.0_wp, 1.0_wp)*across(random, 1.0e-8_wp, 1.0e-1_wp)
          if (j > lane_width/2) lanes%y(j) = min(max(1.0e-9_wp, lanes%y(j) - minval(y) + off), 0.999_wp*y_limit)
          if (j <= lane_width/2) lanes%peak(j) = min(max(0.0_wp, maxval(y) + off), y_limit)
