@@ -9,9 +9,9 @@
 ! functions with results of deferred length keep it, since gfortran's are not safe in several threads (see dondolo_text).
 
 ! Version, defaults and limits that Python must not repeat
-subroutine constants(defaults, version, statuses)
+subroutine constants(defaults, version, statuses, errors)
    use, intrinsic :: iso_c_binding, only : c_double
-   use dondolo_fragility, only : status_names
+   use dondolo_fragility, only : error_names, status_names
    use dondolo_solver, only : solver_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : standard_gravity
@@ -19,7 +19,7 @@ subroutine constants(defaults, version, statuses)
    ! rtol, atol, edp_limit, gravity
    real(c_double), intent(out) :: defaults(4)
    character(len=32), intent(out) :: version
-   character(len=256), intent(out) :: statuses
+   character(len=256), intent(out) :: statuses, errors
    type(solver_type) :: solver
    integer :: i
 
@@ -28,6 +28,10 @@ subroutine constants(defaults, version, statuses)
    statuses = ''
    do i = 1, size(status_names)
       statuses = trim(statuses)//' '//status_names(i)
+   end do
+   errors = ''
+   do i = 1, size(error_names)
+      errors = trim(errors)//' '//error_names(i)
    end do
 end subroutine constants
 
@@ -1077,6 +1081,73 @@ subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat
    end do
    !$omp end parallel do
 end subroutine fit_curves
+
+! Clustered covariances (var ln theta, covariance, var beta) of k fitted curves from the collapses and histories of each of
+! g clusters at each of m levels; the histories are the same for all curves if h is 1, else h is k. errors are places among
+! the names, and clusters count those that have histories
+subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, stat, &
+      & message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room, report
+   use dondolo_clustered, only : cluster_errors
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : error_names, fragility_type, status_names
+   implicit none
+   !f2py threadsafe
+   integer(c_int), intent(in) :: m, g, k, h, statuses(k)
+   real(c_double), intent(in) :: levels(m), collapses(m, g, k), histories(m, g, h), curves(8, k)
+   real(c_double), intent(out) :: covariances(3, k)
+   integer(c_int), intent(out) :: errors(k), clusters(k), stat
+   character(len=2048), intent(out) :: message
+   type(fragility_type) :: curve
+   type(error_type), allocatable :: error
+   real(c_double) :: changes(2, g)
+   integer :: i
+
+   covariances = 0
+   errors = 0
+   clusters = 0
+   call check_room(error, reals=40.0_c_double*m)
+   call report(error, stat, message)
+   if (allocated(error)) return
+   !$omp parallel do default(none) private(curve, changes) &
+   !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
+   !$omp & shared(errors, clusters)
+   do i = 1, k
+      curve = fragility_type(status=status_names(statuses(i)), theta=curves(1, i), beta=curves(2, i))
+      call cluster_errors(curve, levels, collapses(:, :, i), histories(:, :, min(i, h)), changes)
+      covariances(:, i) = [curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2)]
+      errors(i) = findloc(error_names, curve%errors, dim=1)
+      clusters(i) = curve%clusters
+   end do
+   !$omp end parallel do
+end subroutine cluster_curves
+
+! Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors as cluster_curves
+subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, stat, message)
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room, report
+   use dondolo_clustered, only : cluster_errors
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : error_names, fragility_type
+   implicit none
+   integer(c_int), intent(in) :: m, g
+   real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
+   real(c_double), intent(out) :: changes(2, g)
+   integer(c_int), intent(out) :: errors, stat
+   character(len=2048), intent(out) :: message
+   type(fragility_type) :: curve
+   type(error_type), allocatable :: error
+
+   changes = 0
+   errors = 0
+   call check_room(error, reals=40.0_c_double*m)
+   call report(error, stat, message)
+   if (allocated(error)) return
+   curve = fragility_type(status='ok', theta=theta, beta=beta)
+   call cluster_errors(curve, levels, collapses, histories, changes)
+   errors = findloc(error_names, curve%errors, dim=1)
+end subroutine cluster_changes
 
 ! Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
 ! of its wall; shares: weight and probability of occurrence of each row; rows: how many each wall has. Integers: number of

@@ -20,7 +20,7 @@ from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_reque
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
-from dondolo.curves.sample import Sample
+from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall, upload, walls_table
@@ -61,6 +61,10 @@ class Stripes(Shown, Saved):
         What was computed, and what was not.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
+    events : tuple of str, length records
+        `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
+    checksums : tuple of str, length records
+        `Record.checksum` of each.
     """
 
     wall: Wall
@@ -79,6 +83,8 @@ class Stripes(Shown, Saved):
     edp_limit: float
     work: Work
     edp_error: FloatArray | None = None
+    events: tuple[str, ...] = ()
+    checksums: tuple[str, ...] = ()
 
     @property
     def records(self) -> int:
@@ -130,13 +136,16 @@ class Stripes(Shown, Saved):
         counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
         return counts
 
-    def fit(self, edp: float | None = None) -> Fragility:
-        """Fit a fragility curve by maximum likelihood.
+    def fit(self, edp: float | None = None, *, events: Sequence[Any] | None = None) -> Fragility:
+        """Fit a fragility curve by maximum likelihood, with standard errors that are clustered by record or by event.
 
         Parameters
         ----------
         edp : float, optional
             Rotation / capacity that makes a damage state; collapse if left out.
+        events : sequence, optional
+            A label for each record, such as its recording or its earthquake, in place of `events`: records with the
+            same label depend on each other.
 
         Returns
         -------
@@ -156,7 +165,7 @@ class Stripes(Shown, Saved):
             im=self.im,
             wall=self.wall,
             edp=state.edp_limit,
-            sample=state._sample(),
+            sample=state._sample(events),
         )
         low, high = curve.bracket
         numbers = np.zeros(8)
@@ -215,9 +224,19 @@ class Stripes(Shown, Saved):
         self.exceedances(edp)
         return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
 
-    def _sample(self) -> Sample:
+    def _sample(self, events: Sequence[Any] | None = None) -> Sample:
         """The histories as a curve keeps them."""
-        return Sample(self.levels, self.collapsed, self.record_index, self.record_names[: self.records])
+        names = self.record_names[: self.records]
+        return Sample(
+            self.levels,
+            self.collapsed,
+            np.ones(self.collapsed.shape, dtype=np.bool_),
+            self.record_index,
+            names,
+            cluster_labels(len(names), self.events, self.checksums)
+            if events is None
+            else given_labels(len(names), events),
+        )
 
     def _tables(self) -> dict[_Table, Any]:
         return {
@@ -361,6 +380,8 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         edp_limit,
         outcome.work,
         error if estimated else None,
+        tuple(record.event for record in records),
+        tuple(record.checksum for record in records),
     )
 
 

@@ -109,6 +109,9 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
             return replace(stored, response=_response(table, population.walls[0], result, limit))
         if task == "stripes":
             stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
+            if len(run.records) == stripes.records:
+                events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
+                stripes = replace(stripes, events=events, checksums=checksums)
             return replace(stored, stripes=stripes, fragility=stripes.fit())
         return replace(stored, typology=_typology(table, population, work, run.warnings))
 

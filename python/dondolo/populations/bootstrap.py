@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, one_of, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.curves.sample import given_labels
 from dondolo.curves.series import in_series
 from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
@@ -133,7 +134,8 @@ def resample_population(
         kinds = ("records",)
     records = np.ones((n, flags.records))
     if "records" in kinds:
-        records = draw_records(flags.records, n, generator, events)
+        labels = flags.clusters if events is None else given_labels(flags.records, events)
+        records = draw_records(labels, n, generator)
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
@@ -207,15 +209,7 @@ def _mean_fractions(
 
 def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
     """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
-    fractions = np.empty((len(records), len(row), flags.levels))
-    for places in flags.alike(row):
-        reached = flags.of(row[places])[:, flags.state]
-        walls, levels, histories = reached.shape
-        # Both polarities of a record stay together.
-        of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
-        drawn = records @ of_record.reshape(walls * levels, -1).T
-        fractions[:, places] = drawn.reshape(len(records), walls, levels) / histories
-    return fractions
+    return np.moveaxis(flags.fractions(row, records), 0, 1)
 
 
 def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]:

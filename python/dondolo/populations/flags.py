@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
+from dondolo.curves.sample import cluster_labels
 from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
@@ -31,9 +32,9 @@ class Flags:
         Number of levels.
     states : int
         Number of states, collapse among them.
-    records : int
-        Number of records: the histories of a stripe are those of all records, and again in the other polarity if there
-        are two.
+    clusters : tuple of str
+        Label of the cluster of each record (`Sample.clusters`): the histories of a stripe are those of all records, and
+        again in the other polarity if there are two.
     bits : ndarray of uint8
         Eight flags a byte.
     state : int
@@ -43,22 +44,27 @@ class Flags:
     histories: NDArray[np.int32]
     levels: int
     states: int
-    records: int
+    clusters: tuple[str, ...]
     bits: Bits
     state: int = -1
 
     @classmethod
-    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, records: int) -> Flags:
+    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, clusters: tuple[str, ...]) -> Flags:
         """No history reaches anything."""
         sizes = _bytes_of(histories, levels * states)
-        return cls(histories, levels, states, records, np.zeros(int(sizes.sum()), dtype=np.uint8))
+        return cls(histories, levels, states, clusters, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
     @classmethod
     def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
         """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
         states, levels, walls = exceedances.shape
         bits = [np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None]) for i in range(walls)]
-        return cls(histories, levels, states, 1, np.concatenate(bits))
+        return cls(histories, levels, states, cluster_labels(1), np.concatenate(bits))
+
+    @property
+    def records(self) -> int:
+        """Number of records."""
+        return len(self.clusters)
 
     @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:
@@ -81,6 +87,21 @@ class Flags:
         packed = self.bits[self._starts[chosen][:, None] + np.arange(size)]
         flags = np.unpackbits(packed, axis=1, count=self.states * self.levels * histories)
         return flags.reshape(len(chosen), self.states, self.levels, histories).view(np.bool_)
+
+    def fractions(self, walls: ArrayLike, member: FloatArray) -> FloatArray:
+        """Shares (walls, clusters, levels) of the histories of walls that reach the state, cluster by cluster.
+
+        `member` (clusters, records) says which records a cluster has; the shares of all clusters add up to the fraction.
+        """
+        chosen = np.asarray(walls)
+        found = np.empty((len(chosen), len(member), self.levels))
+        for places in self.alike(chosen):
+            reached = self.of(chosen[places])[:, self.state]
+            rows, levels, histories = reached.shape
+            # Both polarities of a record stay together.
+            of_record = reached.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)
+            found[places] = np.swapaxes(of_record @ member.T, 1, 2) / histories
+        return found
 
     def at(self, state: int) -> Flags:
         """The same, of another state."""

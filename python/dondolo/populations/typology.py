@@ -166,8 +166,12 @@ class Typology(Shown):
             from dondolo.populations.combination import combine_rows
 
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
-            flags = None if self.flags is None else self.flags.at(int(place[0]))
-            self._states[value] = dataclasses.replace(state, flags=flags)
+            if self.flags is not None:
+                from dondolo.populations.errors import with_clustered_errors
+
+                flags = self.flags.at(int(place[0]))
+                state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
+            self._states[value] = state
             _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 

@@ -1,4 +1,4 @@
-!> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format and name, and any others.
+!> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format, name and event, and any others.
 !>
 !> Each record has a name of its own. Where the catalogue gives none and stems of files are the same, the names get the
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
@@ -190,6 +190,7 @@ contains
       if (.not. allocated(error)) call read_record(path, record, error, dt, units, &
          & table%get_text(table%column('channel')), table%get_text(table%column('format')))
       record%file = path
+      call record%metadata%set('event', table%get_text(table%column('event')))
       call add_place(error, table%place())
    end subroutine read_row
 
