@@ -117,7 +117,7 @@ def curves(study):
     )
     for one in study.typology.groups:
         print(
-            f"{one.group or 'population'}, {one.mechanism}: {one.walls} walls, {text(one.fit)}, beta_walls"
+            f"{one.group or 'population'}, {one.mechanism}: {one.n_walls} walls, {text(one.fit)}, beta_walls"
             f" {one.beta_walls:.3f}, beta_records {one.beta_records:.3f}, fitted {one.fitted:.4f}, saturation"
             f" {one.saturation:.4f}"
         )
@@ -127,10 +127,10 @@ def curves(study):
         for what, events in (("one by one", None), ("in pairs of components", study.events)):
             errors = []
             for over in (("records",), ("walls",), ("records", "walls")):
-                samples = study.typology[mechanism].bootstrap(SAMPLES, over=over, events=events)
+                samples = study.typology[mechanism].bootstrap(n_resamples=SAMPLES, over=over, events=events)
                 errors.append(f"{' and '.join(over)} {samples.se_ln_theta:.4f}")
             print(f"   bootstrap, records drawn {what}, over", ", ".join(errors))
-    low, high = study.typology["all"].bootstrap(SAMPLES, events=study.events).mean_interval()
+    low, high = study.typology["all"].bootstrap(n_resamples=SAMPLES, events=study.events).mean_interval()
     shares = study.typology["all"].level_fractiles
     for level in (0.3, 0.5, 1.0):
         j = int(np.argmin(abs(LEVELS - level)))
@@ -192,7 +192,7 @@ def occurrence(study):
     certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
     for what, typology in (("as assumed", study.typology), ("1 everywhere", certain)):
         means = ", ".join(f"{typology['all'].mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
-        frequency = typology["all"].risk(HAZARD).frequency
+        frequency = typology["all"].risk(HAZARD).annual_frequency
         print(
             f"p_occ {what}: {text(typology['all'].fit)}, saturation {typology['all'].saturation:.3f}; mean {means};"
             f" {frequency:.3g} per year; the mean is 0.5 at {level_of(typology['all'].mean, 0.5):.3f} g"
@@ -262,7 +262,7 @@ def intensities(study):
                 f"{mechanism} {text(one.fit)}, beta_walls {one.beta_walls:.3f}, beta_records {one.beta_records:.3f},"
                 f" total {one.beta_total:.3f}, fitted {one.fitted:.3f}"
             )
-        error = typology["one_sided"].bootstrap(SAMPLES, over="records").se_ln_theta
+        error = typology["one_sided"].bootstrap(n_resamples=SAMPLES, over="records").se_ln_theta
         print(f"{im}:", "; ".join(parts), f"; se over records, one_sided {error:.3f}")
 
 
@@ -399,15 +399,15 @@ def risk(study):
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
             curve = state[mechanism]
-            mean, fit = (dd.mean_annual_frequency(one, HAZARD).frequency for one in (curve.mean, curve.fit))
+            mean, fit = (dd.mean_annual_frequency(one, HAZARD).annual_frequency for one in (curve.mean, curve.fit))
             print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
-    alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).frequency
+    alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).annual_frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = study.typology["all"].risk(HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (0.2, 1.0), (1.0, 2.0), (2.0, 10.0)):
-        print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.frequency:.3f}")
+        print(f"   from {low} to {high} g: {one.deaggregate([low, high])[0] / one.annual_frequency:.3f}")
     for years in (50.0, 475.0, 2475.0):
-        alike = -np.expm1(-years * one.frequency)
+        alike = -np.expm1(-years * one.annual_frequency)
         print(f"   lost in {years:g} years: {one.probability(years):.4g}; if all walls were identical {alike:.4g}")
 
 

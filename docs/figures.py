@@ -238,8 +238,8 @@ def spectra():
     ]
     figure, axes = new_axes(1, 3, (10.4, 3.8))
     for name, several, color, line in sets:
-        logs = np.log([record.spectrum(periods).sa / 9.81 for record in several])
-        pga = np.log([record.pga / 9.81 for record in several])
+        logs = np.log([record.spectrum(periods).pseudo_acceleration / 9.81 for record in several])
+        pga = np.log([record.peak_acceleration / 9.81 for record in several])
         shape = logs - pga[:, None]
         for ax, values in zip(axes[:2], (logs, shape), strict=True):
             low, median, high = np.exp(np.percentile(values, [16.0, 50.0, 84.0], axis=0))

@@ -54,8 +54,8 @@ EDITS = [
     ),
     Edit(
         "confidence intervals are one-sided",
-        "return 0.5 - 0.5 * level, 0.5 + 0.5 * level",
-        "return 1.0 - level, level",
+        "return 0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence",
+        "return 1.0 - confidence, confidence",
         "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
     ),
     Edit(
@@ -123,14 +123,14 @@ EDITS = [
     Edit(
         "records that two curves share are drawn separately for each",
         "others = times\n",
-        "others = draw_records(count, n, random, events)\n",
+        "others = draw_records(count, n_resamples, random, events)\n",
         "test_fitting.py::test_p_value_of_the_bootstrap",
     ),
     # Efficiency of intensity measures
     Edit(
         "compare_intensities ignores events",
-        "times = draw_records(len(several), samples, seed, events)",
-        "times = draw_records(len(several), samples, seed, None)",
+        "times = draw_records(len(several), n_resamples, seed, events)",
+        "times = draw_records(len(several), n_resamples, seed, None)",
         "test_intensity.py::test_comparison_draws_events_together",
     ),
     Edit(
@@ -154,15 +154,15 @@ EDITS = [
     ),
     Edit(
         "total probability adds collapse and rocking as if they were exclusive",
-        "collapse + (1.0 - collapse) * self.rocking.at(x, gap) * exceeds",
-        "collapse + self.rocking.at(x, gap) * exceeds",
+        "collapse + (1.0 - collapse) * self.rocking._at(x, gap) * exceeds",
+        "collapse + self.rocking._at(x, gap) * exceeds",
         "test_cloud.py::test_known_parameters",
     ),
     # Hazard and risk
     Edit(
         "hazard curves are interpolated on linear axes",
         "h = frequency * np.exp(-k * (u - start))",
-        "h = np.interp(flat, self.im_levels, self.annual_frequency)",
+        "h = np.interp(flat, self.levels, self.annual_frequency)",
         "test_risk.py::test_curve_is_straight_on_logarithmic_axes",
     ),
     Edit(

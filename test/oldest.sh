@@ -23,4 +23,5 @@ printf '%s\n' "${oldest[@]}"
 python3 -m pip --disable-pip-version-check install --quiet "${oldest[@]}"
 python3 -m pip --disable-pip-version-check install --quiet --no-build-isolation --no-deps .
 cd python/tests
-python3 -m pytest --color=no
+# Types are those of the current NumPy and Matplotlib, whose annotations change from version to version.
+python3 -m pytest --color=no --deselect test_project.py::test_types

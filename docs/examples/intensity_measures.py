@@ -13,7 +13,7 @@ out.mkdir(parents=True, exist_ok=True)
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 record = records[0]
 print(f"PGV {record.intensity('pgv'):.3f} m/s, Sa(0.5 s) {record.intensity('sa(0.5)'):.3f} g")
-print(record.spectrum([0.2, 0.5, 1.0]).sa, "m/s2")
+print(record.spectrum([0.2, 0.5, 1.0]).pseudo_acceleration, "m/s2")
 
 # %% Stripes by spectral acceleration instead of peak ground acceleration
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")

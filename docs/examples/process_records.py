@@ -30,9 +30,9 @@ print(dd.simulate(wall, normal, scale=2.0))
 
 # %% Median and largest value over all directions, of the peak acceleration and of the EDP of a two-sided wall
 peaks = first.rotd(second)
-print(f"PGA: RotD50 {peaks.rotd50:.3f}, RotD100 {peaks.rotd100:.3f} m/s2 at {peaks.angle:.0f} degrees")
+print(f"PGA: RotD50 {peaks.rotd50:.3f}, RotD100 {peaks.rotd100:.3f} g at {peaks.angle:.0f} degrees")
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
-rocking = first.rotd(second, lambda record: dd.simulate(pinnacle, record, 1.5, history=False).edp, angles=36)
+rocking = first.rotd(second, lambda record: dd.simulate(pinnacle, record, 1.5, history=False).edp, n_angles=36)
 print(f"EDP: RotD50 {rocking.rotd50:.3f}, RotD100 {rocking.rotd100:.3f} at {rocking.angle:.0f} degrees")
 
 # %%

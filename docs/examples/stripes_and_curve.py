@@ -23,7 +23,7 @@ curve = stripes.fit()
 print(curve)
 print("95 % intervals by the delta method:      ", curve.parameter_interval())
 print("95 % intervals by the profile likelihood:", curve.parameter_interval(method="profile"))
-print("95 % intervals by resampling the records:", curve.bootstrap(n=500, seed=1).parameter_interval())
+print("95 % intervals by resampling the records:", curve.bootstrap(n_resamples=500, seed=1).parameter_interval())
 low, high = curve.interval(0.7)
 print(f"P(collapse | 0.7 g) = {curve(0.7):.3f}, between {low:.3f} and {high:.3f}")
 

@@ -58,9 +58,9 @@ def _parser() -> argparse.ArgumentParser:
     plot = commands.add_parser(
         "plot",
         help="draw the figures of a run",
-        description="Draw the figures of a run from its CSV files, those of the executable or of Typology.save: the "
-        "histories, the curve and the damage states of a wall, the curves of a population, or a motion and the wall at "
-        "its peak.",
+        description="Draw the figures of a run from its CSV files, those of the executable or of "
+        "Typology.write_results: the histories, the curve and the damage states of a wall, the curves of a population, "
+        "or a motion and the wall at its peak.",
     )
     plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     plot.add_argument(
@@ -71,8 +71,8 @@ def _parser() -> argparse.ArgumentParser:
     report = commands.add_parser(
         "report",
         help="write a report of a run: one HTML file",
-        description="Write a report of a run from its CSV files, those of the executable or of Typology.save: one HTML "
-        "file with figures, tables, inputs, checks and versions, which opens offline.",
+        description="Write a report of a run from its CSV files, those of the executable or of "
+        "Typology.write_results: one HTML file with figures, tables, inputs, checks and versions, which opens offline.",
     )
     report.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
     report.add_argument("-o", "--output", help="the report; PREFIX_report.html if left out", metavar="FILE")
@@ -137,7 +137,7 @@ def _report(options: argparse.Namespace) -> None:
     matplotlib.use("agg")
     path = options.output or f"{options.prefix}_report.html"
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
-    dd.report(dd.read_results(options.prefix), path, hazard)
+    dd.report(dd.read_results(options.prefix), path, hazard=hazard)
     print(f"written: {path}")
 
 
@@ -179,7 +179,7 @@ def _plot(options: argparse.Namespace) -> None:
         _save(options, "stripes", stripes.plot)
         _save(options, "fragility", results.fragility.plot)
         if results.edp_thresholds:
-            _save(options, "damage_states", lambda: stripes.plot_damage_states(edp=results.edp_thresholds))
+            _save(options, "damage_states", lambda: stripes.plot_damage_states(edp_thresholds=results.edp_thresholds))
     if results.typology is not None:
         people = results.typology
         _save(options, "typology", people.plot)

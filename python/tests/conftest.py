@@ -7,9 +7,11 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from dondolo._fortran import _core
 
 import dondolo as dd
 
@@ -44,6 +46,20 @@ def wall() -> dd.OneSidedWall:
 def stripes(wall: dd.OneSidedWall, records: list[dd.Record]) -> dd.Stripes:
     """Stripes with a good fit."""
     return dd.multiple_stripe(wall, records, levels=[0.2, 0.4, 0.6, 0.8, 1.0, 1.2], progress=False)
+
+
+@pytest.fixture
+def replace_procedure(monkeypatch: pytest.MonkeyPatch):
+    """Put something in the place of a procedure of the extension, whose modules do not let theirs be replaced."""
+
+    def replace(name: str, stand_in: object) -> None:
+        module, procedure = name.split(".")
+        there = getattr(_core, module)
+        procedures = {name: getattr(there, name) for name in dir(there) if not name.startswith("__")}
+        assert procedure in procedures
+        monkeypatch.setattr(_core, module, SimpleNamespace(**procedures | {procedure: stand_in}))
+
+    return replace
 
 
 @pytest.fixture(scope="session")

@@ -54,8 +54,8 @@ def test_the_same_warnings(root, run):
 
 def test_a_case(root):
     case = dd.read_case(root / "data/cases/history.nml")
-    assert (case.task, case.record, case.im, case.polarity) == ("history", 43, "pga", "as_recorded")
-    assert case.scale * case.records[43].pga == pytest.approx(0.65 * 9.81)
+    assert (case.task, case.record_index, case.im, case.polarity) == ("history", 43, "pga", "as_recorded")
+    assert case.scale * case.records[43].peak_acceleration == pytest.approx(0.65 * 9.81)
     assert case.population[0].name == "parapet"
 
 

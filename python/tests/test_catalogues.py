@@ -67,8 +67,8 @@ def test_steps_and_units_for_files_without(folder, tmp_path):
     records = {record.name: record for record in dd.read_catalogue(target)}
     assert records["plain"].dt == 0.005
     assert records["timed"].dt == 0.01
-    assert records["timed"].pga == 1.0
-    assert records["valley"].pga == 0.2 * 9.80665
+    assert records["timed"].peak_acceleration == 1.0
+    assert records["valley"].peak_acceleration == 0.2 * 9.80665
 
 
 def test_units_without_a_step(folder, tmp_path):
@@ -78,7 +78,7 @@ def test_units_without_a_step(folder, tmp_path):
     assert code == 0
     assert "titled" not in err
     records = {record.name: record for record in dd.read_catalogue(target)}
-    assert records["titled"].pga == 3 * 0.01
+    assert records["titled"].peak_acceleration == 3 * 0.01
 
 
 def test_names_that_are_no_utf8(folder):
@@ -116,8 +116,8 @@ def test_units_and_steps_of_comments(tmp_path):
     code, _, err = run("catalogue", tmp_path, "--dt", "0.005", "--units", "m/s2")
     assert (code, err) == (0, "")
     x, y = dd.read_catalogue(tmp_path / "catalogue.csv")
-    assert (x.dt, x.pga) == (0.02, 0.02)
-    assert (y.name, y.pga) == ("y.acc_(g)", 9.80665)
+    assert (x.dt, x.peak_acceleration) == (0.02, 0.02)
+    assert (y.name, y.peak_acceleration) == ("y.acc_(g)", 9.80665)
 
 
 def peer(component, quantity="ACCELERATION", units="G"):

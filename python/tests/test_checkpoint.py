@@ -106,11 +106,11 @@ def test_killed_at_random_moments(whole, tmp_path, seed):
     assert study.contents(folder) == whole
 
 
-def test_complete(whole, tmp_path, monkeypatch):
+def test_complete(whole, tmp_path, replace_procedure):
     path = tmp_path / "study.counts"
     dd.typology(**study.arguments(checkpoint=path, block=7))
     assert kept(path) == set(range(60))
-    monkeypatch.setattr(_core, "run_rows", None)
+    replace_procedure("stores.run_rows", None)
     # Weights, groups and names are of no matter to histories.
     people = study.arguments()["population"]
     again = dd.typology(**study.arguments(checkpoint=path))
@@ -120,9 +120,9 @@ def test_complete(whole, tmp_path, monkeypatch):
     assert not np.array_equal(other["all"].mean_fraction, again["all"].mean_fraction)
 
 
-def test_ctrl_c(whole, tmp_path, monkeypatch):
+def test_ctrl_c(whole, tmp_path, monkeypatch, replace_procedure):
     path = tmp_path / "study.counts"
-    run_rows, calls = _core.run_rows, []
+    run_rows, calls = _core.stores.run_rows, []
 
     def stop(*given):
         calls.append(given)
@@ -130,7 +130,7 @@ def test_ctrl_c(whole, tmp_path, monkeypatch):
             raise KeyboardInterrupt
         return run_rows(*given)
 
-    monkeypatch.setattr(_core, "run_rows", stop)
+    replace_procedure("stores.run_rows", stop)
     with pytest.raises(dd.Interrupted, match=r"interrupted: 15 of 60 walls are complete") as caught:
         dd.typology(**study.arguments(checkpoint=path, block=3))
     monkeypatch.undo()

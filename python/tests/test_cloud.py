@@ -47,7 +47,7 @@ def test_every_point_is_the_motion_it_stands_for(cloud, wall, records):
         motion = dd.simulate(wall, record, FACTOR * cloud.polarity[k], solver=dd.Solver(engine="lanes"), history=False)
         assert motion.edp == cloud.edp[k]
         assert motion.collapsed == cloud.collapsed[k]
-        assert cloud.intensity[k] == pytest.approx(FACTOR * record.pga / 9.81, rel=1e-14)
+        assert cloud.intensity[k] == pytest.approx(FACTOR * record.peak_acceleration / 9.81, rel=1e-14)
     assert cloud.polarity.tolist() == [1] * len(records) + [-1] * len(records)
     assert not cloud.edp.flags.writeable
 
@@ -72,11 +72,11 @@ def test_measures_of_the_wall(cloud, wall, records):
     assert cloud.against("p*pgv/a0").intensity == pytest.approx(np.tile(expected, 2), rel=1e-12)
 
 
-def test_it_is_one_call_for_many_records(wall, records, monkeypatch):
+def test_it_is_one_call_for_many_records(wall, records, replace_procedure):
     """No loop over histories in Python."""
     calls = []
-    run_block = _core.run_block
-    monkeypatch.setattr(_core, "run_block", lambda *given: calls.append(given) or run_block(*given))
+    run_block = _core.stripes.run_block
+    replace_procedure("stripes.run_block", lambda *given: calls.append(given) or run_block(*given))
     many = [
         dd.Record(record.acceleration[:400], record.dt, f"{record.name}_{i}") for i in range(5) for record in records
     ]
@@ -96,11 +96,11 @@ def test_fits_against_statsmodels(cloud):
     assert cloud.sigma == pytest.approx(np.sqrt(line.scale), rel=1e-12)
     assert cloud.r2 == pytest.approx(line.rsquared, rel=1e-12)
     assert cloud.regression.se_slope == pytest.approx(line.bse[1], rel=1e-10)
-    assert cloud.regression.n == rocks.sum()
+    assert cloud.regression.histories == rocks.sum()
     for model, kind, at in ((cloud.collapse, cloud.collapsed, x), (cloud.rocking, rocks[stands], x[stands])):
         logit = api.Logit(kind.astype(float), api.add_constant(at)).fit(disp=0, tol=1e-12, maxiter=100)
         assert [model.b0, model.b1] == pytest.approx(logit.params, rel=1e-7)
-        assert (model.n, model.count, model.status) == (len(kind), kind.sum(), "ok")
+        assert (model.histories, model.count, model.status) == (len(kind), kind.sum(), "ok")
         assert model(np.exp(at)) == pytest.approx(logit.predict(), rel=1e-6)
 
 
@@ -136,7 +136,7 @@ def test_total_probability(cloud):
     assert np.all(np.diff(cloud.probability(grid, 0.4)) >= 0.0)
     assert np.all(cloud.probability(grid, 0.2) >= cloud.probability(grid, 0.4))
     for threshold in (0.0, 1.2, np.nan):
-        with pytest.raises(dd.InputError, match="must be positive and at most 1, the edp_limit"):
+        with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):
             cloud.probability(0.5, threshold)
 
 
@@ -202,7 +202,7 @@ def test_status(collapsed, status):
     x = np.array([0.1, 0.2, 0.3, 0.4])
     model = fit(x, np.where(kind, 1.0, 0.1 * x), kind)["collapse"]
     assert model.status == status
-    assert (model.n, model.count) == (4, kind.sum())
+    assert (model.histories, model.count) == (4, kind.sum())
     assert np.isfinite(model.b1) == (status == "ok")
     expected = {"none": 0.0, "all": 1.0, "decreasing": np.nan}
     if status in expected:
@@ -246,11 +246,11 @@ def test_errors(wall, records):
         dd.cloud(wall, records, polarity="x")
 
 
-def test_interruption(wall, records, monkeypatch):
+def test_interruption(wall, records, replace_procedure):
     def stop(*arguments):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(_core, "run_block", stop)
+    replace_procedure("stripes.run_block", stop)
     with pytest.raises(dd.Interrupted, match="interrupted: 0 of 44 histories"):
         dd.cloud(wall, records, progress=False)
 

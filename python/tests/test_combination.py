@@ -238,7 +238,7 @@ def test_which_curves_there_are(people):
     ]
     assert people["all"].fit is people.groups[3].fit
     assert people["all"].weight == 10.5
-    assert people["all", "facades"].walls == 3
+    assert people["all", "facades"].n_walls == 3
     assert people["two_block", "towers"].fit is people.groups[8].fit
     with pytest.raises(dd.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
         people["all", "ruins"]
@@ -329,7 +329,7 @@ def test_damage_states(states, tmp_path):
         assert np.array_equal(first.curves[k].collapses, one.fit(0.1).collapses)
     assert np.all(first["all"].mean_fraction >= typology.at(0.4)["all"].mean_fraction)
     assert np.any(typology.at(0.4)["all"].mean_fraction > last["all"].mean_fraction)
-    with pytest.raises(dd.InputError, match=r"edp = 0\.2: must be one of 0\.1, 0\.4, 1"):
+    with pytest.raises(dd.InputError, match=r"edp_threshold = 0\.2: must be one of 0\.1, 0\.4, 1"):
         typology.at(0.2)
     # As the executable writes them: curves of the population state by state, tables of walls wall by wall
     for table, blocks, rows in (("typology", 1, 6 * 5), ("stripes", 3, 5), ("fragility", 3, 1)):
@@ -350,7 +350,7 @@ def test_damage_states_of_one_wall(states):
     curve = stripes.fit(0.4)
     assert curve.theta < stripes.fit().theta
     # What is drawn again are the histories that reach the state.
-    samples = curve.bootstrap(200)
+    samples = curve.bootstrap(n_resamples=200)
     assert np.nanmedian(samples.theta) == pytest.approx(curve.theta, rel=0.1)
     for edp in (0.0, 1.5, np.nan):
         with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):

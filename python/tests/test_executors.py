@@ -9,9 +9,8 @@ import signal
 import socket
 import subprocess
 import sys
-import threading
 import time
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -67,64 +66,47 @@ class Disturbed(Executor):
         return self.executor.submit(*given)
 
 
-class Memories(threading.local):
-    """A dictionary of each thread, so that threads stand for workers on several machines."""
+class Machines(Executor):
+    """Workers on several machines, in this process and in a fixed order.
 
-    def __init__(self):
-        self.own = {}
+    Tasks go round the machines. One that brings the records goes to the first machine that has said that it lacks them,
+    as it would to a worker that answers at once while the others compute.
+    """
 
-    def __getattr__(self, name):
-        return getattr(self.own, name)
+    def __init__(self, count, monkeypatch):
+        self.memories = [{} for _ in range(count)]
+        self.turn = 0
+        self.lacking = []
+        self.sizes = []
+        self.monkeypatch = monkeypatch
 
-    def __contains__(self, key):
-        return key in self.own
+    def submit(self, work, head, block, parcel):
+        self.sizes.append(len(block))
+        if parcel is None:
+            machine = self.turn % len(self.memories)
+            self.turn += 1
+        else:
+            machine = self.lacking.pop(0)
+        self.monkeypatch.setattr(crew, "_shared", self.memories[machine])
+        self.monkeypatch.setattr(socket, "gethostname", lambda: f"machine {machine}")
+        future = Future()
+        future.set_result(work(head, block, parcel))
+        if future.result().part is None and machine not in self.lacking:
+            self.lacking.append(machine)
+        return future
 
-    def __len__(self):
-        return len(self.own)
 
-    def __setitem__(self, key, value):
-        self.own[key] = value
-
-
-@pytest.mark.parametrize("workers", [1, 2, 5, 12])
-def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch, workers):
-    run, gone, seen, sizes = blocks.Shared.run, [], set(), []
-    pause = 0.02 * workers
-
-    def slow(*given):
-        # Long enough that a worker without the records, which answers at once, is the one that takes what is sent again
-        seen.add(threading.current_thread().name)
-        time.sleep(pause)
-        part = run(*given)
-        return part._replace(seconds=part.seconds + pause)
-
-    monkeypatch.setattr(blocks.Shared, "run", slow)
-    monkeypatch.setattr(socket, "gethostname", lambda: threading.current_thread().name)
-    monkeypatch.setattr(crew, "_shared", Memories())
-
-    class Listening(ThreadPoolExecutor):
-        def submit(self, work, head, block, parcel):
-            sizes.append(len(block))
-            return super().submit(work, head, block, parcel)
-
-    def forget(*given):
-        gone.append(1)
-        if len(gone) == 20:
-            crew._shared.own.clear()
-        return perform(*given)
-
-    with Listening(workers) as executor:
-        assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "out") == whole
-        assert len(seen) <= crews[0].sends <= workers + 4
-        assert len(seen) > workers // 2
-        # What goes with each block is small.
-        assert max(sizes) < 2000
-        late = workers - len(seen)
-        # A worker that has begun anew gets them again, and those that had no work until now.
-        perform = crew.perform
-        monkeypatch.setattr(crew, "perform", forget)
-        assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "again") == whole
-        assert 1 <= crews[1].sends <= late + 4
+@pytest.mark.parametrize("machines", [1, 2, 5, 12])
+def test_every_worker_gets_the_records_once(whole, tmp_path, crews, monkeypatch, machines):
+    executor = Machines(machines, monkeypatch)
+    assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "out") == whole
+    assert crews[0].sends == machines
+    # What goes with each block is small.
+    assert max(executor.sizes) < 2000
+    # They keep the records, and a worker that has begun anew gets them again.
+    executor.memories[machines // 2].clear()
+    assert of(dd.typology(**study.arguments(executor=executor, block=1)), tmp_path / "again") == whole
+    assert crews[1].sends == 1
 
 
 def test_no_two_tasks_are_the_same(monkeypatch):
@@ -136,7 +118,7 @@ def test_no_two_tasks_are_the_same(monkeypatch):
             asked.append(given)
             return super().submit(*given)
 
-    monkeypatch.setattr(crew, "_shared", Memories())
+    monkeypatch.setattr(crew, "_shared", {})
     with Listening(1) as executor:
         dd.typology(**study.arguments(executor=executor, block=1))
     # Some were missed and sent again.

@@ -61,7 +61,7 @@ def people(few):
 @pytest.mark.slow
 def test_a_typology_is_saved_and_read_back(people, tmp_path):
     prefix = tmp_path / "city"
-    people.save(prefix)
+    people.write_results(prefix)
     assert sorted(os.listdir(tmp_path)) == WRITTEN
     stored = dd.read_results(prefix)
     again = stored.typology
@@ -84,11 +84,11 @@ def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
     for name in ("histories", "history", "typology"):
         (tmp_path / f"city_{name}.csv").write_text("# dondolo 0.0.1\nwall\n")
     (tmp_path / "cities_history.csv").write_text("# dondolo 0.0.1\nwall\n")
-    people.save(tmp_path / "city")
+    people.write_results(tmp_path / "city")
     assert sorted(os.listdir(tmp_path)) == ["cities_history.csv", *WRITTEN]
     # What dondolo did not write is not its own to remove.
     (tmp_path / "city_history.csv").write_text("The history of the city\n")
-    people.save(tmp_path / "city")
+    people.write_results(tmp_path / "city")
     assert (tmp_path / "city_history.csv").read_text() == "The history of the city\n"
     # A table that cannot be written leaves the others as they were.
     before = [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]]
@@ -96,7 +96,7 @@ def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
     (tmp_path / "city_walls.csv").mkdir()
     changed = dataclasses.replace(people, warnings=(dd.DondoloWarning("other"),))
     with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written"):
-        changed.save(tmp_path / "city")
+        changed.write_results(tmp_path / "city")
     assert [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]] == before
     assert not list(tmp_path.glob("*.part"))
 
@@ -186,7 +186,7 @@ def test_what_is_wrong_with_a_result_file_is_named(damaged, task, table, pattern
 
 
 def test_a_cell_is_no_comment(people, tmp_path):
-    people.save(tmp_path / "city")
+    people.write_results(tmp_path / "city")
     path = tmp_path / "city_walls.csv"
     # As a file of an earlier version may have it
     forged = path.read_text().replace('"b, with a comma"', "\"b\n# &job task = 'history'\"")
@@ -254,7 +254,7 @@ def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path)
     assert run("--quiet", case).returncode == 0
     # The same build variant, so that digits agree
     assert _binding.build_variant() in run("--version").stdout
-    dd.run_case(case, progress=False).typology.save(tmp_path / "mine")
+    dd.run_case(case, progress=False).typology.write_results(tmp_path / "mine")
     for table in ("walls", "stripes", "fragility", "typology"):
         rows = [
             [line for line in (tmp_path / name).read_text().splitlines() if not line.startswith("#")]
@@ -267,9 +267,9 @@ def test_what_cannot_be_saved(people, few, tmp_path):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a", gravity=9.7), dd.OneSidedWall(1.5, 0.25, name="b")]
     uneven = dd.typology(walls, few, [0.4, 0.8], progress=False)
     with pytest.raises(dd.InputError, match=r"gravity = 9\.7 and 9\.81: must be the same for all walls"):
-        uneven.save(tmp_path / "city")
+        uneven.write_results(tmp_path / "city")
     assert not os.listdir(tmp_path)
     with pytest.raises(dd.InputError, match="prefix = 5: must be the path of a file"):
-        people.save(5)
+        people.write_results(5)
     with pytest.raises(dd.InputError, match=r"prefix = '.*/': must be the path of a file"):
-        people.save(f"{tmp_path}/")
+        people.write_results(f"{tmp_path}/")

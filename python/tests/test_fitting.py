@@ -161,14 +161,14 @@ def profile(curve, x, probability):
 @pytest.mark.parametrize("x", [0.6, 1.2, 2.5])
 def test_profile_interval_of_the_probability(x):
     curve = dd.fit_fragility(*PUBLIC)
-    for end in curve.interval(x, level=0.9, method="profile"):
+    for end in curve.interval(x, confidence=0.9, method="profile"):
         drop = 2.0 * (curve.log_likelihood - profile(curve, x, end))
         assert drop == pytest.approx(stats.chi2.ppf(0.9, 1), rel=1e-6)
 
 
 def test_profile_interval_of_the_parameters():
     curve = dd.fit_fragility(*PUBLIC)
-    ends = curve.parameter_interval(level=0.95, method="profile")
+    ends = curve.parameter_interval(confidence=0.95, method="profile")
     for end in ends["theta"]:
         drop = 2.0 * (curve.log_likelihood - profile(curve, end, 0.5))
         assert drop == pytest.approx(stats.chi2.ppf(0.95, 1), rel=1e-6)
@@ -186,7 +186,7 @@ def test_profile_interval_of_the_parameters():
 
 def test_delta_intervals():
     curve = dd.fit_fragility(*PUBLIC)
-    low, high = curve.interval(curve.theta, level=0.95)
+    low, high = curve.interval(curve.theta, confidence=0.95)
     half = stats.norm.ppf(0.975) * curve.se_ln_theta / curve.beta
     assert (low, high) == pytest.approx((stats.norm.cdf(-half), stats.norm.cdf(half)), rel=1e-12)
     ends = curve.parameter_interval()["theta"]
@@ -213,7 +213,7 @@ def test_delta_interval_is_that_of_a_probit_regression(level):
     model = api.GLM(np.column_stack([collapses, 20 - collapses]), api.add_constant(np.log(levels)), family=family)
     x = np.array([0.05, 0.2, 0.6, 3.0])
     predicted = model.fit(tol=1e-14, maxiter=300).get_prediction(api.add_constant(np.log(x)))
-    found = np.transpose(curve.interval(x, level=level))
+    found = np.transpose(curve.interval(x, confidence=level))
     assert found == pytest.approx(predicted.conf_int(alpha=1.0 - level), rel=1e-6)
 
 
@@ -227,18 +227,18 @@ def test_weak_data_leave_the_profile_open():
 
 @pytest.mark.parametrize("level", [0.0, 1.0, -0.1, np.nan])
 def test_wrong_confidence(level):
-    with pytest.raises(dd.InputError, match="level"):
-        dd.fit_fragility(*PUBLIC).interval(1.0, level=level)
+    with pytest.raises(dd.InputError, match="confidence"):
+        dd.fit_fragility(*PUBLIC).interval(1.0, confidence=level)
 
 
 def test_bootstrap(stripes):
     curve = stripes.fit()
-    boot = curve.bootstrap(n=4000, seed=1)
-    again = curve.bootstrap(n=4000, seed=1)
+    boot = curve.bootstrap(n_resamples=4000, seed=1)
+    again = curve.bootstrap(n_resamples=4000, seed=1)
     assert np.array_equal(boot.theta, again.theta, equal_nan=True)
-    assert not np.array_equal(boot.theta, curve.bootstrap(n=4000, seed=2).theta, equal_nan=True)
+    assert not np.array_equal(boot.theta, curve.bootstrap(n_resamples=4000, seed=2).theta, equal_nan=True)
     assert boot.without_fit < 0.01
-    low, high = boot.parameter_interval(0.95)["theta"]
+    low, high = boot.parameter_interval(confidence=0.95)["theta"]
     assert low < curve.theta < high
     ends = boot.interval(np.array([0.5, curve.theta]))
     assert ends[0].shape == (2,)
@@ -271,9 +271,9 @@ def test_comparison(stripes, wall, records):
     gain = curve.log_likelihood + other.log_likelihood - height(curve) - height(other)
     assert test.statistic == pytest.approx(2.0 * gain, rel=1e-9)
     assert test.p_value == pytest.approx(stats.chi2.sf(2.0 * gain, 2), rel=1e-9)
-    boot = dd.compare(curve, other, method="bootstrap", n=500)
+    boot = dd.compare(curve, other, method="bootstrap", n_resamples=500)
     assert boot.ratio == test.ratio == curve.theta / other.theta
-    assert boot.interval[0] < boot.ratio < boot.interval[1]
+    assert boot.ratio_interval[0] < boot.ratio < boot.ratio_interval[1]
     with pytest.raises(dd.InputError, match="method"):
         dd.compare(curve, other, method="guess")
     with pytest.raises(dd.InputError, match="events: is for method = 'bootstrap'"):
@@ -285,11 +285,11 @@ def test_comparison(stripes, wall, records):
 def test_interval_of_the_ratio_of_two_medians():
     """The variances of ln theta of independent curves add up."""
     one, other = ([0.2, 0.4, 0.8], [3, 20, 38], 44), ([0.2, 0.4, 0.8], [1, 7, 15], 20)
-    pair = dd.compare(dd.fit_fragility(*one), dd.fit_fragility(*other), level=0.9)
+    pair = dd.compare(dd.fit_fragility(*one), dd.fit_fragility(*other), confidence=0.9)
     fits = [statsmodels_fit(np.array(x), np.array(z), np.full(3, n)) for x, z, n in (one, other)]
     ratio = stats.norm(np.log(fits[0][0] / fits[1][0]), np.sqrt(fits[0][2] ** 2 + fits[1][2] ** 2))
     assert pair.ratio == pytest.approx(np.exp(ratio.mean()), rel=1e-6)
-    assert pair.interval == pytest.approx(np.exp(ratio.interval(0.9)), rel=1e-6)
+    assert pair.ratio_interval == pytest.approx(np.exp(ratio.interval(0.9)), rel=1e-6)
 
 
 def test_p_value_of_the_bootstrap(stripes, records):
@@ -301,13 +301,16 @@ def test_p_value_of_the_bootstrap(stripes, records):
     )
 
     def p_values(other):
-        return [dd.compare(*pair, method="bootstrap", n=n, seed=3).p_value for pair in ((curve, other), (other, curve))]
+        return [
+            dd.compare(*pair, method="bootstrap", n_resamples=n, seed=3).p_value
+            for pair in ((curve, other), (other, curve))
+        ]
 
     # The slender wall has the lower median in all 399 samples.
     assert p_values(much) == [2.0 / 400.0] * 2
     assert p_values(curve) == [1.0, 1.0]
     # Both curves are fitted to the same samples of records.
-    weaker = int(np.sum(curve.bootstrap(n, seed=3).theta > little.bootstrap(n, seed=3).theta))
+    weaker = int(np.sum(curve.bootstrap(n_resamples=n, seed=3).theta > little.bootstrap(n_resamples=n, seed=3).theta))
     assert 1 < weaker < 30
     assert p_values(little) == pytest.approx([(weaker + 1) / 200.0] * 2, rel=1e-12)
 
@@ -319,7 +322,7 @@ def test_bootstrap_of_events_of_unequal_size(stripes):
     for part in parts:
         collapsed = stripes.collapsed[:, part]
         fits.append(statsmodels_fit(stripes.levels, collapsed.sum(axis=1), np.full(6, collapsed.shape[1]))[:2])
-    boot = stripes.fit().bootstrap(400, seed=3, events=[0] * 30 + [1] * 14)
+    boot = stripes.fit().bootstrap(n_resamples=400, seed=3, events=[0] * 30 + [1] * 14)
     found = np.column_stack([boot.theta, boot.beta])
     off = np.abs(found[:, None] / np.array(fits) - 1.0).max(axis=2)
     assert off.min(axis=1).max() < 1e-6
@@ -334,7 +337,7 @@ def test_bootstrap_goes_by_records_and_not_by_names(wall, few):
     curves = [
         dd.multiple_stripe(wall, records, levels, polarity="both", progress=False).fit() for records in (few, nameless)
     ]
-    named, unnamed = (curve.bootstrap(200, seed=3) for curve in curves)
+    named, unnamed = (curve.bootstrap(n_resamples=200, seed=3) for curve in curves)
     np.testing.assert_array_equal(named.theta, unnamed.theta)
     assert np.nanstd(unnamed.theta) > 0.0
 
@@ -347,14 +350,14 @@ def test_events_are_drawn_together(wall, few, polarity):
     once, doubled = (
         dd.multiple_stripe(wall, records, levels, polarity=polarity, progress=False).fit() for records in (few, twice)
     )
-    plain, alone = once.bootstrap(300, seed=3), doubled.bootstrap(300, seed=3)
-    together = doubled.bootstrap(300, seed=3, events=[i // 2 for i in range(len(twice))])
+    plain, alone = once.bootstrap(n_resamples=300, seed=3), doubled.bootstrap(n_resamples=300, seed=3)
+    together = doubled.bootstrap(n_resamples=300, seed=3, events=[i // 2 for i in range(len(twice))])
     np.testing.assert_allclose(together.theta, plain.theta, rtol=1e-12)
     assert np.nanstd(np.log(alone.theta)) < 0.8 * np.nanstd(np.log(plain.theta))
-    own_names = once.bootstrap(300, seed=3, events=[f"event {i}" for i in range(len(few))])
+    own_names = once.bootstrap(n_resamples=300, seed=3, events=[f"event {i}" for i in range(len(few))])
     np.testing.assert_array_equal(own_names.theta, plain.theta)
     with pytest.raises(dd.InputError, match=f"events: 1 labels for {len(few)} records: must be as many"):
-        once.bootstrap(5, events=["a"])
+        once.bootstrap(n_resamples=5, events=["a"])
 
 
 def test_comparison_draws_events_together(wall, few):
@@ -365,16 +368,16 @@ def test_comparison_draws_events_together(wall, few):
 
     def compared(records, **arguments):
         curves = [dd.multiple_stripe(one, records, levels, progress=False).fit() for one in (wall, thicker)]
-        return dd.compare(*curves, method="bootstrap", n=300, seed=3, **arguments)
+        return dd.compare(*curves, method="bootstrap", n_resamples=300, seed=3, **arguments)
 
-    assert compared(twice, events=pairs).interval == pytest.approx(compared(few).interval, rel=1e-12)
+    assert compared(twice, events=pairs).ratio_interval == pytest.approx(compared(few).ratio_interval, rel=1e-12)
     ways = [dd.multiple_stripe(wall, records, levels, progress=False).fit() for records in (twice, twice[::-1])]
     # In another order the records are found by their names.
-    turned = dd.compare(*ways, method="bootstrap", n=50, events=pairs)
-    assert turned.interval == pytest.approx((1.0, 1.0), abs=1e-12)
+    turned = dd.compare(*ways, method="bootstrap", n_resamples=50, events=pairs)
+    assert turned.ratio_interval == pytest.approx((1.0, 1.0), abs=1e-12)
     other = dd.multiple_stripe(wall, few, levels, progress=False).fit()
     with pytest.raises(dd.InputError, match="events: is for curves from the same records"):
-        dd.compare(ways[0], other, method="bootstrap", n=5, events=pairs)
+        dd.compare(ways[0], other, method="bootstrap", n_resamples=5, events=pairs)
 
 
 @pytest.mark.parametrize(
@@ -392,7 +395,7 @@ def test_comparison_draws_events_together(wall, few):
 def test_wrong_events(stripes, events, sentence):
     """Labels that are missing would make one event of their records."""
     with pytest.raises(dd.InputError, match=sentence):
-        stripes.fit().bootstrap(5, events=events(stripes.records))
+        stripes.fit().bootstrap(n_resamples=5, events=events(stripes.n_records))
 
 
 def test_one_record_cannot_be_drawn_from():
@@ -403,9 +406,9 @@ def test_one_record_cannot_be_drawn_from():
 @pytest.mark.parametrize("seed", [-1, "lucky", 1.5])
 def test_wrong_seeds(stripes, seed):
     with pytest.raises(dd.InputError, match=r"seed = .*: must be an integer, at least 0, a Generator or None"):
-        stripes.fit().bootstrap(5, seed=seed)
-    with pytest.raises(dd.InputError, match=r"n = 0: must be an integer, at least 1"):
-        stripes.fit().bootstrap(0)
+        stripes.fit().bootstrap(n_resamples=5, seed=seed)
+    with pytest.raises(dd.InputError, match=r"n_resamples = 0: must be an integer, at least 1"):
+        stripes.fit().bootstrap(n_resamples=0)
 
 
 def test_a_curve_keeps_its_counts():

@@ -35,10 +35,10 @@ def test_the_same_records_are_uploaded_once(few, monkeypatch):
     assert upload(twice) is not upload(twice)
 
 
-def test_no_record_crosses_twice(few, monkeypatch):
+def test_no_record_crosses_twice(few, replace_procedure):
     calls = []
-    new_suite = _core.new_suite
-    monkeypatch.setattr(_core, "new_suite", lambda *given: calls.append(1) or new_suite(*given))
+    new_suite = _core.records.new_suite
+    replace_procedure("records.new_suite", lambda *given: calls.append(1) or new_suite(*given))
     records = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
     for wall in (dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)):
         dd.multiple_stripe(wall, records, LEVELS, im="sa(0.5)", progress=False)
@@ -50,25 +50,30 @@ def test_no_record_crosses_twice(few, monkeypatch):
 
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    handle, *_ = _core.new_suite(b"a", [2], [0.1], [1.0, 2.0])
-    study, stat, _ = _core.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
+    handle, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0])
+    study, stat, _ = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
     assert stat == 0
-    _core.free(handle)
-    _core.free(handle)
-    other, *_ = _core.new_suite(b"a", [2], [0.1], [1.0, 2.0])
+    _core.library.free(handle)
+    _core.library.free(handle)
+    other, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0])
     for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
-        *_, stat, message = _core.measure_suite(number, b"pga", 1)
+        *_, stat, message = _core.records.measure_suite(number, b"pga", 1)
         assert stat == 2
         assert b"is not valid" in message
     # A study does not outlive its suite, even where another suite has taken its slot.
-    *_, stat, message = _core.plan(study, walls.number, 1)
+    *_, stat, message = _core.stripes.plan(study, walls.number, 1)
     assert stat == 2
     assert b"records: handle" in message
     for given in ((suite, walls.number), (study, study)):
-        *_, stat, message = _core.plan(*given, 1)
+        *_, stat, message = _core.stripes.plan(*given, 1)
         assert stat == 2
-    _core.free(study)
-    _core.free(other)
+    for procedure in (_core.stores.claim_store, _core.stores.read_store):
+        *_, stat, message = procedure(other)
+        assert stat == 2
+        assert b"store: handle" in message
+    _core.stores.close_store(suite)
+    _core.library.free(study)
+    _core.library.free(other)
 
 
 def test_a_handle_is_freed_with_its_object():
@@ -76,7 +81,7 @@ def test_a_handle_is_freed_with_its_object():
     number = place_of(record)[0]
     del record
     gc.collect()
-    assert _core.measure_suite(number, b"pga", 1)[0] == 2
+    assert _core.records.measure_suite(number, b"pga", 1)[0] == 2
 
 
 def test_a_study_keeps_its_suite():
@@ -84,11 +89,12 @@ def test_a_study_keeps_its_suite():
     wall = dd.OneSidedWall(3.0, 0.25)
     suite = upload((record,))
     study = Handle(
-        _core.new_study(suite.number, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)[0], suite
+        _core.stripes.new_study(suite.number, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)[0],
+        suite,
     )
     del suite, record
     gc.collect()
-    assert _core.plan(study.number, upload_walls((wall,)).number, 1)[-2] == 0
+    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-2] == 0
 
 
 def test_what_was_uploaded_is_not_pickled(few):

@@ -38,7 +38,7 @@ def test_peaks(record, lines):
     time, a = lines
     velocity = integrate.cumulative_trapezoid(a, time, initial=0.0)
     displacement = integrate.cumulative_simpson(velocity, x=time, initial=0.0)
-    assert record.intensity("pga") == pytest.approx(record.pga / GRAVITY, rel=1e-15)
+    assert record.intensity("pga") == pytest.approx(record.peak_acceleration / GRAVITY, rel=1e-15)
     assert record.intensity("pgv") == pytest.approx(np.abs(velocity).max(), rel=1e-4)
     assert record.intensity("pgv") >= np.abs(velocity).max() * (1.0 - 1e-12)
     assert record.intensity("pgd") == pytest.approx(np.abs(displacement).max(), rel=1e-5)
@@ -70,8 +70,8 @@ def test_spectrum_against_lsim(record, lines, period, damping):
     )
     _, motion, _ = signal.lsim(system, a, step * np.arange(len(a)))
     spectrum = record.spectrum([period], damping=damping)
-    assert spectrum.sd[0] == pytest.approx(np.abs(motion).max(), rel=2e-4)
-    assert spectrum.sd[0] >= np.abs(motion).max() * (1.0 - 1e-6)
+    assert spectrum.displacement[0] == pytest.approx(np.abs(motion).max(), rel=2e-4)
+    assert spectrum.displacement[0] >= np.abs(motion).max() * (1.0 - 1e-6)
 
 
 def test_spectrum_against_solve_ivp():
@@ -92,26 +92,33 @@ def test_spectrum_against_solve_ivp():
         dense_output=True,
     )
     peak = np.abs(solution.sol(np.linspace(0.0, 1.5, 150001))[0]).max()
-    assert record.spectrum([period], damping=damping).sd[0] == pytest.approx(peak, rel=1e-8)
+    assert record.spectrum([period], damping=damping).displacement[0] == pytest.approx(peak, rel=1e-8)
 
 
 def test_spectrum(record):
     periods = np.geomspace(0.01, 20.0, 60)
     spectrum = record.spectrum(periods)
-    assert spectrum.sa == pytest.approx((2.0 * np.pi / periods) ** 2 * spectrum.sd, rel=1e-14)
-    assert spectrum.sv == pytest.approx(2.0 * np.pi / periods * spectrum.sd, rel=1e-14)
-    assert spectrum.sa[0] == pytest.approx(record.pga, rel=0.01)
-    assert record.intensity("sa(0.5)") == record.spectrum(0.5 * np.ones(1)).sa[0] / GRAVITY
+    assert spectrum.pseudo_acceleration == pytest.approx(
+        (2.0 * np.pi / periods) ** 2 * spectrum.displacement, rel=1e-14
+    )
+    assert spectrum.pseudo_velocity == pytest.approx(2.0 * np.pi / periods * spectrum.displacement, rel=1e-14)
+    assert spectrum.pseudo_acceleration[0] == pytest.approx(record.peak_acceleration, rel=0.01)
+    assert record.intensity("sa(0.5)") == record.spectrum(0.5 * np.ones(1)).pseudo_acceleration[0] / GRAVITY
     assert "60 periods" in repr(spectrum)
-    assert list(spectrum.to_frame().columns) == ["period [s]", "sd [m]", "sv [m/s]", "sa [m/s2]"]
-    assert not spectrum.sd.flags.writeable
+    assert list(spectrum.to_frame().columns) == [
+        "period [s]",
+        "displacement [m]",
+        "pseudo_velocity [m/s]",
+        "pseudo_acceleration [m/s2]",
+    ]
+    assert not spectrum.displacement.flags.writeable
 
 
 def test_averages(record):
     fine = np.linspace(0.1, 2.5, 961)
-    velocity = record.spectrum(fine).sv
+    velocity = record.spectrum(fine).pseudo_velocity
     assert record.intensity("hi") == pytest.approx(integrate.trapezoid(velocity, fine), rel=1e-3)
-    some = record.spectrum(np.linspace(0.2, 2.0, 20)).sa / GRAVITY
+    some = record.spectrum(np.linspace(0.2, 2.0, 20)).pseudo_acceleration / GRAVITY
     assert record.intensity("saavg(0.2:2)") == pytest.approx(np.exp(np.log(some).mean()), rel=1e-12)
 
 
@@ -212,7 +219,7 @@ def test_files_of_the_executable(run, root, tmp_path):
 def comparison(wall, records):
     """Two names of one measure, an energy and a poor measure."""
     with pytest.warns(dd.DondoloWarning):
-        return dd.compare_intensities(wall, records, ["pga", "pga/a0", "arias", "pgd"], samples=100, progress=False)
+        return dd.compare_intensities(wall, records, ["pga", "pga/a0", "arias", "pgd"], n_resamples=100, progress=False)
 
 
 def test_comparison(comparison, wall):
@@ -238,7 +245,7 @@ def test_comparison(comparison, wall):
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_one_measure_is_a_comparison(wall, records):
-    assert dd.compare_intensities(wall, records, "pga", levels=5, samples=20, progress=False).ims == ("pga",)
+    assert dd.compare_intensities(wall, records, "pga", n_levels=5, n_resamples=20, progress=False).ims == ("pga",)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
@@ -248,7 +255,7 @@ def test_comparison_draws_events_together(wall, records):
     twice = [record for record in some for _ in range(2)]
     once, paired = (
         dd.compare_intensities(
-            wall, several, ["pga", "pgv"], levels=6, samples=200, seed=3, events=events, progress=False
+            wall, several, ["pga", "pgv"], n_levels=6, n_resamples=200, seed=3, events=events, progress=False
         ).ratio_interval
         for several, events in ((some, None), (twice, [i // 2 for i in range(len(twice))]))
     )
@@ -264,6 +271,6 @@ def test_wrong_comparisons(wall, few):
     with pytest.raises(dd.InputError, match="must be a text"):
         dd.compare_intensities(wall, few, [["pga"]])
     with pytest.raises(dd.InputError, match="levels = 1: must be"):
-        dd.compare_intensities(wall, few, ["pga"], levels=1)
+        dd.compare_intensities(wall, few, ["pga"], n_levels=1)
     with pytest.raises(dd.InputError, match="records: all are without motion"):
         dd.compare_intensities(wall, dd.Record(np.zeros(10), 0.01), ["pga"])

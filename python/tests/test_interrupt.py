@@ -28,7 +28,7 @@ try:
     if sys.argv[1] == "simulate":
         dd.simulate(wall, record, solver=solver, history=False)
     else:
-        dd.multiple_stripe(wall, [record], [record.pga / wall.gravity], solver=solver, progress=False)
+        dd.multiple_stripe(wall, [record], [record.peak_acceleration / wall.gravity], solver=solver, progress=False)
     print("done")
 except KeyboardInterrupt:
     print("interrupted")

@@ -154,7 +154,7 @@ def test_tightest_tolerances_are_doubted_too(wall, sine):
 def test_a_history_in_doubt_is_warned_of(wall, records):
     record = next(each for each in records if each.name == "18_l_aquila_2009_apr_07_m5.5_a")
     with pytest.warns(dd.DondoloWarning, match="ill-conditioned: the estimated error of the EDP is 0.000"):
-        dd.simulate(wall, record, 0.8 * 9.81 / record.pga, estimate_error=True, history=False)
-    collapse = dd.simulate(wall, record, 10.0 * 9.81 / record.pga, estimate_error=True, history=False)
+        dd.simulate(wall, record, 0.8 * 9.81 / record.peak_acceleration, estimate_error=True, history=False)
+    collapse = dd.simulate(wall, record, 10.0 * 9.81 / record.peak_acceleration, estimate_error=True, history=False)
     assert collapse.collapsed
     assert "with halved steps collapses too" in repr(collapse)

@@ -148,7 +148,7 @@ def test_units(path):
 def test_levels_in_other_units_are_exact(path):
     """1.1 m/s are 110 cm/s, not 110.00000000000001."""
     dd.write_nrml(
-        path, {"a": {"c": DiscreteFragility([0.07, 0.29, 1.1], [0.1, 0.2, 0.3], "pgv")}}, no_damage_limit=0.01
+        path, {"a": {"c": DiscreteFragility([0.07, 0.29, 1.1], [0.1, 0.2, 0.3], im="pgv")}}, no_damage_limit=0.01
     )
     imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
     assert (imls.get("noDamageLimit"), imls.text) == ("1.0", "7.0 29.0 110.0")
@@ -190,7 +190,7 @@ def test_range(path):
 def test_typology_and_stripes(path, stripes, few):
     walls = [dd.OneSidedWall(1.2, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     people = dd.typology(walls, few, [0.3, 0.5, 0.7, 0.9, 1.2, 1.6], progress=False)
-    mean = DiscreteFragility(people.levels, people["all"].mean_curve, people.im)
+    mean = DiscreteFragility(people.levels, people["all"].mean_curve, im=people.im)
     dd.write_nrml(path, {"centre": {"collapse": mean}, "parapet": {"collapse": stripes.fit()}})
     found = check(path)
     np.testing.assert_allclose(found["centre"][1]["collapse"](people.levels), people["all"].mean(people.levels))

@@ -110,7 +110,7 @@ def test_bars_end_at_the_saturation():
     """Exact binomial intervals of the walls that can collapse, times their share of the population."""
     collapses, share = [0, 8, 20, 41, 44], 0.5
     curve = replace(dd.fit_fragility(LEVELS, collapses, 44), saturation=share)
-    ax = curve.plot(level=0.9)
+    ax = curve.plot(confidence=0.9)
     container = ax.containers[0]
     np.testing.assert_allclose(container.lines[0].get_ydata(), np.array(collapses) / 88, rtol=1e-12)
     exact = [stats.binomtest(count, 44).proportion_ci(0.9, method="exact") for count in collapses]
@@ -131,8 +131,8 @@ def test_fragility_without_a_fit_shows_the_bracket():
 
 
 def test_fragility_refuses_a_confidence_of_one(stripes):
-    with pytest.raises(dd.InputError, match="level"):
-        stripes.fit().plot(level=1.0)
+    with pytest.raises(dd.InputError, match="confidence"):
+        stripes.fit().plot(confidence=1.0)
 
 
 def test_typology_shows_every_wall_and_the_mean(records):
@@ -267,9 +267,15 @@ def test_axes_are_returned(wall, motion, stripes):
         (lambda wall, motion, stripes: wall.plot(rotation=4.0), "rotation"),
         (lambda wall, motion, stripes: wall.plot(rotation=np.nan), "rotation"),
         (lambda wall, motion, stripes: motion.animate(speed="fast"), "speed = 'fast': must be a number"),
-        (lambda wall, motion, stripes: stripes.fit().plot(level="most"), "level = 'most': must be a number"),
-        (lambda wall, motion, stripes: stripes.plot_damage_states(edp="low"), "edp: must be numbers"),
-        (lambda wall, motion, stripes: stripes.plot_damage_states(edp=[2.0]), "edp = 2: must be positive and at most"),
+        (lambda wall, motion, stripes: stripes.fit().plot(confidence="most"), "confidence = 'most': must be a number"),
+        (
+            lambda wall, motion, stripes: stripes.plot_damage_states(edp_thresholds="low"),
+            "edp_thresholds: must be numbers",
+        ),
+        (
+            lambda wall, motion, stripes: stripes.plot_damage_states(edp_thresholds=[2.0]),
+            "edp_threshold = 2: must be positive and at most",
+        ),
     ],
 )
 def test_wrong_options(draw, message, wall, motion, stripes):

@@ -1,6 +1,7 @@
 """What holds the project together: lists and versions in step, the boundary's kinds, costs of import and call."""
 
 import ast
+import dataclasses
 import doctest
 import functools
 import importlib
@@ -90,10 +91,16 @@ def test_rooms_of_motion(root):
                 assert home[name][0] in known[room], f"{path.name} uses {name}"
 
 
+def boundary(root):
+    """The sources that f2py reads."""
+    listed = re.search(r"modules = files\((.*?)\)", (root / "python/meson.build").read_text(), re.S).group(1)
+    return [root / "python" / name for name in re.findall(r"'([^']+)'", listed)]
+
+
 def test_argument_lists(root):
     """Not more than eight arguments, wherever the boundary of f2py does not ask for them."""
     counts = {}
-    modules = (path for path in root.glob("python/dondolo/*.f90") if path.name != "dondolo_f2py.f90")
+    modules = set(root.glob("python/dondolo/_fortran/*.f90")) - set(boundary(root))
     for path in [*root.glob("src/**/*.[fF]90"), *root.glob("app/*.f90"), *modules]:
         text = re.sub(r"&\s*&", "", path.read_text())
         for name, arguments in re.findall(r"^ *(?!end)[\w ()=]*(?:subroutine|function) (\w+)\(([^)]*)\)", text, re.M):
@@ -168,11 +175,12 @@ def test_formats_are_documented(root, tmp_path):
 
 
 def test_no_single_precision_at_the_boundary():
-    procedures = [name for name in dir(_core) if callable(getattr(_core, name)) and not name.startswith("_")]
-    procedures = [name for name in procedures if "fortran" in str(type(getattr(_core, name)))]
-    assert len(procedures) > 10
-    for name in procedures:
-        text = getattr(_core, name).__doc__
+    modules = [getattr(_core, name) for name in dir(_core) if not name.startswith("_")]
+    procedures = {name: getattr(module, name) for module in modules for name in dir(module) if not name.startswith("_")}
+    assert len(procedures) > 40
+    for name, procedure in procedures.items():
+        text = procedure.__doc__
+        assert "Wrapper for" in text, name
         assert "array('f')" not in text, name
         assert not re.search(r": .*\bfloat32\b", text), name
 
@@ -205,8 +213,8 @@ def test_results_of_functions_have_specified_lengths(root):
 
 def test_procedures_that_compute_release_the_lock(root):
     """Those that compute release it; the others are as quick as the lock."""
-    text = (root / "python/dondolo/dondolo_f2py.f90").read_text()
-    procedures = re.split(r"(?m)^subroutine ", text)[1:]
+    text = "".join(path.read_text() for path in boundary(root))
+    procedures = re.split(r"(?m)^   subroutine ", text)[1:]
     free = {re.match(r"\w+", procedure)[0] for procedure in procedures if "!f2py threadsafe" in procedure}
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
@@ -289,6 +297,33 @@ def test_options_are_keywords():
     assert len(by_place) > 100
     assert {"Record", "OneSidedWall", "Record.band_pass", "typology", "pulses.ricker"} <= set(by_place)
     assert {name: count for name, count in by_place.items() if count > 3} == {}
+
+
+# What may be left out and still goes by its place: the one thing that a call is about
+BY_PLACE = {"ax", "edp_threshold", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table", "weights"}
+
+
+def test_what_may_be_left_out_goes_by_name():
+    found = {
+        f"{name}: {what}"
+        for name, thing in public_callables()
+        for what, one in inspect.signature(thing).parameters.items()
+        if one.default is not one.empty and one.kind is not one.KEYWORD_ONLY and what not in BY_PLACE
+    }
+    assert found == set()
+
+
+def test_results_are_made_by_the_names_of_their_fields():
+    """What users make has a few values by place, what analyses make none."""
+    made_by_users = {
+        "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
+        "Population", "Record", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+    }  # fmt: skip
+    kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
+    assert made_by_users < set(kinds)
+    assert len(kinds) > 30
+    for name in set(kinds) - made_by_users:
+        assert all(field.kw_only for field in dataclasses.fields(kinds[name])), name
 
 
 def test_no_name_hides_a_module():

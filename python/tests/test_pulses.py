@@ -40,7 +40,7 @@ def exact(kind, x, frequency):
 @pytest.mark.parametrize("pulse", [dd.pulses.one_sine, dd.pulses.one_cosine, dd.pulses.ricker])
 def test_chords_keep_their_bound(pulse, error):
     record = pulse(3.0, 0.7, error=error)
-    assert record.pga == 3.0
+    assert record.peak_acceleration == 3.0
     origin = 0.5 * record.duration if pulse is dd.pulses.ricker else 0.0
     time = np.linspace(0.0, record.duration, 20011)
     far = np.abs(np.interp(time, record.time, record.acceleration) - exact(pulse.__name__, time - origin, 0.7)).max()
@@ -261,9 +261,9 @@ def test_two_blocks():
     plt.close("all")
 
 
-def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
+def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch, replace_procedure):
     done = []
-    run_scaled = _core.run_scaled
+    run_scaled = _core.histories.run_scaled
 
     def stop(*arguments):
         done.append(len(arguments[3]))
@@ -271,7 +271,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return run_scaled(*arguments)
 
-    monkeypatch.setattr(_core, "run_scaled", stop)
+    replace_procedure("histories.run_scaled", stop)
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
     with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
         dd.overturning_spectrum(

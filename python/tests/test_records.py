@@ -14,7 +14,7 @@ def test_kept_and_read_only():
     samples = np.array([0.0, -2.0, 1.0])
     record = dd.Record(samples, 0.5, name="short")
     samples[1] = 9.0
-    assert record.pga == 2.0
+    assert record.peak_acceleration == 2.0
     assert record.duration == 1.0
     assert np.array_equal(record.time, [0.0, 0.5, 1.0])
     assert len(record) == 3
@@ -40,7 +40,7 @@ def test_other_kinds_of_arrays(kind):
 def test_slices_are_made_contiguous():
     record = dd.Record(np.arange(20.0)[::3], 0.01)
     assert record.acceleration.flags.c_contiguous
-    assert record.pga == 18.0
+    assert record.peak_acceleration == 18.0
 
 
 @pytest.mark.parametrize(
@@ -85,13 +85,15 @@ def test_recorded_accelerograms(root):
         pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
     records = dd.read_catalogue(folder / "italy44.csv")
     assert len(records) == 44
-    assert all(0.05 < record.pga < 20.0 for record in records)
+    assert all(0.05 < record.peak_acceleration < 20.0 for record in records)
 
 
 def test_channels(tmp_path):
     (tmp_path / "x.txt").write_text("0.1\n0.2\n0.3\n")
     (record,) = dd.read_records(tmp_path / "x.txt", dt=0.01, units="g")
-    assert dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).pga == record.pga
+    assert (
+        dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).peak_acceleration == record.peak_acceleration
+    )
     with pytest.raises(dd.InputError, match="channel = '2': must be one of '1'"):
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)
 
@@ -105,7 +107,7 @@ def test_several_channels(tmp_path):
     first, second = dd.read_records(file, units="g")
     assert first.name == "two.N-S"
     assert first.metadata["channel"] == "N-S"
-    assert second.pga == 0.4 * 9.80665
+    assert second.peak_acceleration == 0.4 * 9.80665
     for channel in (2, "2", "E-W", "e-w"):
         record = dd.read_record(file, units="g", channel=channel)
         assert np.array_equal(record.acceleration, second.acceleration)
@@ -151,7 +153,7 @@ def test_metadata_of_a_case(tmp_path):
     assert dict(one.metadata) == {"format": "columns", "quantity": "acceleration"}
     assert two.metadata["station"] == "TLM"
     assert two.metadata["units"] == "g"
-    assert two.pga == 0.3 * 9.80665
+    assert two.peak_acceleration == 0.3 * 9.80665
 
 
 @pytest.mark.parametrize("between", ["\t", "  "])
@@ -159,7 +161,7 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
     values = "".join(f"{0.01 * i:.2f}{between}{value}\n" for i, value in enumerate((0, 100, -50)))
     path = tmp_path / "record.txt"
     path.write_text(f"Time (s){between}Acc (gal)\n{values}")
-    assert dd.read_record(path).pga == pytest.approx(1.0)
+    assert dd.read_record(path).peak_acceleration == pytest.approx(1.0)
     with pytest.raises(dd.InputError, match="units"):
         dd.read_record(path, units="g")
     path.write_text(f"Tempo (s){between}Velocita (cm/s)\n{values}")

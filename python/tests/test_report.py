@@ -138,8 +138,8 @@ def runs(executable, root, tmp_path_factory):
 def pages(people, stripes, wall, records, hazard, tmp_path_factory):
     """Reports of everything that there is in memory."""
     folder = tmp_path_factory.mktemp("pages")
-    dd.report(people, folder / "typology.html", hazard)
-    dd.report(stripes, folder / "stripes.html", hazard)
+    dd.report(people, folder / "typology.html", hazard=hazard)
+    dd.report(stripes, folder / "stripes.html", hazard=hazard)
     dd.report(dd.simulate(wall, records[6]), folder / "history.html")
     return folder
 
@@ -173,7 +173,7 @@ def test_numbers_are_those_of_the_results(people, pages):
     page = read(pages / "typology.html")
     table = page.table("Collapse: parameters")
     assert table["group"] == [curve.group or "whole population" for curve in people.groups]
-    assert table["walls"] == [str(curve.walls) for curve in people.groups]
+    assert table["walls"] == [str(curve.n_walls) for curve in people.groups]
     assert table["θ [g]"] == four(curve.fit.theta for curve in people.groups)
     assert table["β"] == four(curve.fit.beta for curve in people.groups)
     assert table["βwalls"] == four(curve.beta_walls for curve in people.groups)
@@ -193,7 +193,7 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["wall"] == ["a", "a", "b", "never"]
     assert table["θ [g]"] == four(curve.theta for curve in people.curves)
     assert table["status"] == [curve.status for curve in people.curves]
-    samples = people["all"].bootstrap(500).parameter_interval()
+    samples = people["all"].bootstrap(n_resamples=500).parameter_interval()
     table = page.table("95 % intervals of the parameters")
     assert table["from"] == four(samples[name][0] for name in ("theta", "beta"))
     assert table["to"] == four(samples[name][1] for name in ("theta", "beta"))
@@ -250,7 +250,7 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     high = people["all", "high"].risk(hazard)
     assert ends(shown["high, collapse"]) == expected(*high.bounds)
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
-    np.testing.assert_allclose(parts, risk.deaggregate(hazard.im_levels), rtol=5e-3)
+    np.testing.assert_allclose(parts, risk.deaggregate(hazard.levels), rtol=5e-3)
     # A population has no return period; what it loses in some years comes from its walls.
     assert list(table) == ["curve", "annual frequency [1/year]", "probability in 50 years"]
     assert ends(table["probability in 50 years"][1]) == expected(*risk.probability_bounds(50.0))
@@ -400,11 +400,11 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
             dd.read_results(wrong)
     assert not list(tmp_path.iterdir())
     with pytest.raises(dd.InputError, match="hazard: float is no hazard curve"):
-        dd.report(stripes, path, 0.1)
+        dd.report(stripes, path, hazard=0.1)
     with pytest.raises(dd.InputError, match="hazard: must be left out"):
         dd.report(dd.simulate(wall, sine), path, hazard)
     with pytest.raises(dd.InputError, match="must be the same"):
-        dd.report(stripes, path, dd.HazardCurve([0.1, 1.0], [0.1, 0.001], im="pgv"))
+        dd.report(stripes, path, hazard=dd.HazardCurve([0.1, 1.0], [0.1, 0.001], im="pgv"))
     assert not path.exists()
 
 
@@ -415,16 +415,19 @@ def test_a_wall_without_a_fit(records, tmp_path):
     assert "no_collapse" in page.text
     assert page.errors == []
     with pytest.raises(dd.DondoloError, match="no curve"):
-        dd.report(stripes, tmp_path / "risk.html", dd.HazardCurve([0.1, 1.0], [0.1, 0.001]))
+        dd.report(stripes, tmp_path / "risk.html", hazard=dd.HazardCurve([0.1, 1.0], [0.1, 0.001]))
 
 
 def test_bootstrap_over_walls_needs_counts_only(people):
     counts = dataclasses.replace(people, flags=None)
-    expected, found = people["all"].bootstrap(50, over="walls"), counts["all"].bootstrap(50, over="walls")
+    expected, found = (
+        people["all"].bootstrap(n_resamples=50, over="walls"),
+        counts["all"].bootstrap(n_resamples=50, over="walls"),
+    )
     np.testing.assert_array_equal(found.theta, expected.theta)
     np.testing.assert_array_equal(found.mean_fraction, expected.mean_fraction)
     with pytest.raises(dd.DondoloError, match="must be 'walls'"):
-        counts["all"].bootstrap(50)
+        counts["all"].bootstrap(n_resamples=50)
 
 
 def test_damage_states_that_cross_are_told(few, tmp_path):

@@ -43,7 +43,7 @@ def curve():
 def trapezoid(probability, hazard, points):
     """The integral by the trapezoidal rule in H itself, step by step of the curve."""
     total = 0.0
-    for low, high in zip(hazard.im_levels[:-1], hazard.im_levels[1:], strict=True):
+    for low, high in zip(hazard.levels[:-1], hazard.levels[1:], strict=True):
         x = np.geomspace(low, high, points)
         total += integrate.trapezoid(probability(x), -hazard(np.clip(x, low, high)))
     return total
@@ -56,7 +56,7 @@ def test_curve_is_straight_on_logarithmic_axes(hazard):
     assert np.isnan(hazard([0.0, 0.019, 6.5])).all()
     assert isinstance(hazard(0.3), float)
     assert hazard(np.full((2, 3), 0.3)).shape == (2, 3)
-    assert not hazard.im_levels.flags.writeable
+    assert not hazard.levels.flags.writeable
 
 
 def test_a_level_step_has_no_sign(curve):
@@ -86,13 +86,13 @@ def test_closed_form(theta, beta, k):
     """Cornell (1996)."""
     risk = dd.mean_annual_frequency(lognormal(theta, beta), dd.HazardCurve.power_law(1e-4, k))
     exact = 1e-4 * theta**-k * np.exp(0.5 * k**2 * beta**2)
-    assert risk.frequency == pytest.approx(exact, rel=1e-11)
+    assert risk.annual_frequency == pytest.approx(exact, rel=1e-11)
     assert risk.error == 0.0
-    assert risk.bounds == (risk.frequency, risk.frequency)
+    assert risk.bounds == (risk.annual_frequency, risk.annual_frequency)
     # The same curve as a function, which is integrated by Gauss's rule
     curve = lognormal(theta, beta)
     risk = dd.mean_annual_frequency(lambda x: curve(x), dd.HazardCurve.power_law(1e-4, k))
-    assert risk.frequency == pytest.approx(exact, rel=1e-7)
+    assert risk.annual_frequency == pytest.approx(exact, rel=1e-7)
     assert risk.error < 1e-7 * exact
 
 
@@ -162,7 +162,7 @@ def test_steep_hazard(beta, k):
     assert np.isfinite(gauss.below[1]) or k * beta > 20.0
     if exact < np.inf:
         whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, k))
-        assert whole.frequency == pytest.approx(1e-4 * np.exp(0.5 * (k * beta) ** 2) * 0.6**-k, rel=1e-10)
+        assert whole.annual_frequency == pytest.approx(1e-4 * np.exp(0.5 * (k * beta) ** 2) * 0.6**-k, rel=1e-10)
     with pytest.raises(dd.DondoloError, match="is not finite"):
         dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 0.5, dd.HazardCurve.power_law(1e-4, k))
 
@@ -176,13 +176,13 @@ def test_a_function_that_is_too_rough(hazard, monkeypatch):
 
 def test_bounds_hold_the_truth(curve):
     """A power law of which only a part is given."""
-    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5)).frequency
+    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5)).annual_frequency
     for levels in ([0.3, 0.6, 1.2], [0.3, 10.0], [0.01, 0.6], [0.6, 0.7]):
         cut = dd.HazardCurve(levels, 1e-4 * np.array(levels) ** -2.5)
         with pytest.warns(dd.DondoloWarning, match="is too short: the mean annual frequency of collapse"):
             risk = dd.mean_annual_frequency(curve, cut)
         assert risk.bounds[0] < whole < risk.bounds[1] * (1.0 + 1e-9)
-        assert risk.inside < risk.frequency == risk.bounds[0]
+        assert risk.inside < risk.annual_frequency == risk.bounds[0]
         # Below the first level the bound is the power law itself; above the last, P is between its value there and 1.
         u = np.linspace(np.log(levels[0]) - 12.0, np.log(levels[0]), 200_001)
         below = integrate.simpson(curve(np.exp(u)) * 2.5 * 1e-4 * np.exp(-2.5 * u), x=u)
@@ -206,15 +206,15 @@ def test_bounds_end_at_the_saturation(curve):
 def test_a_step_is_the_hazard_itself(hazard):
     """Everything collapses above 0.33 and nothing below: the frequency is that of 0.33."""
     risk = dd.mean_annual_frequency(lambda x: (x > 0.33).astype(float), hazard)
-    assert risk.frequency == pytest.approx(hazard(0.33), rel=1e-8)
-    assert abs(risk.frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.frequency)
+    assert risk.annual_frequency == pytest.approx(hazard(0.33), rel=1e-8)
+    assert abs(risk.annual_frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.annual_frequency)
 
 
 @pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
 def test_degenerate_curves(hazard):
     with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
         never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
-    assert never.frequency == 0.0
+    assert never.annual_frequency == 0.0
     assert never.return_period == np.inf
     assert never.bounds[1] == FREQUENCY[-1]
     assert never.probability(50.0) == 0.0
@@ -234,16 +234,16 @@ def test_a_frequency_that_is_not_finite():
         dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0), dd.HazardCurve.power_law(1e-4, 2.5))
     risk = dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 3, dd.HazardCurve.power_law(1e-4, 2.0))
     # Integral of 2 x^3 x^-3 from 0 to 1, and 1
-    assert risk.frequency == pytest.approx(3e-4, rel=1e-7)
+    assert risk.annual_frequency == pytest.approx(3e-4, rel=1e-7)
 
 
 def test_time(hazard, curve):
     risk = dd.mean_annual_frequency(curve, hazard)
-    assert risk.return_period == pytest.approx(1.0 / risk.frequency)
-    assert risk.probability(50.0) == pytest.approx(1.0 - np.exp(-50.0 * risk.frequency), rel=1e-12)
+    assert risk.return_period == pytest.approx(1.0 / risk.annual_frequency)
+    assert risk.probability(50.0) == pytest.approx(1.0 - np.exp(-50.0 * risk.annual_frequency), rel=1e-12)
     assert risk.probability(0.0) == 0.0
     # As many collapses as a Poisson process has
-    counts = np.random.default_rng(3).poisson(risk.frequency * 2000.0, 100_000)
+    counts = np.random.default_rng(3).poisson(risk.annual_frequency * 2000.0, 100_000)
     assert risk.probability(2000.0) == pytest.approx((counts > 0).mean(), abs=0.005)
     for wrong in (-1.0, np.nan, np.inf):
         with pytest.raises(dd.InputError, match="must be finite and not negative"):
@@ -339,7 +339,7 @@ def test_time_of_a_population(people, hazard, endless, group):
     # Walls in which nothing can occur add nothing above the levels either.
     shares, low, high = risk._walls
     np.testing.assert_allclose(risk.bounds, (shares @ low, shares @ high), rtol=1e-6)
-    assert risk.probability(1e-3) == pytest.approx(1e-3 * risk.frequency, rel=1e-3)
+    assert risk.probability(1e-3) == pytest.approx(1e-3 * risk.annual_frequency, rel=1e-3)
     assert "return period" not in repr(risk)
     assert f"probability in 50 years {'between ' * (not endless)}{risk.probability(50.0):.4g}" in repr(risk)
 
@@ -355,7 +355,7 @@ def test_any_function_is_taken_for_one_wall(people):
     assert risks[0].bounds == risks[1].bounds
     for risk in risks:
         with pytest.warns(dd.DondoloWarning, match="the curve is a function"):
-            assert risk.probability(50.0) == -np.expm1(-50.0 * risk.frequency)
+            assert risk.probability(50.0) == -np.expm1(-50.0 * risk.annual_frequency)
         assert "return period of one wall" in repr(risk)
 
 
@@ -369,7 +369,7 @@ def test_the_curve_of_a_population_knows_its_walls(people):
         assert f"probability in 50 years {risk.probability(50.0):.4g}" in repr(risk)
     for function in (curve.mean, lambda x: curve.mean(x)):
         other = dd.mean_annual_frequency(function, hazard)
-        assert other.frequency == pytest.approx(risk.frequency, rel=1e-9)
+        assert other.annual_frequency == pytest.approx(risk.annual_frequency, rel=1e-9)
         assert "probability in 50 years of one wall" in repr(other)
         assert other.probability(0.0) == 0.0
         with pytest.warns(dd.DondoloWarning, match="function, taken for that of one wall"):
@@ -388,9 +388,9 @@ def test_time_ends_at_the_saturation(people, records):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
     two = dd.typology(dd.Population(walls, p_occ=[1.0, 0.0]), records[::4], people.levels, progress=False)
     risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two["all"], two.combined["a"]))
-    assert risk.frequency == pytest.approx(0.5 * one.frequency, rel=1e-7)
+    assert risk.annual_frequency == pytest.approx(0.5 * one.annual_frequency, rel=1e-7)
     assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
-    assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.frequency)
+    assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.annual_frequency)
     assert risk.probability(1e6) == pytest.approx(0.5)
     never = dd.typology(dd.Population(walls, p_occ=[0.0, 0.0]), records[::4], people.levels, progress=False)
     assert never["all"].risk(hazard).probability_bounds(50.0) == (0.0, 0.0)
@@ -421,9 +421,9 @@ def test_deaggregation(hazard, curve):
     k = np.log(FREQUENCY[4] / FREQUENCY[5]) / np.log(2.0)
     assert risk.density(0.5) == pytest.approx(curve(0.5) * k * hazard(0.5), rel=1e-12)
     whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
-    assert whole.deaggregate([1e-9, 1e9])[0] == pytest.approx(whole.frequency, rel=1e-9)
+    assert whole.deaggregate([1e-9, 1e9])[0] == pytest.approx(whole.annual_frequency, rel=1e-9)
     # Half of it comes from above the median of the lognormal that the integrand is
-    assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.frequency
+    assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.annual_frequency
     for wrong, sentence in (
         ([0.1], "edges: must be two at least"),
         ([0.2, 0.1], r"edges = 0.2, 0.1: must increase strictly"),
@@ -447,7 +447,7 @@ def test_measures_must_agree(hazard, curve, few):
                 dd.mean_annual_frequency(fragility, pgv)
         risk = people["all"].risk(hazard)
         assert risk.inside == pytest.approx(trapezoid(people["all"].mean, hazard, 3001), rel=1e-5)
-        assert dd.mean_annual_frequency(lambda x: curve(x), pgv).frequency > 0.0
+        assert dd.mean_annual_frequency(lambda x: curve(x), pgv).annual_frequency > 0.0
 
 
 def test_refused(hazard, curve):
@@ -467,12 +467,12 @@ def test_refused(hazard, curve):
     with pytest.raises(dd.InputError, match="hazard: list is no hazard curve"):
         dd.mean_annual_frequency(curve, [1.0])
     for levels, frequency, sentence in (
-        ([0.1, 0.2], [0.01], "2 im_levels, 1 annual_frequency: must be as many"),
-        ([0.1], [0.01], "im_levels: must be two at least"),
-        ([0.0, 0.1], [0.02, 0.01], "im_levels = 0: must be positive"),
+        ([0.1, 0.2], [0.01], "2 levels, 1 annual_frequency: must be as many"),
+        ([0.1], [0.01], "levels: must be two at least"),
+        ([0.0, 0.1], [0.02, 0.01], "levels = 0: must be positive"),
         ([0.1, 0.2], [0.01, 0.0], "annual_frequency = 0: must be positive; leave out"),
         ([0.1, 0.2], [0.01, np.nan], "annual_frequency = nan: must be positive"),
-        ([0.2, 0.2], [0.02, 0.01], "im_levels = 0.2, 0.2: must increase strictly"),
+        ([0.2, 0.2], [0.02, 0.01], "levels = 0.2, 0.2: must increase strictly"),
         ([0.1, 0.2], [0.01, 0.02], "annual_frequency = 0.01, 0.02: must not increase"),
     ):
         with pytest.raises(dd.InputError, match=sentence):
@@ -484,7 +484,7 @@ def test_refused(hazard, curve):
 def test_files(hazard, tmp_path):
     hazard.to_csv(tmp_path / "hazard.csv")
     again = dd.HazardCurve.from_csv(tmp_path / "hazard.csv")
-    np.testing.assert_array_equal(again.im_levels, hazard.im_levels)
+    np.testing.assert_array_equal(again.levels, hazard.levels)
     np.testing.assert_array_equal(again.annual_frequency, hazard.annual_frequency)
     assert again.im == "pga"
     (tmp_path / "own.csv").write_text('# a site\n  # indented\n"sa(0.5)", annual_frequency\n0.1,0.01\n\n0.3,0.001\n')
@@ -499,7 +499,7 @@ def test_files(hazard, tmp_path):
         ("pga,annual_frequency\n0,1,0,01\n", r"line 2: 4 cells: .*commas need decimal points"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,1_0e-4\n", "line 3: annual_frequency = '1_0e-4': must be a number"),
         ("# a\n\npga,annual_frequency\n  # b\n0.1,0.01\n\n0.2,?\n", r"line 7: annual_frequency = '\?': must be"),
-        ("pga,annual_frequency\n", "own.csv: im_levels: must be given"),
+        ("pga,annual_frequency\n", "own.csv: levels: must be given"),
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
         (tmp_path / "own.csv").write_text(text)
@@ -538,7 +538,7 @@ def test_published_hazard(content, warned, tmp_path):
         warnings.simplefilter("always")
         curve = dd.HazardCurve.from_csv(path)
     assert curve.im == "pga"
-    np.testing.assert_allclose(curve.im_levels, [0.05, 0.2], rtol=1e-12)
+    np.testing.assert_allclose(curve.levels, [0.05, 0.2], rtol=1e-12)
     np.testing.assert_allclose(curve.annual_frequency, [1 / 30, 1 / 475], rtol=1e-6)
     assert len(caught) == len(warned)
     for warning, words in zip(caught, warned, strict=True):
@@ -573,7 +573,7 @@ def test_published_hazard_that_is_wrong(content, sentence, tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         if sentence is None:
-            assert dd.HazardCurve.from_csv(path).im_levels[1] == 1.2
+            assert dd.HazardCurve.from_csv(path).levels[1] == 1.2
         else:
             with pytest.raises(dd.InputError, match=sentence) as caught:
                 dd.HazardCurve.from_csv(path)
@@ -611,7 +611,7 @@ def test_figure(hazard, curve, endless):
     np.testing.assert_allclose(share.get_ydata(), risk.density(x) / risk.inside)
     assert integrate.trapezoid(share.get_ydata(), np.log(x)) == pytest.approx(1.0, abs=0.02)
     assert below.get_xlabel() == "peak ground acceleration [g]"
-    text = f"{risk.frequency:.3g}" if endless else "between {:.3g} and {:.3g}".format(*risk.bounds)
+    text = f"{risk.annual_frequency:.3g}" if endless else "between {:.3g} and {:.3g}".format(*risk.bounds)
     assert f"{text} a year" in above.get_title(loc="left")
     above.figure.draw_without_rendering()
     title = next(text for text in above.findobj(matplotlib.text.Text) if "frequency of collapse" in text.get_text())

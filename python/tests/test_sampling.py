@@ -27,7 +27,7 @@ def sample(n=200, seed=1, **changes):
         "density": dd.Normal(1800.0, 100.0),
         "group": "facades",
     }
-    return dd.sample_population(n=n, seed=seed, **{**arguments, **changes})
+    return dd.sample_population(count=n, seed=seed, **{**arguments, **changes})
 
 
 def column(population, what, mechanism="one_sided"):
@@ -105,7 +105,7 @@ def test_anything_with_quantiles_is_a_distribution():
         (lambda: dd.Triangular(1.0, 5.0, 4.0), "mode = 5: must lie between 1 and 4"),
         (lambda: dd.Normal(1.0, 0.0), "sd = 0: must be positive"),
         (lambda: dd.Normal(1.0, 1.0, low=2.0, high=1.0), "high = 1: must be greater than low = 2"),
-        (lambda: dd.Lognormal(-1.0, 0.2), "median = -1: must be positive"),
+        (lambda: dd.Lognormal(-1.0, 0.2), "theta = -1: must be positive"),
         (lambda: dd.Lognormal(1.0, -0.2), "beta = -0.2: must be positive"),
         (lambda: dd.Lognormal(1.0, 0.2, low=0.0), "low = 0: must be positive"),
         (lambda: dd.Choice((1.0, 2.0), (0.5,)), "2 values, 1 probabilities: must be as many"),
@@ -306,8 +306,8 @@ def test_origin(tmp_path):
         ({"mechanisms": [["one_sided"]]}, "mechanism = ['one_sided']: must be one of 'one_sided', "),
         ({"mechanisms": ["one_sided", "one_sided"]}, "mechanisms: 'one_sided' is given twice"),
         ({"mechanisms": {"one_sided": None}}, "one_sided = None: must be a mapping, properties by their names"),
-        ({"n": 0}, "n = 0: must be an integer, at least 1"),
-        ({"n": 1.5}, "n = 1.5: must be an integer, at least 1"),
+        ({"n": 0}, "count = 0: must be an integer, at least 1"),
+        ({"n": 1.5}, "count = 1.5: must be an integer, at least 1"),
         ({"seed": -1}, "seed = -1: must be an integer, at least 0"),
         ({"hinge": 0.6}, "hinge: one_sided walls have none; give it to the mechanism that has it"),
         ({"mechanisms": {"one_sided": {"weight": 2.0}}}, "weight: belongs to the wall, not to one of its mechanisms"),
@@ -353,7 +353,7 @@ def test_origin(tmp_path):
         *(
             (
                 {"n": n, "correlation": {("height", "density"): 0.5}},
-                f"n = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, density, "
+                f"count = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, density, "
                 "two_block.hinge, two_block.overburden",
             )
             for n in (1, 2, 5)

@@ -41,7 +41,7 @@ def test_every_history_is_the_motion_it_stands_for(analysis, wall, few):
     records = 2 * list(few)
     for j in range(3):
         for i, record in enumerate(records):
-            assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.pga, rel=1e-15)
+            assert analysis.scale[j, i] == pytest.approx(LEVELS[j] * 9.81 / record.peak_acceleration, rel=1e-15)
             scale = analysis.polarity[i] * analysis.scale[j, i]
             motion = dd.simulate(wall, record, scale, solver=dd.Solver(engine="lanes"), history=False)
             assert motion.edp == analysis.edp[j, i]
@@ -83,17 +83,17 @@ def test_threads_change_nothing(analysis, wall, few, threads):
 
 
 @pytest.mark.parametrize("samples", [1, 20_000])
-def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch):
+def test_blocks_change_nothing(analysis, wall, few, samples, monkeypatch, replace_procedure):
     monkeypatch.setattr(request, "_FIRST_SAMPLES", samples)
     monkeypatch.setattr(request, "_SECONDS", 0.0)
     sizes = []
-    run_block = _core.run_block
+    run_block = _core.stripes.run_block
 
     def spy(*arguments):
         sizes.append(arguments[-1])
         return run_block(*arguments)
 
-    monkeypatch.setattr(_core, "run_block", spy)
+    replace_procedure("stripes.run_block", spy)
     other = dd.multiple_stripe(wall, few, LEVELS, polarity="both", progress=False)
     assert len(sizes) > 3
     assert sum(sizes) == other.edp.size
@@ -178,7 +178,7 @@ def test_values_in_other_units_warn(sine):
     sentences = [
         "wall 'strip': density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?",
         "wall 'strip': overburden = 15 N/m is less than 200 N/m: is it in kN/m?",
-        f"record 'strong': a PGA of {strong.pga / 9.81:.4g} g, more than 3 g: wrong units?",
+        f"record 'strong': a PGA of {strong.peak_acceleration / 9.81:.4g} g, more than 3 g: wrong units?",
     ]
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.multiple_stripe(strip, strong, [0.1], progress=False)
@@ -190,11 +190,11 @@ def test_values_in_other_units_warn(sine):
         assert caught[0].filename == __file__
 
 
-def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
+def test_interruption_keeps_what_is_complete(wall, records, monkeypatch, replace_procedure):
     monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
     monkeypatch.setattr(request, "_SECONDS", 0.0)
     done = []
-    run_block = _core.run_block
+    run_block = _core.stripes.run_block
 
     def stop(*arguments):
         done.append(arguments[-1])
@@ -202,7 +202,7 @@ def test_interruption_keeps_what_is_complete(wall, records, monkeypatch):
             os.kill(os.getpid(), signal.SIGINT)
         return run_block(*arguments)
 
-    monkeypatch.setattr(_core, "run_block", stop)
+    replace_procedure("stripes.run_block", stop)
     with pytest.raises(dd.Interrupted) as caught:
         dd.multiple_stripe(wall, records, LEVELS, progress=False)
     partial = caught.value.partial

@@ -144,11 +144,11 @@ def test_errors(population, few):
         dd.typology([*population.walls, flat], few, LEVELS, solver=dd.Solver(edp_limit=3.0))
 
 
-def test_interruption_keeps_complete_walls(population, few, monkeypatch):
+def test_interruption_keeps_complete_walls(population, few, monkeypatch, replace_procedure):
     from dondolo._fortran import _core
 
     done = []
-    run_rows = _core.run_rows
+    run_rows = _core.stores.run_rows
 
     def stop(*arguments):
         if sum(done) > 2:
@@ -156,7 +156,7 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
         done.append(arguments[2])
         return run_rows(*arguments)
 
-    monkeypatch.setattr(_core, "run_rows", stop)
+    replace_procedure("stores.run_rows", stop)
     with pytest.raises(dd.Interrupted) as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
@@ -174,12 +174,12 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch):
     )
 
 
-def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
+def test_interruption_keeps_walls_with_all_their_mechanisms(few, replace_procedure):
     from dondolo._fortran import _core
 
     kinds = (dd.OneSidedWall, dd.TwoBlockWall)
     rows = [kind(2.0 + 0.1 * i, 0.25, name=f"wall {i}") for i in range(4) for kind in kinds]
-    run_rows, calls = _core.run_rows, []
+    run_rows, calls = _core.stores.run_rows, []
 
     def stop(*arguments):
         calls.append(1)
@@ -187,7 +187,7 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, monkeypatch):
             raise KeyboardInterrupt
         return run_rows(*arguments)
 
-    monkeypatch.setattr(_core, "run_rows", stop)
+    replace_procedure("stores.run_rows", stop)
     with pytest.raises(dd.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
         dd.typology(rows, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
@@ -245,7 +245,7 @@ def test_wrong_levels_and_shares(typology):
     for wrong in ("a", [0.5, "b"], 0.0, 1.5, np.nan):
         with pytest.raises(dd.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
             typology["all"].fractiles(0.5, wrong)
-    with pytest.raises(dd.InputError, match=r"edp = 1\.0000001: must be one of 1"):
+    with pytest.raises(dd.InputError, match=r"edp_threshold = 1\.0000001: must be one of 1"):
         typology.at(1.0000001)
 
 

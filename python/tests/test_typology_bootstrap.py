@@ -104,10 +104,10 @@ def test_brute_force(mixed, mechanism, group, over):
 def test_chunks_change_nothing(mixed, monkeypatch):
 
     population, flags, _ = mixed
-    whole = resample_population(population, flags, LEVELS, n=50)
+    whole = resample_population(population, flags, LEVELS, n_resamples=50)
     monkeypatch.setattr(bootstrap, "_DRAWS", 30)
     monkeypatch.setattr(bootstrap, "_FRACTIONS", 100)
-    parts = resample_population(population, flags, LEVELS, n=50)
+    parts = resample_population(population, flags, LEVELS, n_resamples=50)
     assert parts.mean_fraction == pytest.approx(whole.mean_fraction, rel=1e-12)
 
 
@@ -134,14 +134,14 @@ def test_standard_errors_and_coverage():
         curve = dd.fit_fragility(LEVELS, flags.counts(0, 25)[0].sum(axis=1), 500)
         thetas.append(np.log(curve.theta))
         own.append(curve.se_ln_theta)
-        samples = resample_population(population, flags, LEVELS, n=100)
+        samples = resample_population(population, flags, LEVELS, n_resamples=100)
         both.append(samples.se_ln_theta)
-        low, high = samples.parameter_interval(0.9)["theta"]
+        low, high = samples.parameter_interval(confidence=0.9)["theta"]
         # What infinitely many walls and records would give
         inside.append(low <= 1.0 <= high)
         if study_number < 20:
-            records.append(resample_population(population, flags, LEVELS, n=100, over="records").se_ln_theta)
-            walls.append(resample_population(population, flags, LEVELS, n=100, over="walls").se_ln_theta)
+            records.append(resample_population(population, flags, LEVELS, n_resamples=100, over="records").se_ln_theta)
+            walls.append(resample_population(population, flags, LEVELS, n_resamples=100, over="walls").se_ln_theta)
     spread = np.std(thetas, ddof=1)
     assert np.mean(both) == pytest.approx(spread, rel=0.15)
     assert np.mean(records) == pytest.approx(np.sqrt(0.4**2 / 20 + 0.3**2 / 500), rel=0.15)
@@ -155,14 +155,19 @@ def test_of_a_typology():
     """Of real walls and records, which shake all walls alike."""
     given = study.arguments(edp_thresholds=None)
     typology = dd.typology(**given)
-    samples = typology["all"].bootstrap(n=300)
+    samples = typology["all"].bootstrap(n_resamples=300)
     assert samples.over == ("records", "walls")
-    again = typology["all"].bootstrap(n=300)
+    again = typology["all"].bootstrap(n_resamples=300)
     assert np.array_equal(samples.theta, again.theta, equal_nan=True)
-    assert np.std(np.log(typology["all"].bootstrap(n=300, seed=1).theta)) == pytest.approx(samples.se_ln_theta, rel=0.2)
+    assert np.std(np.log(typology["all"].bootstrap(n_resamples=300, seed=1).theta)) == pytest.approx(
+        samples.se_ln_theta, rel=0.2
+    )
     curve = typology["all"].fit
     assert samples.se_ln_theta > 2.0 * curve.se_ln_theta
-    records, walls = typology["all"].bootstrap(n=300, over="records"), typology["all"].bootstrap(n=300, over="walls")
+    records, walls = (
+        typology["all"].bootstrap(n_resamples=300, over="records"),
+        typology["all"].bootstrap(n_resamples=300, over="walls"),
+    )
     assert samples.se_ln_theta > max(records.se_ln_theta, walls.se_ln_theta)
     low, high = samples.mean_interval()
     assert np.all((low <= typology["all"].mean_fraction) & (typology["all"].mean_fraction <= high))
@@ -173,20 +178,20 @@ def test_of_a_typology():
     assert repr(samples) == "<TypologyBootstrap over records and walls: 300 samples, 0.0% without a fit>"
     # A damage state of its own
     states = dd.typology(**study.arguments())
-    light = states.at(0.1)["all"].bootstrap(n=50, over="walls")
+    light = states.at(0.1)["all"].bootstrap(n_resamples=50, over="walls")
     flags = states.flags.at(0)
     assert np.array_equal(
         light.theta, resample_population(states.population, flags, states.levels, 50, 0, "walls").theta
     )
-    assert np.median(light.theta) < np.median(states["all"].bootstrap(n=50, over="walls").theta)
+    assert np.median(light.theta) < np.median(states["all"].bootstrap(n_resamples=50, over="walls").theta)
     # One wall drawn over its records is the bootstrap of its stripes.
     wall = given["population"][2]
     alone = dd.typology([wall], given["records"], given["levels"], progress=False)["all"].bootstrap(
-        n=100, over="records"
+        n_resamples=100, over="records"
     )
     stripes = dd.multiple_stripe(wall, given["records"], given["levels"], progress=False)
     if stripes.fit().has_fit:
-        theta = stripes.fit().bootstrap(n=100).theta
+        theta = stripes.fit().bootstrap(n_resamples=100).theta
         assert alone.theta == pytest.approx(theta, rel=1e-9, nan_ok=True)
 
 
@@ -198,7 +203,7 @@ def test_errors(mixed):
         ({"over": 3}, "over = 3: must name"),
         ({"seed": "a"}, "seed = 'a': must be an integer"),
         ({"events": ["a"] * 9}, "events: two at least are needed"),
-        ({"n": 0}, "n = 0: must be an integer, at least 1"),
+        ({"n_resamples": 0}, "n_resamples = 0: must be an integer, at least 1"),
         ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
         ({"mechanism": "arch"}, "mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"),
     ):
@@ -218,7 +223,10 @@ def test_one_wall_is_not_drawn_from_itself(mixed):
 
 def test_many_walls_take_linear_time():
     flags = {count: simulated(np.random.default_rng(0), count, 44) for count in (200, 1600)}
-    assert growth(lambda count: resample_population(people(count), flags[count], LEVELS, n=100), 200, 1600) < 24.0
+    assert (
+        growth(lambda count: resample_population(people(count), flags[count], LEVELS, n_resamples=100), 200, 1600)
+        < 24.0
+    )
 
 
 def test_records_of_one_event_are_drawn_together(mixed):
@@ -245,7 +253,7 @@ def test_events_of_unequal_size(few):
         dd.typology(walls, records, LEVELS, polarity="both", progress=False) for records in (few, few[:6], few[6:])
     )
     expected = np.array([one["all"].mean_fraction for one in (whole, *parts)])
-    samples = whole["all"].bootstrap(400, seed=3, over="records", events=["large"] * 6 + ["small"] * 2)
+    samples = whole["all"].bootstrap(n_resamples=400, seed=3, over="records", events=["large"] * 6 + ["small"] * 2)
     off = np.abs(samples.mean_fraction[:, None] - expected).max(axis=2)
     assert off.min(axis=1).max() < 1e-12
     often = np.bincount(off.argmin(axis=1), minlength=3)
@@ -256,6 +264,8 @@ def test_the_interval_ends_at_the_saturation(few):
     """At strong motions the interval is that of the saturation."""
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     typology = dd.typology(dd.Population(walls, p_occ=[0.5, 0.2]), few, LEVELS, progress=False)
-    assert typology["all"].bootstrap(50, over="records").interval(1e3) == pytest.approx((0.35, 0.35), rel=1e-12)
+    assert typology["all"].bootstrap(n_resamples=50, over="records").interval(1e3) == pytest.approx(
+        (0.35, 0.35), rel=1e-12
+    )
     # Some samples have the first wall twice, some the second.
-    assert typology["all"].bootstrap(50, over="walls").interval(1e3) == pytest.approx((0.2, 0.5), rel=1e-12)
+    assert typology["all"].bootstrap(n_resamples=50, over="walls").interval(1e3) == pytest.approx((0.2, 0.5), rel=1e-12)

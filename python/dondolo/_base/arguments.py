@@ -127,9 +127,9 @@ def shaped(values: FloatArray, like: FloatArray) -> Any:
     return float(values[0]) if like.ndim == 0 else values.reshape(like.shape)
 
 
-def tails(level: float) -> tuple[float, float]:
+def tails(confidence: float) -> tuple[float, float]:
     """Probabilities at the ends of an interval of a confidence."""
-    level = as_number("level", level)
-    if not 0.0 < level < 1.0:
-        raise InputError(f"level = {level}: must lie between 0 and 1")
-    return 0.5 - 0.5 * level, 0.5 + 0.5 * level
+    confidence = as_number("confidence", confidence)
+    if not 0.0 < confidence < 1.0:
+        raise InputError(f"confidence = {confidence}: must lie between 0 and 1")
+    return 0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence

@@ -196,7 +196,7 @@ class PopulationData(NamedTuple):
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    defaults, version, statuses, errors = _core.constants()
+    defaults, version, statuses, errors = _core.library.constants()
     rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
         rtol,
@@ -212,7 +212,7 @@ def constants() -> Constants:
 @functools.cache
 def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
-    rows = (line.split("\t") for line in receive(*_core.properties(group.encode())).lines)
+    rows = (line.split("\t") for line in receive(*_core.library.properties(group.encode())).lines)
     return tuple(
         Property(
             name,
@@ -245,7 +245,7 @@ def build_variant() -> str:
     InputError
         DONDOLO_VARIANT names none that this build and this processor have.
     """
-    name, stat, message = _core.variant()
+    name, stat, message = _core.library.variant()
     check(stat, message)
     return str(name.decode().strip())
 
@@ -264,21 +264,21 @@ def stoppable() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    _core.listen()
+    _core.library.listen()
     try:
         yield
     finally:
-        _core.end_listening()
+        _core.library.end_listening()
 
 
 # OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
-os.register_at_fork(after_in_child=_core.work_alone)
+os.register_at_fork(after_in_child=_core.library.work_alone)
 
 
-def receive(handle: int, sizes: Sequence[int], stat: int, message: bytes) -> Parcel:
-    """Take the parcel that a procedure has sent."""
+def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
+    """Take the parcel that a procedure has sent: its address and sizes."""
     check(stat, message)
-    integers, reals, characters = _core.take_parcel(handle, *sizes)
+    integers, reals, characters = _core.library.take_parcel(*sent)
     text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
     return Parcel(integers, reals, text.split("\n")[:-1])
 
@@ -353,19 +353,20 @@ def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
 
 
 def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
-    """The same for many walls: values of each property for all of them; what is not there gets its default."""
+    """The same for many walls: values of each property for all of them; what is None or not there gets its default."""
     shape = (count, len(WALL_NUMBERS))
     numbers, given = np.zeros(shape), np.zeros(shape, dtype=np.int32)
     for i, what in enumerate(WALL_NUMBERS):
         if what in values:
-            numbers[:, i], given[:, i] = values[what], 1
+            given[:, i] = [value is not None for value in values[what]]
+            numbers[:, i] = [0.0 if value is None else value for value in values[what]]
     nothing = [None] * count
     texts = b"\n".join(
         b"" if text is None else as_text(what, text)
         for wall in zip(*(values.get(what, nothing) for what in WALL_TEXTS), strict=True)
         for what, text in zip(WALL_TEXTS, wall, strict=True)
     )
-    return unpack_walls(receive(*_core.describe_walls(texts, numbers.T, given.T, gravity)), count)
+    return unpack_walls(receive(*_core.walls.describe_walls(texts, numbers.T, given.T, gravity)), count)
 
 
 def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
@@ -374,7 +375,7 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
         values, shape = np.ravel(rotation), np.shape(rotation)
     except ValueError:
         raise InputError("rotation: must be numbers") from None
-    terms, stat, message = _core.wall_terms(wall.number, as_array("rotation", values))
+    terms, stat, message = _core.walls.wall_terms(wall.number, as_array("rotation", values))
     check(stat, message)
     found: FloatArray = terms.T.reshape(6, *shape)
     return found
@@ -451,7 +452,7 @@ def read_records(
         b"" if text is None else as_text(name, text)
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
-    parcel = receive(*_core.read_records(as_path(path), what, int(dt is not None), step, *texts))
+    parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts))
     count = len(parcel.integers) // 2
     warn(parcel.lines[records_end(parcel, count) :])
     return unpack_records(parcel, count)
@@ -459,7 +460,7 @@ def read_records(
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
     """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
-    parcel = receive(*_core.read_number_table(as_path(path)))
+    parcel = receive(*_core.records.read_number_table(as_path(path)))
     columns, rows = (int(count) for count in parcel.integers)
     warn(parcel.lines[columns:])
     return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
@@ -467,7 +468,7 @@ def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArr
 
 def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
-    parcel = receive(*_core.catalogue_table(as_path(path), constants().gravity))
+    parcel = receive(*_core.records.catalogue_table(as_path(path), constants().gravity))
     lines = int(parcel.integers[0])
     warn(parcel.lines[lines:])
     return parcel.lines[:lines]
@@ -478,7 +479,7 @@ def read_walls(
 ) -> tuple[list[WallData], FloatArray, list[str], FloatArray]:
     """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    parcel = receive(*_core.read_walls(as_path(path), pull))
+    parcel = receive(*_core.walls.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
     weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
     groups = len(WALL_TEXTS) * count
@@ -493,7 +494,7 @@ def describe_measure(im: str, of_record: bool = False) -> MeasureData:
 
 @functools.cache
 def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
-    parcel = receive(*_core.describe_measure(im, int(of_record)))
+    parcel = receive(*_core.records.describe_measure(im, int(of_record)))
     name, unit, title = parcel.lines
     return MeasureData(name, unit, title, int(parcel.integers[0]))
 
@@ -509,7 +510,7 @@ def unit_of(im: str) -> str:
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
-    curves, codes, stat, message = _core.fit_curves(levels, z.T, n.T)
+    curves, codes, stat, message = _core.curves.fit_curves(levels, z.T, n.T)
     check(stat, message)
     names = constants().statuses
     return curves.T, [names[code - 1] for code in codes]
@@ -522,14 +523,14 @@ def cluster_changes(
 
     Collapses and histories are (clusters, levels).
     """
-    changes, code, stat, message = _core.cluster_changes(levels, collapses.T, histories.T, theta, beta)
+    changes, code, stat, message = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
     check(stat, message)
     return changes.T, constants().errors[code - 1]
 
 
 def cluster_curves(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
-) -> tuple[FloatArray, list[str], IntArray]:
+) -> tuple[FloatArray, list[str], NDArray[np.int32]]:
     """Covariances (curves, 2, 2) of many curves, what standard errors each has, and its number of clusters.
 
     Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
@@ -538,7 +539,7 @@ def cluster_curves(
     numbers = np.zeros((len(curves), 8))
     numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
     codes = np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
-    found = _core.cluster_curves(levels, collapses.T, histories.T[..., None], numbers.T, codes)
+    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], numbers.T, codes)
     covariances, errors, clusters, stat, message = found
     check(stat, message)
     return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
@@ -549,7 +550,7 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
 
     Names are those of the wall of each row, one a line.
     """
-    parcel = receive(*_core.fit_walls(population.texts, names, *population[1:]))
+    parcel = receive(*_core.curves.fit_walls(population.texts, names, *population[1:]))
     levels, histories, rows = population.levels, population.histories, population.rows
     m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
     known = ("", *constants().statuses)
@@ -599,8 +600,8 @@ def curve_of_population(
     numbers[:, :2] = [curve[1:] for curve in curves]
     codes = np.array([statuses.index(status) + 1 for status, *_ in curves], dtype=np.int32)
     texts = (as_text("group", text) for text in which)
-    mean, fractiles, *sent = _core.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
-    check(*sent[2:])
+    mean, fractiles, *sent = _core.curves.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
+    check(*sent[1:])
     found = np.zeros((0, len(x)))
     if members:
         parcel = receive(*sent)
@@ -611,14 +612,13 @@ def curve_of_population(
 def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one wall."""
     code = constants().statuses.index(curve.status) + 1
-    parcel = receive(*_core.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
+    parcel = receive(*_core.curves.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
     return unpack_warnings(parcel.lines)
 
 
 def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[DondoloWarning]:
     """What the executable would warn of, of a wall and a record, before it runs one motion."""
-    handle, *rest = _core.warn_of_motion(wall.number, record.encode(), pga)
-    return unpack_warnings(receive(handle, *rest).lines) if handle else []
+    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga)).lines)
 
 
 def warnings_of_errors(
@@ -628,13 +628,13 @@ def warnings_of_errors(
 
     Without a record it is one history.
     """
-    parcel = receive(*_core.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    parcel = receive(*_core.histories.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
     return unpack_warnings(parcel.lines)
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
-    found: FloatArray = _core.probability(theta, beta, x)
+    found: FloatArray = _core.curves.probability(theta, beta, x)
     return found
 
 

@@ -1,4 +1,4 @@
-"""Procedures of the Fortran extension, made by f2py from dondolo_f2py.f90; _binding gives their results types."""
+"""Modules of the Fortran extension, which f2py makes from their sources; _binding gives their results types."""
 
 from typing import Any
 

@@ -26,7 +26,7 @@ class Handle:
         self.number = number
         self._needs = needs
         # The end of the process frees everything.
-        weakref.finalize(self, _core.free, number).atexit = False
+        weakref.finalize(self, _core.library.free, number).atexit = False
 
     def __reduce__(self) -> str:
         raise TypeError("a handle is valid in its own process only")

@@ -17,7 +17,8 @@ false, strings and finite numbers; a tuple is an array, and everything else an o
 
 A class takes part through its name: results inherit from `Saved`, their parts are marked by `part_of_results`. What is
 read is made by the constructor of its class, which checks it as it does any other input; what a wall derives from its
-numbers is derived again. A result gives the same bytes whenever it is saved.
+numbers is derived again. A class of many parts says what is stored of it and makes itself of that again (`_stored`,
+`_restored`). A result gives the same bytes whenever it is saved.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ import numpy as np
 
 from dondolo._base.files import as_file, check_replaced, whole_file
 from dondolo._fortran import _binding
-from dondolo.errors import InputError, MissingFileError
+from dondolo.errors import DondoloWarning, InputError, MissingFileError
 
 _VERSION = 1
 _CONTENT = "dondolo.json"
@@ -57,12 +58,22 @@ def part_of_results(kind: type[_T]) -> type[_T]:
     return kind
 
 
+# Its room knows nothing of files.
+part_of_results(DondoloWarning)
+
+
 class Saved:
-    """A result that can be saved: a dataclass."""
+    """A result that can be saved: a dataclass, whose arrays are read-only."""
 
     def __init_subclass__(cls, **more: Any) -> None:
         super().__init_subclass__(**more)
         part_of_results(cls)
+
+    def __post_init__(self) -> None:
+        # Nobody changes a result.
+        for value in vars(self).values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the result to a file, from which `dondolo.load` reads it back, equal to the bit.
@@ -76,7 +87,7 @@ class Saved:
         ------
         InputError
             Another suffix; a file that is no result of dondolo; a result with a part that cannot be saved, such as a
-            function of yours or the curve of a population (`Typology.save` writes those).
+            function of yours.
         DondoloError
             The file cannot be written.
         """
@@ -101,7 +112,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     Parameters
     ----------
     path : path
-        The file, *.npz. The tables of a run, of `Typology.save` too, are read by `read_results`.
+        The file, *.npz. The tables of a run, of `Typology.write_results` too, are read by `read_results`.
 
     Returns
     -------
@@ -201,7 +212,7 @@ def _encode(value: Any, where: str, arrays: list[_Array], places: dict[int, str]
         raise InputError(f"{where}: a {kind.__name__} cannot be saved")
     if isinstance(value, Enum):
         return {kind.__name__: value.value}
-    return {kind.__name__: {name: inner(getattr(value, name), f"{where}.{name}") for name in _fields(kind)}}
+    return {kind.__name__: {name: inner(one, f"{where}.{name}") for name, one in _content(value).items()}}
 
 
 def _decode(tree: Any, arrays: Mapping[str, _Array]) -> Any:
@@ -228,8 +239,22 @@ def _decode(tree: Any, arrays: Mapping[str, _Array]) -> Any:
     return _made(kind, {name: _decode(one, arrays) for name, one in inner.items()})
 
 
-def _made(kind: type, values: dict[str, Any]) -> Any:
-    """A result or a part of one, from the values of all its fields."""
+def _content(value: Any) -> dict[str, Any]:
+    """What is stored of a result or a part of one, by name."""
+    if isinstance(value, DondoloWarning):
+        return value.as_data()
+    if hasattr(value, "_stored"):
+        stored: dict[str, Any] = value._stored()
+        return stored
+    return {name: getattr(value, name) for name in _fields(type(value))}
+
+
+def _made(kind: Any, values: dict[str, Any]) -> Any:
+    """A result or a part of one, from what is stored of it."""
+    if kind is DondoloWarning:
+        return kind(**values)
+    if hasattr(kind, "_restored"):
+        return kind._restored(**values)
     fields = _fields(kind)
     if set(values) != set(fields):
         wrong = sorted(set(values) ^ set(fields))[0]

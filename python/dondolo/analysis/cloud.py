@@ -79,7 +79,7 @@ _LOW, _HIGH = 0.16, 0.84
 _REACH = 10.0
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Cloud(Shown, Saved):
     """Points (IM, EDP) of records as they are, and what is fitted to them.
 
@@ -164,17 +164,16 @@ class Cloud(Shown, Saved):
         """
         intensity, name = _intensities(self.wall, self.records, im, self.scale, 0)
         intensity = intensity[self.record_index]
-        intensity.flags.writeable = False
         return replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed))
 
-    def probability(self, x: ArrayLike, edp: float | None = None) -> Any:
-        """P(EDP > edp | IM = x) by total probability.
+    def probability(self, x: ArrayLike, edp_threshold: float | None = None) -> Any:
+        """P(EDP > edp_threshold | IM = x) by total probability.
 
         Parameters
         ----------
         x : array_like
             Intensities, not negative.
-        edp : float, optional
+        edp_threshold : float, optional
             Threshold, positive and at most `edp_limit`, which is meant if it is left out.
 
         Returns
@@ -188,14 +187,14 @@ class Cloud(Shown, Saved):
             Too few histories rock without collapse, so that there is no regression.
         """
         values = as_levels(x)
-        return shaped(self._curve(values.ravel(), self._threshold(edp)), values)
+        return shaped(self._curve(values.ravel(), self._threshold(edp_threshold)), values)
 
-    def lognormal(self, edp: float | None = None) -> tuple[float, float]:
-        """Median and dispersion of the lognormal curve that is equivalent to P(EDP > edp | IM).
+    def lognormal(self, edp_threshold: float | None = None) -> tuple[float, float]:
+        """Median and dispersion of the lognormal curve that is equivalent to P(EDP > edp_threshold | IM).
 
         Parameters
         ----------
-        edp : float, optional
+        edp_threshold : float, optional
             As for `probability`.
 
         Returns
@@ -204,7 +203,7 @@ class Cloud(Shown, Saved):
             In the unit of the intensity, and of its logarithm. NaN where they are not defined: there is no line or it
             falls, or one of 16, 50 and 84 % lies in a gap of the data.
         """
-        threshold = self._threshold(edp)
+        threshold = self._threshold(edp_threshold)
         if not self.slope > 0.0 or "decreasing" in (self.rocking.status, self.collapse.status):
             return np.nan, np.nan
         if self.collapse.status == "none" and self.rocking.status == "all":
@@ -230,10 +229,12 @@ class Cloud(Shown, Saved):
 
         return draw_cloud(self, ax)
 
-    def _threshold(self, edp: float | None) -> float:
-        threshold = self.edp_limit if edp is None else as_number("edp", edp)
+    def _threshold(self, edp_threshold: float | None) -> float:
+        threshold = self.edp_limit if edp_threshold is None else as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(f"edp = {threshold:g}: must be positive and at most {self.edp_limit:g}, the edp_limit")
+            raise InputError(
+                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            )
         return threshold
 
     def _curve(self, x: FloatArray, threshold: float, gap: float = np.nan) -> FloatArray:
@@ -242,13 +243,13 @@ class Cloud(Shown, Saved):
         line = self.regression
         if line.status != "ok":
             raise DondoloError(
-                f"no line was fitted (status '{line.status}'): {line.n} histories rock without collapse, three of"
-                " different intensity are needed"
+                f"no line was fitted (status '{line.status}'): {line.histories} histories rock without collapse, three"
+                " of different intensity are needed"
             )
         with np.errstate(divide="ignore", invalid="ignore"):
             exceeds = ndtr((line.intercept + line.slope * np.log(x) - np.log(threshold)) / line.sigma)
-        collapse = self.collapse.at(x, gap)
-        return np.where(collapse == 1.0, 1.0, collapse + (1.0 - collapse) * self.rocking.at(x, gap) * exceeds)
+        collapse = self.collapse._at(x, gap)
+        return np.where(collapse == 1.0, 1.0, collapse + (1.0 - collapse) * self.rocking._at(x, gap) * exceeds)
 
     def _crossing(self, p: float, threshold: float) -> float:
         """Intensity at which the curve, which rises, passes a probability; NaN where that is in a gap."""
@@ -296,11 +297,11 @@ class Cloud(Shown, Saved):
         models = ((self.rocking, "rock, of those without collapse"), (self.collapse, "collapse"))
         return [
             ("wall", self.wall.name),
-            ("line", f"{fitted}, {line.n} histories" if line.status == "ok" else line.status),
+            ("line", f"{fitted}, {line.histories} histories" if line.status == "ok" else line.status),
             *(
                 (
                     what,
-                    f"{model.count} of {model.n}, "
+                    f"{model.count} of {model.histories}, "
                     + (
                         f"logistic {model.b0:.4g} + {model.b1:.4g} ln {self.im}"
                         if model.status == "ok"
@@ -381,18 +382,16 @@ def cloud(
     if interrupted:
         raise Interrupted(f"interrupted: {outcome.done} of {len(plan.record)} histories are complete")
     points = intensity[plan.record]
-    for array in (points, outcome.edp, outcome.collapsed, plan.record, plan.polarity):
-        array.flags.writeable = False
     return Cloud(
-        wall,
-        several,
-        name,
-        factor,
-        points,
-        outcome.edp,
-        outcome.collapsed,
-        plan.record,
-        plan.polarity,
+        wall=wall,
+        records=several,
+        im=name,
+        scale=factor,
+        intensity=points,
+        edp=outcome.edp,
+        collapsed=outcome.collapsed,
+        record_index=plan.record,
+        polarity=plan.polarity,
         **fit(points, outcome.edp, outcome.collapsed),
         edp_limit=float(settings[2]),
         work=outcome.work,

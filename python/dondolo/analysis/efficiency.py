@@ -33,7 +33,7 @@ _SMALL_LEVEL = 1e-6
 _LONGEST_SEARCH = 40
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class IntensityComparison(Saved):
     """Fragility curves of one wall and one set of records for several intensity measures.
 
@@ -136,9 +136,9 @@ def compare_intensities(
     records: Record | Iterable[Record],
     ims: str | Iterable[str],
     *,
-    levels: int = 15,
+    n_levels: int = 15,
     polarity: Polarity = "as_recorded",
-    samples: int = 1000,
+    n_resamples: int = 1000,
     seed: int | np.random.Generator | None = 0,
     events: Sequence[Any] | None = None,
     threads: int = 0,
@@ -158,11 +158,11 @@ def compare_intensities(
         The accelerograms.
     ims : str or iterable of str
         Intensity measures, as for `multiple_stripe`.
-    levels : int
+    n_levels : int
         Stripes of each analysis, at least 2.
     polarity : {'as_recorded', 'reversed', 'both'}
         As for `multiple_stripe`.
-    samples : int
+    n_resamples : int
         Samples of records for the intervals of the ratios.
     seed : int, Generator or None
         Of these samples.
@@ -184,7 +184,7 @@ def compare_intensities(
     names = [_binding.describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
-    count = as_count("levels", levels, 2)
+    count = as_count("n_levels", n_levels, 2)
     analyses, curves = [], []
     for im in names:
         grid = _levels(wall, several, im, count, polarity, threads)
@@ -198,17 +198,22 @@ def compare_intensities(
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    labels = analyses[0]._sample(events).clusters
-    times = draw_records(labels, samples, seed)
+    times = draw_records(analyses[0]._sample(events).clusters, n_resamples, seed)
     drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
     interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
-    ratio = dispersion / dispersion.min()
-    return IntensityComparison(tuple(analyses), tuple(curves), dispersion, error, ratio, interval)
+    return IntensityComparison(
+        stripes=tuple(analyses),
+        curves=tuple(curves),
+        dispersion=dispersion,
+        se_dispersion=error,
+        ratio=dispersion / dispersion.min(),
+        ratio_interval=interval,
+    )
 
 
 def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polarity: str, threads: int) -> FloatArray:
     """Levels that cover a curve from nearly none to nearly all collapses."""
-    pga = np.array([record.pga for record in records])
+    pga = np.array([record.peak_acceleration for record in records])
 
     def plan_at(levels: Sequence[float]) -> Any:
         request = new_request((wall,), records, levels, im, polarity, None, threads)

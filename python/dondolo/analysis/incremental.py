@@ -61,7 +61,7 @@ SHARES = (0.16, 0.50, 0.84)
 _MOST_STEPS = 100
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FirstCollapseFragility(Fragility):
     """A lognormal fitted to first collapses.
 
@@ -77,7 +77,7 @@ class FirstCollapseFragility(Fragility):
 _Table = Literal["records", "fractiles"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Incremental(Shown, Saved):
     """The histories of a multiple stripe analysis, record by record.
 
@@ -176,21 +176,19 @@ class Incremental(Shown, Saved):
             _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
-        arrays = covariance, self.counted.astype(np.float64), np.full(len(levels), float(n))
-        for array in arrays:
-            array.flags.writeable = False
         curve = FirstCollapseFragility(
-            theta,
-            beta,
-            arrays[0],
-            status,
-            np.nan,
-            (float(levels[first - 1]) if first else 0.0, float(levels[first]) if half.any() else np.inf),
-            levels,
-            *arrays[1:],
+            theta=theta,
+            beta=beta,
+            covariance=covariance,
+            status=status,
+            log_likelihood=np.nan,
+            bracket=(float(levels[first - 1]) if first else 0.0, float(levels[first]) if half.any() else np.inf),
+            levels=levels,
+            collapses=self.counted.astype(np.float64),
+            histories=np.full(len(levels), float(n)),
             im=self.stripes.im,
             wall=self.stripes.wall,
-            naive_covariance=arrays[0],
+            naive_covariance=covariance,
         )
         return curve if errors is None else with_errors(curve, errors)
 
@@ -288,10 +286,14 @@ def incremental(stripes: Stripes) -> Incremental:
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])
     edp = np.where(collapsed, np.inf, stripes.edp)
-    arrays = first, last, fractiles(edp), fractiles(first), (first[None, :] <= levels[:, None]).sum(axis=1)
-    for array in arrays:
-        array.flags.writeable = False
-    return Incremental(stripes, *arrays)
+    return Incremental(
+        stripes=stripes,
+        first_collapse=first,
+        last_survival=last,
+        edp_fractiles=fractiles(edp),
+        level_fractiles=fractiles(first),
+        counted=(first[None, :] <= levels[:, None]).sum(axis=1),
+    )
 
 
 def fractiles(values: FloatArray) -> FloatArray:

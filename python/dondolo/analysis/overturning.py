@@ -85,7 +85,7 @@ class Window(NamedTuple):
 _Table = Literal["map", "boundaries"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OverturningSpectrum(Shown, Saved):
     """What pulses of many frequencies and amplitudes do to a wall.
 
@@ -142,12 +142,12 @@ class OverturningSpectrum(Shown, Saved):
         """a_p/(g tan alpha), the amplitudes as parts of the trigger acceleration."""
         return self.amplitudes / self.amplitude_unit
 
-    def windows(self, frequency: int) -> list[Window]:
+    def windows(self, place: int) -> list[Window]:
         """All amplitudes of one frequency, cut where the state changes.
 
         Parameters
         ----------
-        frequency : int
+        place : int
             Its place among the frequencies, from 0.
 
         Returns
@@ -155,8 +155,8 @@ class OverturningSpectrum(Shown, Saved):
         list of Window
             From the lowest amplitude to the highest.
         """
-        chosen = float(self.frequencies[frequency])
-        states, ends = [State(self.state[0, frequency])], [float(self.amplitudes[0])]
+        chosen = float(self.frequencies[place])
+        states, ends = [State(self.state[0, place])], [float(self.amplitudes[0])]
         for boundary in self.boundaries:
             if boundary.frequency == chosen:
                 states.append(boundary.above)
@@ -316,23 +316,20 @@ def overturning_spectrum(
         brackets, stopped = _bisect(runner, brackets, width, f"{wall.name}: boundaries")
     flat: tuple[Any, ...] = tuple(outcome[:3])
     states, edp, impacts = (values.reshape(columns, rows)[:complete].T.copy() for values in flat)
-    scanned = frequency[:complete].copy()
-    for array in (scanned, amplitude, states, edp, impacts):
-        array.flags.writeable = False
     spectrum = OverturningSpectrum(
-        wall,
-        runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
-        scanned,
-        amplitude,
-        states,
-        edp,
-        impacts,
-        tuple(
+        wall=wall,
+        pulse=runner.pulses[0].name.removesuffix(f" {frequency[0]:g} Hz"),
+        frequencies=frequency[:complete].copy(),
+        amplitudes=amplitude,
+        state=states,
+        edp=edp,
+        impacts=impacts,
+        boundaries=tuple(
             Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
             for b in sorted(brackets)
         ),
-        float(settings[2]),
-        polarity,
+        edp_limit=float(settings[2]),
+        polarity=polarity,
     )
     if stopped:
         sentence = f"interrupted: the scans of {complete} of {columns} frequencies are complete"
@@ -407,9 +404,14 @@ class _Runner(NamedTuple):
         return state, edp, impacts
 
     def _histories(self, places: Any, amplitudes: FloatArray) -> tuple[FloatArray, Any, Any, FloatArray]:
-        scale = self.sign * amplitudes * self.wall.gravity / np.array([pulse.pga for pulse in self.pulses])[places]
+        scale = (
+            self.sign
+            * amplitudes
+            * self.wall.gravity
+            / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
+        )
         with _binding.stoppable():
-            edp, collapsed, impacts, time, stat, message = _core.run_scaled(
+            edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,
                 (np.asarray(places) + 1).astype(np.int32),
@@ -446,7 +448,7 @@ def _pulse(pulse: Callable[[float, float], Record], frequency: float) -> Record:
     record = pulse(1.0, float(frequency))
     if not isinstance(record, Record):
         raise InputError(f"pulse: must return a Record, not {type(record).__name__}")
-    if not record.pga > 0.0:
+    if not record.peak_acceleration > 0.0:
         raise InputError(f"pulse: is zero at {frequency:g} Hz")
     return record
 

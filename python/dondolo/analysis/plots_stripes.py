@@ -62,9 +62,12 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     return ax
 
 
-def draw_damage_states(stripes: Stripes, ax: Axes | None, edp: Sequence[float] | None) -> Axes:
+def draw_damage_states(stripes: Stripes, ax: Axes | None, edp_thresholds: Sequence[float] | None) -> Axes:
     """Draw the fitted curve of each damage state, collapse the boldest."""
-    states = [share * stripes.edp_limit for share in _STATES] if edp is None else as_array("edp", edp).tolist()
+    if edp_thresholds is None:
+        states = [share * stripes.edp_limit for share in _STATES]
+    else:
+        states = as_array("edp_thresholds", edp_thresholds).tolist()
     ax = curves.axes(ax, len(states) + 1)
     grid = curves.grid(stripes.levels)
     for threshold, look, marks in curves.state_looks(states):

@@ -93,8 +93,8 @@ class Request:
         suite = upload_records(self.records)
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
-            _binding.check(*_core.measure_suite(suite.number, words[0], self.threads))
-        number, stat, message = _core.new_study(
+            _binding.check(*_core.records.measure_suite(suite.number, words[0], self.threads))
+        number, stat, message = _core.stripes.new_study(
             suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
         )
         _binding.check(stat, message)
@@ -117,10 +117,11 @@ class Request:
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
-        histories, handle, sizes, stat, message = _core.plan(study, people, walls)
-        _binding.check(stat, message)
-        found = _binding.unpack_warnings(_binding.receive(handle, sizes, stat, message).lines) if handle else []
-        record, polarity, scale, stat, message = _core.scales(study, people, walls, histories[-1], len(self.levels))
+        histories, *sent = _core.stripes.plan(study, people, walls)
+        found = _binding.unpack_warnings(_binding.receive(*sent).lines)
+        record, polarity, scale, stat, message = _core.stripes.scales(
+            study, people, walls, histories[-1], len(self.levels)
+        )
         _binding.check(stat, message)
         return Plan(histories, record - 1, polarity, scale.T, found)
 
@@ -146,9 +147,11 @@ class Request:
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with _binding.stoppable():
-                counts, stat, message = _core.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
+                counts, stat, message = _core.stripes.run_block(
+                    study, people, one + 1, last + 1, first + 1, *rows, count
+                )
             _binding.check(stat, message)
-            works.append(Work(*map(int, counts)))
+            works.append(Work.of(counts))
 
         done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Response(Shown, Saved):
     """What a motion leaves.
 
@@ -251,7 +251,7 @@ def simulate(
     how = as_solver(solver)
     settings = how._settings(estimate_error)
     with _binding.stoppable():
-        edp, collapsed, impacts, time_of_peak, edp_error, handle, sizes, stat, message = _core.simulate(
+        edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
             upload((wall,)).number,
             *place_of(record),
             factor,
@@ -260,21 +260,30 @@ def simulate(
             int(history),
         )
     _binding.check(stat, message)
-    if sentences := _warnings(wall, record.name, record.pga):
+    if sentences := _warnings(wall, record.name, record.peak_acceleration):
         _binding.warn(sentences)
-    response = Response(wall, record, factor, edp, collapsed == 1, impacts, time_of_peak, float(settings[2]))
+    edp_limit = float(settings[2])
+    motion: dict[str, Any] = {}
     if estimate_error:
-        object.__setattr__(response, "edp_error", edp_error)
-        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), response.edp_limit))
+        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
     if history:
-        parcel = _binding.receive(handle, sizes, stat, message)
+        parcel = _binding.receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
-        columns = ("time", "ground_acceleration", "rotation", "velocity", "side", "after_impact")
-        rows = (*parcel.reals.reshape(4, -1), side.astype(np.int8), after == 1)
-        for what, row in zip(columns, rows, strict=True):
-            row.flags.writeable = False
-            object.__setattr__(response, what, row)
-    return response
+        names = ("time", "ground_acceleration", "rotation", "velocity")
+        motion = dict(zip(names, parcel.reals.reshape(4, -1), strict=True))
+        motion |= {"side": side.astype(np.int8), "after_impact": after == 1}
+    return Response(
+        wall=wall,
+        record=record,
+        scale=factor,
+        edp=edp,
+        collapsed=collapsed == 1,
+        impacts=impacts,
+        time_of_peak=time_of_peak,
+        edp_limit=edp_limit,
+        edp_error=edp_error if estimate_error else None,
+        **motion,
+    )
 
 
 @functools.lru_cache

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _Table = Literal["histories", "stripes", "walls"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
     """Every record at every level of intensity, and who collapses.
 
@@ -87,7 +87,7 @@ class Stripes(Shown, Saved):
     checksums: tuple[str, ...] = ()
 
     @property
-    def records(self) -> int:
+    def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names) // len(np.unique(self.polarity))
 
@@ -95,7 +95,7 @@ class Stripes(Shown, Saved):
     def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
         # All records come in one polarity, and again in the other if there are two.
-        return np.arange(len(self.record_names)) % self.records
+        return np.arange(len(self.record_names)) % self.n_records
 
     @property
     def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
@@ -113,12 +113,12 @@ class Stripes(Shown, Saved):
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
 
-    def exceedances(self, edp: float) -> np.ndarray[Any, np.dtype[np.int64]]:
+    def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe that reach a threshold, shape (levels,).
 
         Parameters
         ----------
-        edp : float
+        edp_threshold : float
             Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
 
         Returns
@@ -130,18 +130,20 @@ class Stripes(Shown, Saved):
         InputError
             A threshold beyond that.
         """
-        threshold = as_number("edp", edp)
+        threshold = as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(f"edp = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}")
+            raise InputError(
+                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            )
         counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
         return counts
 
-    def fit(self, edp: float | None = None, *, events: Sequence[Any] | None = None) -> Fragility:
+    def fit(self, edp_threshold: float | None = None, *, events: Sequence[Any] | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood, with standard errors that are clustered by record or by event.
 
         Parameters
         ----------
-        edp : float, optional
+        edp_threshold : float, optional
             Rotation / capacity that makes a damage state; collapse if left out.
         events : sequence, optional
             A label for each record, such as its recording or its earthquake, in place of `events`: records with the
@@ -157,14 +159,14 @@ class Stripes(Shown, Saved):
         DondoloWarning
             With the sentence of the executable, where there is no curve or it extrapolates.
         """
-        state = self if edp is None else self._state(edp)
+        state = self if edp_threshold is None else self._state(edp_threshold)
         curve = fit(
             self.levels,
             state.collapses.astype(np.float64),
             self.histories.astype(np.float64),
             im=self.im,
             wall=self.wall,
-            edp=state.edp_limit,
+            edp_threshold=state.edp_limit,
             sample=state._sample(events),
         )
         low, high = curve.bracket
@@ -172,7 +174,7 @@ class Stripes(Shown, Saved):
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = _binding.CurveData(curve.status, numbers)
         sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
-        where = "" if edp is None else f"damage state {edp:g} in place of collapse: "
+        where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
         _binding.warn(sentence.placed(where) for sentence in sentences)
         return curve
 
@@ -195,14 +197,14 @@ class Stripes(Shown, Saved):
 
         return draw_stripes(self, ax)
 
-    def plot_damage_states(self, ax: Axes | None = None, *, edp: Sequence[float] | None = None) -> Axes:
+    def plot_damage_states(self, ax: Axes | None = None, *, edp_thresholds: Sequence[float] | None = None) -> Axes:
         """Draw the fitted curve of each damage state, collapse the boldest.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        edp : sequence of float, optional
+        edp_thresholds : sequence of float, optional
             Rotation / capacity of the states, as for `fit`; 0.1, 0.4 and 1 times `edp_limit` if left out.
 
         Returns
@@ -217,23 +219,24 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_damage_states
 
-        return draw_damage_states(self, ax, edp)
+        return draw_damage_states(self, ax, edp_thresholds)
 
-    def _state(self, edp: float) -> Stripes:
+    def _state(self, edp_threshold: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
-        self.exceedances(edp)
-        return dataclasses.replace(self, edp=np.minimum(self.edp, edp), collapsed=self.edp >= edp, edp_limit=edp)
+        self.exceedances(edp_threshold)
+        edp, collapsed = np.minimum(self.edp, edp_threshold), self.edp >= edp_threshold
+        return dataclasses.replace(self, edp=edp, collapsed=collapsed, edp_limit=edp_threshold)
 
     def _sample(self, events: Sequence[Any] | None = None) -> Sample:
         """The histories as a curve keeps them."""
-        names = self.record_names[: self.records]
+        names = self.record_names[: self.n_records]
         return Sample(
-            self.levels,
-            self.collapsed,
-            np.ones(self.collapsed.shape, dtype=np.bool_),
-            self.record_index,
-            names,
-            cluster_labels(len(names), self.events, self.checksums)
+            levels=self.levels,
+            collapsed=self.collapsed,
+            ran=np.ones(self.collapsed.shape, dtype=np.bool_),
+            record_index=self.record_index,
+            record_names=names,
+            clusters=cluster_labels(len(names), self.events, self.checksums)
             if events is None
             else given_labels(len(names), events),
         )
@@ -359,29 +362,26 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     size = complete * len(plan.record)
     flat: tuple[Any, ...] = outcome[:5]
     edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
-    levels, scale = request.levels[:complete], plan.scale[:complete]
-    for array in (edp, collapsed, impacts, time_of_peak, error, scale, plan.polarity):
-        array.flags.writeable = False
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     return Stripes(
-        request.walls[0],
-        request.im,
-        levels,
-        edp,
-        collapsed,
-        impacts,
-        time_of_peak,
-        scale,
-        tuple(records[i].name for i in plan.record),
-        plan.polarity,
-        request.engine,
-        rtol,
-        atol,
-        edp_limit,
-        outcome.work,
-        error if estimated else None,
-        tuple(record.event for record in records),
-        tuple(record.checksum for record in records),
+        wall=request.walls[0],
+        im=request.im,
+        levels=request.levels[:complete],
+        edp=edp,
+        collapsed=collapsed,
+        impacts=impacts,
+        time_of_peak=time_of_peak,
+        scale=plan.scale[:complete],
+        record_names=tuple(records[i].name for i in plan.record),
+        polarity=plan.polarity,
+        engine=request.engine,
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        work=outcome.work,
+        edp_error=error if estimated else None,
+        events=tuple(record.event for record in records),
+        checksums=tuple(record.checksum for record in records),
     )
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, fields
 
 from dondolo._storage.saved import part_of_results
 
 
 @part_of_results
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Work:
     """Counts that show that nothing is integrated that a result does not need.
 
@@ -44,7 +44,12 @@ class Work:
     @classmethod
     def total(cls, parts: Iterable[Work]) -> Work:
         """The sum of counts."""
-        return cls(*(sum(counts) for counts in zip(astuple(cls()), *map(astuple, parts), strict=True)))
+        return cls.of(map(sum, zip(astuple(cls()), *map(astuple, parts), strict=True)))
+
+    @classmethod
+    def of(cls, counts: Iterable[int]) -> Work:
+        """Counts in the order of the fields."""
+        return cls(**{field.name: int(count) for field, count in zip(fields(cls), counts, strict=True)})
 
     def __str__(self) -> str:
         return (

@@ -18,7 +18,7 @@ from dondolo.errors import DondoloError, InputError
 Interval = tuple[float, float]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Bootstrap(Saved):
     """Curves fitted to records drawn with replacement.
 
@@ -39,14 +39,14 @@ class Bootstrap(Saved):
         """Share of the samples without a fit; they take no part in the intervals."""
         return float(np.mean(np.isnan(self.theta)))
 
-    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
+    def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
         """Percentile interval of the probability at levels (of each on its own, not of the curve as a whole).
 
         Parameters
         ----------
         x : array_like
             Levels of intensity, not negative.
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
 
         Returns
@@ -65,15 +65,15 @@ class Bootstrap(Saved):
         with np.errstate(divide="ignore"):
             curves = ndtr(np.log(values.ravel() / theta[:, None]) / beta[:, None])
         curves *= self._ends()[~np.isnan(self.theta), None]
-        low, high = np.quantile(curves, tails(level), axis=0)
+        low, high = np.quantile(curves, tails(confidence), axis=0)
         return shaped(low, values), shaped(high, values)
 
-    def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
+    def parameter_interval(self, *, confidence: float = 0.95) -> dict[str, Interval]:
         """Percentile intervals of theta and beta.
 
         Parameters
         ----------
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
 
         Returns
@@ -86,7 +86,7 @@ class Bootstrap(Saved):
         DondoloError
             No sample has a fit.
         """
-        ends = tails(level)
+        ends = tails(confidence)
         found = {}
         for name, values in zip(("theta", "beta"), self._fitted(), strict=True):
             low, high = np.quantile(values, ends)
@@ -107,18 +107,18 @@ class Bootstrap(Saved):
         return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
 
 
-def draw_records(labels: Sequence[Any], n: int, seed: Any) -> FloatArray:
-    """How often each record comes in each of n samples drawn with replacement: (samples, records).
+def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArray:
+    """How often each record comes in each of some samples drawn with replacement: (samples, records).
 
     Records with the same label are drawn together. Each sample has as many records as there are.
     """
-    n, generator = as_count("n", n, 1), as_generator(seed)
+    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
     places: dict[Any, int] = {}
     place = [places.setdefault(label, len(places)) for label in labels]
     if len(places) < 2:
         what = "records" if len(labels) < 2 else "events"
         raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
-    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n)[:, place]
+    drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n_resamples)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
     times: FloatArray = drawn * (len(labels) / drawn.sum(axis=1, keepdims=True))
     return times
@@ -129,7 +129,8 @@ def resample(sample: Sample, times: FloatArray) -> Bootstrap:
     place = sample.record_index
     collapses = times[:, place] @ (sample.collapsed & sample.ran).T.astype(np.float64)
     histories = times[:, place] @ sample.ran.T.astype(np.float64)
-    return Bootstrap(*fit_samples(sample.levels, np.minimum(collapses, histories), histories))
+    theta, beta, status = fit_samples(sample.levels, np.minimum(collapses, histories), histories)
+    return Bootstrap(theta=theta, beta=beta, status=status)
 
 
 def fit_samples(

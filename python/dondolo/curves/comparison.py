@@ -16,7 +16,7 @@ from dondolo.errors import DondoloError, InputError
 Interval = tuple[float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Comparison(Saved):
     """Two curves compared.
 
@@ -29,7 +29,7 @@ class Comparison(Saved):
         Clusters of records that both curves have.
     ratio : float
         Median of the first / median of the second.
-    interval : (float, float)
+    ratio_interval : (float, float)
         Confidence interval of the ratio.
     p_value : float
         Probability of a ratio at least as far from 1 if the medians were equal.
@@ -49,7 +49,7 @@ class Comparison(Saved):
     pairing: str
     shared: int
     ratio: float
-    interval: Interval
+    ratio_interval: Interval
     p_value: float
     beta_ratio: float
     beta_interval: Interval
@@ -58,7 +58,7 @@ class Comparison(Saved):
     degrees_of_freedom: float
 
 
-def compare(first: Fragility, second: Fragility, *, level: float = 0.95) -> Comparison:
+def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) -> Comparison:
     """Compare two fragility curves of the same intensity measure.
 
     The covariance of the differences of ln theta and ln beta takes in what the curves share: records that are the same,
@@ -69,8 +69,8 @@ def compare(first: Fragility, second: Fragility, *, level: float = 0.95) -> Comp
     ----------
     first, second : Fragility
         Curves with standard errors; both clustered, or both naive.
-    level : float
-        Confidence of the intervals.
+    confidence : float
+        Of the intervals.
 
     Returns
     -------
@@ -90,7 +90,7 @@ def compare(first: Fragility, second: Fragility, *, level: float = 0.95) -> Comp
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):
-        curve._quantile(level)
+        curve._quantile(confidence)
         if curve.errors == "clustered" and not curve.parts:
             raise InputError("curves: one wall of a population does not know its records: compare curves of Stripes.fit")
     if first.errors != second.errors:
@@ -101,7 +101,7 @@ def compare(first: Fragility, second: Fragility, *, level: float = 0.95) -> Comp
         covariance = sum(
             np.outer(scale, scale) * curve.covariance for curve, scale in zip((first, second), scales, strict=True)
         )
-        return _comparison(first, second, ("naive", 0), np.asarray(covariance), (np.inf, np.inf), level)
+        return _comparison(first, second, ("naive", 0), np.asarray(covariance), (np.inf, np.inf), confidence)
     parts: list[tuple[FloatArray, int]] = []
     pairing, shared = "unpaired", 0
     for kind in dict.fromkeys(part.kind for curve in (first, second) for part in curve.parts):
@@ -123,7 +123,7 @@ def compare(first: Fragility, second: Fragility, *, level: float = 0.95) -> Comp
             parts += [(changes.T @ changes, len(labels) - 1) for labels, changes in several]
     covariance = np.sum([part for part, _ in parts], axis=0)
     degrees = [freedom([(float(part[i, i]), number) for part, number in parts]) for i in range(2)]
-    return _comparison(first, second, (pairing, shared), covariance, degrees, level)
+    return _comparison(first, second, (pairing, shared), covariance, degrees, confidence)
 
 
 def _joint(several: Sequence[tuple[tuple[str, ...], FloatArray]]) -> FloatArray:
@@ -142,7 +142,7 @@ def _comparison(
     pairing: tuple[str, int],
     covariance: FloatArray,
     degrees: Sequence[float],
-    level: float,
+    confidence: float,
 ) -> Comparison:
     from scipy import stats
 
@@ -151,11 +151,23 @@ def _comparison(
     for value, variance, freedom_ in zip(difference, np.diag(covariance), degrees, strict=True):
         spread = stats.norm if np.isinf(freedom_) else stats.t(freedom_)
         error = float(np.sqrt(variance))
-        half = float(spread.ppf(tails(level)[1])) * error
+        half = float(spread.ppf(tails(confidence)[1])) * error
         # Curves of the same histories do not differ at all.
         p_value = float(2.0 * spread.sf(abs(value) / error)) if error > 0.0 else float(value == 0.0)
         found.append((float(np.exp(value)), (float(np.exp(value - half)), float(np.exp(value + half))), p_value))
-    return Comparison(*pairing, *found[0], *found[1], _hotelling(difference, covariance, min(degrees)), degrees[0])
+    (ratio, interval, p_value), (beta_ratio, beta_interval, beta_p_value) = found
+    return Comparison(
+        pairing=pairing[0],
+        shared=pairing[1],
+        ratio=ratio,
+        ratio_interval=interval,
+        p_value=p_value,
+        beta_ratio=beta_ratio,
+        beta_interval=beta_interval,
+        beta_p_value=beta_p_value,
+        curves_p_value=_hotelling(difference, covariance, min(degrees)),
+        degrees_of_freedom=degrees[0],
+    )
 
 
 def _hotelling(difference: FloatArray, covariance: FloatArray, degrees: float) -> float:

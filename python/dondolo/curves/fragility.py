@@ -37,7 +37,7 @@ _WHY = {
 }
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Fragility(Shown, Saved):
     """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
 
@@ -58,7 +58,7 @@ class Fragility(Shown, Saved):
         What it was fitted to.
     im : str
         Intensity measure.
-    edp : float or None
+    edp_threshold : float or None
         Rotation / capacity of the damage state; None where only counts were given.
     saturation : float
         What the probability tends to: 1, but for populations in which no mechanism may occur (`Group`); theta and beta
@@ -91,7 +91,7 @@ class Fragility(Shown, Saved):
     histories: FloatArray
     im: str = ""
     wall: Wall | None = None
-    edp: float | None = None
+    edp_threshold: float | None = None
     saturation: float = 1.0
     sample: Sample | None = field(default=None, repr=False)
     errors: str = "naive"
@@ -138,7 +138,7 @@ class Fragility(Shown, Saved):
         values = as_levels(x)
         return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
 
-    def interval(self, x: ArrayLike, level: float = 0.95) -> tuple[Any, Any]:
+    def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
 
         From the covariance, on the scale of the normal quantile of the probability.
@@ -147,7 +147,7 @@ class Fragility(Shown, Saved):
         ----------
         x : array_like
             Levels of intensity, positive.
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
 
         Returns
@@ -161,7 +161,7 @@ class Fragility(Shown, Saved):
         InputError
             Levels that are not positive, a confidence beyond 0 and 1.
         """
-        quantile = self._quantile(level)
+        quantile = self._quantile(confidence)
         values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError(f"x = {values.min():g}: must be positive")
@@ -174,14 +174,14 @@ class Fragility(Shown, Saved):
         low, high = self.saturation * ndtr(probit - half), self.saturation * ndtr(probit + half)
         return shaped(low, values), shaped(high, values)
 
-    def parameter_interval(self, level: float = 0.95) -> dict[str, Interval]:
+    def parameter_interval(self, *, confidence: float = 0.95) -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
 
         From the covariance, symmetric in ln theta and in 1/beta, the slope of the probit regression.
 
         Parameters
         ----------
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
 
         Returns
@@ -196,7 +196,7 @@ class Fragility(Shown, Saved):
         InputError
             A confidence beyond 0 and 1.
         """
-        quantile = self._quantile(level)
+        quantile = self._quantile(confidence)
         width = np.exp(quantile * self.se_ln_theta)
         half = quantile * self.se_beta / self.beta
         beta = (self.beta / (1.0 + half), self.beta / (1.0 - half) if half < 1.0 else np.inf)
@@ -204,9 +204,9 @@ class Fragility(Shown, Saved):
 
     def bootstrap(
         self,
-        n: int = 2000,
-        seed: int | np.random.Generator | None = 0,
         *,
+        n_resamples: int = 2000,
+        seed: int | np.random.Generator | None = 0,
         events: Sequence[Any] | None = None,
     ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
@@ -217,7 +217,7 @@ class Fragility(Shown, Saved):
 
         Parameters
         ----------
-        n : int
+        n_resamples : int
             Number of samples.
         seed : int, Generator or None
             Of the random numbers; None: different every time.
@@ -240,14 +240,14 @@ class Fragility(Shown, Saved):
         self._need_fit()
         if self.sample is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-        labels = self.sample.clusters if events is None else given_labels(self.sample.records, events)
-        return resample(self.sample, draw_records(labels, n, seed))
+        labels = self.sample.clusters if events is None else given_labels(self.sample.n_records, events)
+        return resample(self.sample, draw_records(labels, n_resamples, seed))
 
     def plot(
         self,
         ax: Axes | None = None,
         *,
-        level: float = 0.95,
+        confidence: float = 0.95,
         label: str | None = None,
         color: str = style.BLUE,
         linestyle: str = "-",
@@ -262,7 +262,7 @@ class Fragility(Shown, Saved):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        level : float
+        confidence : float
             Confidence of band and bars.
         label : str, optional
             Name of the curve where several are drawn into the same axes; median and dispersion if left out.
@@ -281,7 +281,7 @@ class Fragility(Shown, Saved):
         """
         from dondolo.curves.plots import draw_fragility
 
-        return draw_fragility(self, ax, level, label, color, linestyle, marker)
+        return draw_fragility(self, ax, confidence, label, color, linestyle, marker)
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""
@@ -403,18 +403,16 @@ def curve_of(
         theta = beta = var_theta = both = var_beta = height = np.nan
     largest = np.finfo(np.float64).max
     covariance = np.array([[var_theta, both], [both, var_beta]])
-    for array in (covariance, levels, collapses, histories):
-        array.flags.writeable = False
     return Fragility(
-        theta,
-        beta,
-        covariance,
-        data.status,
-        height,
-        (low, np.inf if high >= largest else high),
-        levels,
-        collapses,
-        histories,
+        theta=theta,
+        beta=beta,
+        covariance=covariance,
+        status=data.status,
+        log_likelihood=height,
+        bracket=(low, np.inf if high >= largest else high),
+        levels=levels,
+        collapses=collapses,
+        histories=histories,
         naive_covariance=covariance,
         **origin,
     )
@@ -446,7 +444,7 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "status": [curve.status for curve in curves],
         "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
         "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
-        "edp_threshold": [curve.edp for curve in curves],
+        "edp_threshold": [curve.edp_threshold for curve in curves],
         **{name: [row[name] for row in map(_bounds, curves)] for name in _BOUNDS},
         "errors": [curve.errors if curve.has_fit else None for curve in curves],
         "clusters": [curve.clusters if curve.has_fit else None for curve in curves],

@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 def draw_fragility(
-    fragility: Fragility, ax: Axes | None, level: float, label: str | None, color: str, linestyle: str, marker: str
+    fragility: Fragility, ax: Axes | None, confidence: float, label: str | None, color: str, linestyle: str, marker: str
 ) -> Axes:
     """Draw a curve with its confidence band, and the fractions of collapse with Clopper and Pearson's intervals."""
     from scipy.stats import beta as beta_distribution
 
-    lower, upper = tails(level)
+    lower, upper = tails(confidence)
     ax = style.axes(ax)
     x, z, n = (np.asarray(part, dtype=float) for part in (fragility.levels, fragility.collapses, fragility.histories))
     counted = n > 0.0
@@ -41,14 +41,14 @@ def draw_fragility(
         color=style.BLACK if label is None else color,
         elinewidth=0.8,
         capsize=2,
-        label=f"fractions, {100.0 * level:.4g} % intervals" if label is None else None,
+        label=f"fractions, {100.0 * confidence:.4g} % intervals" if label is None else None,
         zorder=3,
     )
     grid = curves.grid(x)
     right = grid[-1]
     if fragility.has_fit:
-        band = np.asarray(fragility.interval(grid, level=level))
-        text = f"{100.0 * level:.4g} % band" if label is None else None
+        band = np.asarray(fragility.interval(grid, confidence=confidence))
+        text = f"{100.0 * confidence:.4g} % band" if label is None else None
         ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
         unit = f" {_binding.unit_of(fragility.im)}".rstrip()
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"

@@ -8,7 +8,7 @@ they are separated, and any steep enough curve fits (Albert and Anderson 1984, B
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,7 +21,7 @@ BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
 
 @part_of_results
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Regression:
     """ln EDP = intercept + slope ln IM + sigma epsilon.
 
@@ -33,8 +33,8 @@ class Regression:
         Standard error of the slope.
     r2 : float
         Share of the variance of ln EDP that the line explains.
-    n : int
-        Histories that rock and do not collapse.
+    histories : int
+        Those that rock and do not collapse.
     status : str
         'ok', or 'too_few': less than three of them, or all of one intensity.
     """
@@ -44,12 +44,12 @@ class Regression:
     sigma: float
     se_slope: float
     r2: float
-    n: int
+    histories: int
     status: str
 
 
 @part_of_results
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Logistic:
     """P(x) = 1/(1 + exp(-(b0 + b1 ln x))), or why there is no such curve.
 
@@ -63,15 +63,15 @@ class Logistic:
     bracket : (float, float)
         Where the probability rises: the intensities, in order, of the lowest history of the kind and the highest of
         the other kind.
-    n, count : int
-        Histories, and those of the kind.
+    histories, count : int
+        All, and those of the kind.
     """
 
     b0: float
     b1: float
     status: str
     bracket: tuple[float, float]
-    n: int
+    histories: int
     count: int
 
     def __call__(self, x: ArrayLike) -> Any:
@@ -93,9 +93,9 @@ class Logistic:
             Intensities that are negative or no numbers.
         """
         values = as_levels(x)
-        return shaped(self.at(values.ravel()), values)
+        return shaped(self._at(values.ravel()), values)
 
-    def at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
+    def _at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
         """Probabilities, with a value for the gap of a separated sample.
 
         Parameters
@@ -125,29 +125,37 @@ def regress(x: FloatArray, y: FloatArray) -> Regression:
     """Line by least squares."""
     n = len(x)
     if n < 3 or x.min() == x.max():
-        return Regression(np.nan, np.nan, np.nan, np.nan, np.nan, n, "too_few")
+        nothing = dict.fromkeys(("slope", "intercept", "sigma", "se_slope", "r2"), np.nan)
+        return Regression(**nothing, histories=n, status="too_few")
     from scipy.stats import linregress
 
     line = linregress(x, y)
     left = y - line.intercept - line.slope * x
     sigma = float(np.sqrt(left @ left / (n - 2)))
     return Regression(
-        float(line.slope), float(line.intercept), sigma, float(line.stderr), float(line.rvalue**2), n, "ok"
+        slope=float(line.slope),
+        intercept=float(line.intercept),
+        sigma=sigma,
+        se_slope=float(line.stderr),
+        r2=float(line.rvalue**2),
+        histories=n,
+        status="ok",
     )
 
 
 def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
     """Logistic regression on ln x by maximum likelihood."""
     n, count = len(x), int(kind.sum())
+    none = Logistic(b0=np.nan, b1=np.nan, status="none", bracket=(0.0, np.inf), histories=n, count=count)
     if count in (0, n):
-        return Logistic(np.nan, np.nan, "all" if count else "none", (0.0, np.inf), n, count)
+        return replace(none, status="all") if count else none
     here, there = x[kind], x[~kind]
     low, high = sorted((float(here.min()), float(there.max())))
-    bracket = (low, high)
+    decreasing = replace(none, status="decreasing", bracket=(low, high))
     if here.max() <= there.min():
-        return Logistic(np.nan, np.nan, "decreasing", bracket, n, count)
+        return decreasing
     if here.min() >= there.max():
-        return Logistic(np.nan, np.nan, "separated", bracket, n, count)
+        return replace(decreasing, status="separated")
     from scipy.optimize import minimize
     from scipy.special import expit
 
@@ -171,5 +179,5 @@ def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
     found = minimize(height, np.zeros(2), jac=gradient, hess=hessian, method="trust-exact", options={"gtol": 1e-9})
     b1 = float(found.x[1] / unit)
     if b1 <= 0.0:
-        return Logistic(np.nan, np.nan, "decreasing", bracket, n, count)
-    return Logistic(float(found.x[0] - b1 * shift), b1, "ok", bracket, n, count)
+        return decreasing
+    return replace(decreasing, b0=float(found.x[0] - b1 * shift), b1=b1, status="ok")

@@ -15,7 +15,7 @@ from dondolo.errors import InputError
 
 
 @part_of_results
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Sample:
     """Histories of one wall, stripe by stripe.
 
@@ -43,7 +43,7 @@ class Sample:
     clusters: tuple[str, ...]
 
     @property
-    def records(self) -> int:
+    def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names)
 

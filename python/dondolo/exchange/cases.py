@@ -19,7 +19,7 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import wall_from
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Case:
     """A case file, read and checked.
 
@@ -39,8 +39,8 @@ class Case:
     rtol, atol, edp_limit : float
     estimate_error : bool
     threads : int
-    record : int
-        Index of the record of a time history, from 0.
+    record_index : int
+        Which record a time history is of, from 0.
     scale : float
         Factor on it, with the sign of its polarity.
     """
@@ -60,10 +60,10 @@ class Case:
     edp_limit: float
     estimate_error: bool
     threads: int
-    record: int
+    record_index: int
     scale: float
 
-    def run(self, progress: bool = True) -> Results:
+    def run(self, *, progress: bool = True) -> Results:
         """Run it; see `run_case`.
 
         Parameters
@@ -77,9 +77,9 @@ class Case:
         """
         how = Solver(rtol=self.rtol, atol=self.atol, edp_limit=self.edp_limit, engine=self.engine)  # type: ignore[arg-type]
         if self.task == "history":
-            record = self.records[self.record]
+            record = self.records[self.record_index]
             response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, solver=how)
-            return Results(self, response=response)
+            return Results(case=self, response=response)
         ensemble: dict[str, Any] = {
             "im": self.im,
             "polarity": self.polarity,
@@ -90,12 +90,12 @@ class Case:
         if self.task == "stripes":
             ensemble["estimate_error"] = self.estimate_error
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
-            return Results(self, stripes=stripes, fragility=stripes.fit())
+            return Results(case=self, stripes=stripes, fragility=stripes.fit())
         ensemble["edp_thresholds"] = self.edp_thresholds
-        return Results(self, typology=typology(self.population, self.records, self.levels, **ensemble))
+        return Results(case=self, typology=typology(self.population, self.records, self.levels, **ensemble))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Results:
     """Results of a case; what its task does not make is None.
 
@@ -134,7 +134,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
-    parcel = _binding.receive(*_core.read_case(as_path(path)))
+    parcel = _binding.receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]
@@ -146,27 +146,27 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
     _binding.warn(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
     return Case(
-        task,
-        title,
-        output,
-        Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ),
-        tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
-        im,
-        polarity,
-        engine,
-        parcel.reals[5 : 5 + levels].copy(),
-        parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
-        rtol,
-        atol,
-        edp_limit,
-        estimate_error == 1.0,
-        threads,
-        record - 1,
-        scale,
+        task=task,
+        title=title,
+        output=output,
+        population=Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ),
+        records=tuple(Record(data.acceleration, data.dt, data.name, metadata=data.metadata) for data in motions),
+        im=im,
+        polarity=polarity,
+        engine=engine,
+        levels=parcel.reals[5 : 5 + levels].copy(),
+        edp_thresholds=parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
+        rtol=rtol,
+        atol=atol,
+        edp_limit=edp_limit,
+        estimate_error=estimate_error == 1.0,
+        threads=threads,
+        record_index=record - 1,
+        scale=scale,
     )
 
 
-def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
+def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
     """Run a case file as the executable does, with the results as objects and no files written.
 
     Parameters
@@ -187,4 +187,4 @@ def run_case(path: str | os.PathLike[str], progress: bool = True) -> Results:
     Interrupted
         Ctrl-C; its `partial` has what is complete.
     """
-    return read_case(path).run(progress)
+    return read_case(path).run(progress=progress)

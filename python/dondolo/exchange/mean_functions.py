@@ -96,7 +96,7 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
         ordered = _ordered(raw)
         rising = np.maximum.accumulate(ordered, axis=1)
         functions[name] = {
-            state: DiscreteFragility(levels, p, typology.im) for state, p in zip(states, rising, strict=True)
+            state: DiscreteFragility(levels, p, im=typology.im) for state, p in zip(states, rising, strict=True)
         }
         unit = f" {_binding.unit_of(typology.im)}".rstrip()
         for state, before, inside, after in zip(states, raw, ordered, rising, strict=True):

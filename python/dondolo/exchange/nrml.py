@@ -104,7 +104,7 @@ class DiscreteFragility(Shown, Saved):
     probability: FloatArray
     im: str
 
-    def __init__(self, levels: ArrayLike, probability: ArrayLike, im: str = "pga") -> None:
+    def __init__(self, levels: ArrayLike, probability: ArrayLike, *, im: str = "pga") -> None:
         x = increasing("levels", levels)
         p = as_array("probability", probability).copy()
         if len(x) != len(p):

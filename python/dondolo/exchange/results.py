@@ -28,7 +28,7 @@ from dondolo.walls.wall import MECHANISMS, Wall
 _WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StoredResults:
     """What the result files of one run hold; what its task does not make is None.
 
@@ -61,7 +61,7 @@ class StoredResults:
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
-    """Read the result files of the executable, or those that `Typology.save` wrote.
+    """Read the result files of the executable, or those that `Typology.write_results` wrote.
 
     Parameters
     ----------
@@ -102,14 +102,14 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     walls = ResultFile(prefix + "_walls.csv")
     with walls.reading():
         population = _population(walls, gravity)
-    stored = StoredResults(population, run)
+    stored = StoredResults(population=population, run=run)
     table = ResultFile(f"{prefix}_{names[task]}.csv")
     with table.reading():
         if result is not None:
             return replace(stored, response=_response(table, population.walls[0], result, limit))
         if task == "stripes":
             stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
-            if len(run.records) == stripes.records:
+            if len(run.records) == stripes.n_records:
                 events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
                 stripes = replace(stripes, events=events, checksums=checksums)
             return replace(stored, stripes=stripes, fragility=stripes.fit())
@@ -148,21 +148,21 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
     _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
     record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
     return Response(
-        wall,
-        record,
-        scale,
-        result.edp,
-        result.collapsed,
-        result.impacts,
-        result.time_of_peak_s,
-        edp_limit,
-        time,
-        acceleration,
-        rotation,
-        velocity,
-        table.numbers("side").astype(np.int8),
-        table.numbers("after_impact") == 1.0,
-        result.edp_error,
+        wall=wall,
+        record=record,
+        scale=scale,
+        edp=result.edp,
+        collapsed=result.collapsed,
+        impacts=result.impacts,
+        time_of_peak=result.time_of_peak_s,
+        edp_limit=edp_limit,
+        time=time,
+        ground_acceleration=acceleration,
+        rotation=rotation,
+        velocity=velocity,
+        side=table.numbers("side").astype(np.int8),
+        after_impact=table.numbers("after_impact") == 1.0,
+        edp_error=result.edp_error,
     )
 
 

@@ -71,7 +71,7 @@ class Shared(NamedTuple):
         start = time.perf_counter()
         study, people = self.request._study, upload_walls(walls)
         with _binding.stoppable():
-            sent = _core.run_rows(study.number, people.number, len(walls), self.states, first + 1)
+            sent = _core.stores.run_rows(study.number, people.number, len(walls), self.states, first + 1)
         return Part(_binding.receive(*sent).integers, time.perf_counter() - start)
 
 

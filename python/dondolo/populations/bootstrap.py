@@ -24,7 +24,7 @@ _FRACTIONS = 8_000_000
 _KINDS = ("records", "walls")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class TypologyBootstrap(Bootstrap):
     """Typological curves of records and walls drawn with replacement.
 
@@ -59,19 +59,19 @@ class TypologyBootstrap(Bootstrap):
         """Standard error of beta: standard deviation of the samples with a fit."""
         return float(np.std(self._fitted()[1], ddof=1))
 
-    def mean_interval(self, level: float = 0.95) -> tuple[FloatArray, FloatArray]:
+    def mean_interval(self, *, confidence: float = 0.95) -> tuple[FloatArray, FloatArray]:
         """Percentile interval of the mean fraction at each of the levels.
 
         Parameters
         ----------
-        level : float
+        confidence : float
             Confidence, between 0 and 1.
 
         Returns
         -------
         low, high : ndarray, shape (levels,)
         """
-        low, high = np.nanquantile(self.mean_fraction, tails(level), axis=0)
+        low, high = np.nanquantile(self.mean_fraction, tails(confidence), axis=0)
         return low, high
 
     def _ends(self) -> FloatArray:
@@ -110,7 +110,7 @@ def resample_population(
     population: Population,
     flags: Flags,
     levels: FloatArray,
-    n: int = 1000,
+    n_resamples: int = 1000,
     seed: int | np.random.Generator | None = 0,
     over: str | Iterable[str] = _KINDS,
     mechanism: str | None = None,
@@ -125,22 +125,22 @@ def resample_population(
     kinds = (over,) if isinstance(over, str) or not isinstance(over, Iterable) else tuple(over)
     if not kinds or not all(kind in _KINDS for kind in kinds):
         raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
-    n, generator = as_count("n", n, 1), as_generator(seed)
+    n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
     rows = _rows_of(population, mechanism, group)
     if rows.walls == 1 and "walls" in kinds:
         # Drawn from itself a wall would look certain.
         if "records" not in kinds:
             raise InputError("walls: two at least are needed to draw from, there is 1")
         kinds = ("records",)
-    records = np.ones((n, flags.records))
+    records = np.ones((n_resamples, flags.records))
     if "records" in kinds:
         labels = flags.clusters if events is None else given_labels(flags.records, events)
-        records = draw_records(labels, n, generator)
+        records = draw_records(labels, n_resamples, generator)
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
         _mean_fractions(rows, flags, records[start : start + size], "records" in kinds, draws)
-        for start in range(0, n, size)
+        for start in range(0, n_resamples, size)
     ]
     fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
     counted = np.isfinite(fraction[:, 0])
@@ -149,13 +149,13 @@ def resample_population(
     share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
     theta, beta, status = fit_samples(levels, share * histories, histories)
     return TypologyBootstrap(
-        np.where(counted, theta, np.nan),
-        np.where(counted, beta, np.nan),
-        np.where(counted, status, ""),
-        levels,
-        fraction,
-        saturation,
-        tuple(kind for kind in _KINDS if kind in kinds),
+        theta=np.where(counted, theta, np.nan),
+        beta=np.where(counted, beta, np.nan),
+        status=np.where(counted, status, ""),
+        levels=levels,
+        mean_fraction=fraction,
+        saturation=saturation,
+        over=tuple(kind for kind in _KINDS if kind in kinds),
     )
 
 

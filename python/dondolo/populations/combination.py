@@ -14,6 +14,7 @@ from dondolo.curves.fragility import curve_of
 from dondolo.curves.series import in_series
 from dondolo.errors import Interrupted
 from dondolo.populations.curve import Group, IntArray, flat_population
+from dondolo.populations.rows import curves_of_rows, curves_of_walls, has_curve_of_row
 from dondolo.populations.typology import Typology
 from dondolo.walls.population import Population
 
@@ -56,58 +57,51 @@ def combine_rows(
     work: Work,
 ) -> Typology:
     """The curves of the last state."""
-    walls = people.walls
-    origin = {"im": im, "edp": float(edp_thresholds[-1])}
+    origin = {"im": im, "edp_threshold": float(edp_thresholds[-1])}
+    names = b"".join(as_text("name", wall.name) + b"\n" for wall in people.walls)
+    data = _binding.fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
+    own = curves_of_rows(people, levels, exceedances[-1], histories, data.rows, **origin)
     first = people.first_rows
-    rows = np.diff(np.append(first, len(walls))).astype(np.int32)
-    counts = exceedances[-1].T
-    names = b"".join(as_text("name", wall.name) + b"\n" for wall in walls)
-    data = _binding.fit_walls(names, flat_population(people, levels, counts, histories))
-    own = tuple(
-        curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
-        for curve, z, n, wall in zip(data.rows, counts.astype(np.float64), histories, walls, strict=True)
-    )
-    combined = {}
-    for i, fraction, curve, number in zip(first, data.fractions, data.walls, rows, strict=True):
-        if number == 1 and people.p_occ[i] == 1.0:
-            combined[walls[i].name] = own[i]
-            continue
-        n = np.full(len(levels), float(histories[i : i + number].min()))
-        occurrence = float(in_series(people.p_occ[i : i + number], np.zeros(1, dtype=np.intp))[0])
+    others = []
+    for k in np.flatnonzero(~has_curve_of_row(people)):
+        rows = slice(first[k], first[k + 1] if k + 1 < len(first) else None)
+        n = np.full(len(levels), float(histories[rows].min()))
+        occurrence = float(in_series(people.p_occ[rows], np.zeros(1, dtype=np.intp))[0])
+        fraction = data.fractions[k]
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
-        combined[walls[i].name] = curve_of(curve, levels, n * conditional, n, **origin, saturation=occurrence)
+        others.append(curve_of(data.walls[k], levels, n * conditional, n, **origin, saturation=occurrence))
     together = []
     for group in data.groups:
         n = np.full(len(levels), group.histories)
         share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
         fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
         betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
-        means = (group.mean_fraction, group.mean_curve, group.fractiles)
         together.append(
             Group(
-                group.group,
-                group.mechanism,
-                group.walls,
-                group.weight,
-                *means,
-                *betas,
-                group.fitted,
-                group.saturation,
-                fit,
+                group=group.group,
+                mechanism=group.mechanism,
+                n_walls=group.walls,
+                weight=group.weight,
+                mean_fraction=group.mean_fraction,
+                mean_curve=group.mean_curve,
+                level_fractiles=group.fractiles,
+                beta_walls=betas[0],
+                beta_records=betas[1],
+                fitted=group.fitted,
+                saturation=group.saturation,
+                fit=fit,
             )
         )
-    for array in (edp_thresholds, exceedances, histories):
-        array.flags.writeable = False
     return Typology(
-        people,
-        im,
-        levels,
-        edp_thresholds,
-        exceedances,
-        histories,
-        own,
-        combined,
-        tuple(together),
-        work,
+        population=people,
+        im=im,
+        levels=levels,
+        edp_thresholds=edp_thresholds,
+        exceedances=exceedances,
+        histories=histories,
+        curves=own,
+        combined=curves_of_walls(people, own, others),
+        groups=tuple(together),
+        work=work,
         warnings=tuple(data.warnings),
     )

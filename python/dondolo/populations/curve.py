@@ -6,12 +6,13 @@ import functools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_text
 from dondolo._fortran import _binding
+from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.members import Members
@@ -25,6 +26,8 @@ from dondolo.walls.population import Population
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from dondolo.populations.typology import Typology
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
@@ -48,8 +51,8 @@ def flat_population(
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Group:
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Group(Saved):
     """What Fortran says of a curve of a population, or of one of its groups: of one mechanism, or of all together.
 
     Attributes
@@ -58,7 +61,7 @@ class Group:
         '' for the whole population.
     mechanism : str
         'all' for whatever makes the walls collapse: mechanisms in series, each with its probability of occurrence.
-    walls : int
+    n_walls : int
         How many walls, those of no weight left out.
     weight : float
         Sum of the weights, in walls; of one mechanism a wall counts as often as it can occur.
@@ -84,7 +87,7 @@ class Group:
 
     group: str
     mechanism: str
-    walls: int
+    n_walls: int
     weight: float
     mean_fraction: FloatArray
     mean_curve: FloatArray
@@ -101,19 +104,7 @@ class Group:
         return math.hypot(self.beta_walls, self.beta_records)
 
 
-class Source(NamedTuple):
-    """The analysis of one damage state that a curve is of: see `Typology` for its arrays."""
-
-    population: Population
-    im: str
-    levels: FloatArray
-    curves: Sequence[Fragility]
-    exceedances: IntArray
-    histories: IntArray
-    flags: Flags | None
-
-
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class PopulationCurve(Group, MeanCurve):
     """The curve of a population or of one of its groups, of one mechanism or of all: ``typology[mechanism, group]``.
 
@@ -130,12 +121,19 @@ class PopulationCurve(Group, MeanCurve):
     True
     """
 
-    _source: Source = field(repr=False)
+    _source: Typology = field(repr=False)
 
     @classmethod
-    def of(cls, data: Group, source: Source) -> PopulationCurve:
+    def of(cls, data: Group, source: Typology) -> PopulationCurve:
         """The curve of some walls of an analysis."""
         return cls(**{one.name: getattr(data, one.name) for one in fields(data)}, _source=source)
+
+    def _stored(self) -> dict[str, Any]:
+        return {"typology": self._source, "mechanism": self.mechanism, "group": self.group}
+
+    @classmethod
+    def _restored(cls, typology: Typology, mechanism: str, group: str) -> PopulationCurve:
+        return typology[mechanism, group]
 
     @property
     def im(self) -> str:  # type: ignore[override]
@@ -215,8 +213,8 @@ class PopulationCurve(Group, MeanCurve):
 
     def bootstrap(
         self,
-        n: int = 1000,
         *,
+        n_resamples: int = 1000,
         seed: int | np.random.Generator | None = 0,
         over: str | Iterable[str] = ("records", "walls"),
         events: Sequence[Any] | None = None,
@@ -229,7 +227,7 @@ class PopulationCurve(Group, MeanCurve):
 
         Parameters
         ----------
-        n : int
+        n_resamples : int
             Number of samples.
         seed : int, Generator or None
             Of the random numbers; None: different every time.
@@ -261,7 +259,9 @@ class PopulationCurve(Group, MeanCurve):
                 )
             flags = Flags.of_counts(source.exceedances, source.histories)
         mechanism, group = self.mechanism, self.group
-        return resample_population(source.population, flags, self.levels, n, seed, over, mechanism, group, events)
+        return resample_population(
+            source.population, flags, self.levels, n_resamples, seed, over, mechanism, group, events
+        )
 
     def _title(self) -> str:
         """Mechanism and group."""
@@ -271,4 +271,4 @@ class PopulationCurve(Group, MeanCurve):
 
     def __repr__(self) -> str:
         where = f", group {self.group!r}" if self.group else ""
-        return f"<PopulationCurve of {self.walls} walls: mechanism {self.mechanism!r}{where}>"
+        return f"<PopulationCurve of {self.n_walls} walls: mechanism {self.mechanism!r}{where}>"

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,7 +21,9 @@ from dondolo.curves.fragility import Fragility, with_errors
 from dondolo.curves.series import in_series
 from dondolo.populations.curve import Group
 from dondolo.populations.flags import Flags
-from dondolo.populations.typology import Typology
+
+if TYPE_CHECKING:
+    from dondolo.populations.typology import Typology
 
 # Numbers that are held at a time: rows x clusters x levels
 _NUMBERS = 4_000_000

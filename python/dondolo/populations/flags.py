@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
+from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import cluster_labels
 from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
 
 
+@part_of_results
 @dataclass(frozen=True, eq=False)
 class Flags:
     """The states that every history of every wall reaches.

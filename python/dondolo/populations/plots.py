@@ -88,18 +88,19 @@ def draw_groups(typology: Typology, ax: Axes | None, mechanism: str) -> Axes:
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
     for i, (curve, color) in enumerate(zip(parts, colors, strict=True)):
         look = {"color": color, "linestyle": curves.LINES[i % len(curves.LINES)], "linewidth": 1.8}
-        _mean(ax, grid, curve, f"{curve.group} ({style.counted(curve.walls, 'wall')})", look)
+        _mean(ax, grid, curve, f"{curve.group} ({style.counted(curve.n_walls, 'wall')})", look)
     look = {"color": style.RED, "linewidth": 2.4}
-    _mean(ax, grid, whole, f"population ({style.counted(whole.walls, 'wall')})", look)
+    _mean(ax, grid, whole, f"population ({style.counted(whole.n_walls, 'wall')})", look)
     _explain_fitted(ax, [*parts, whole])
     return curves.finish(ax, typology.im, grid, style.mechanism_name(mechanism))
 
 
 def draw_damage_states(
-    typology: Typology, ax: Axes | None, edp: Sequence[float] | None, mechanism: str, group: str
+    typology: Typology, ax: Axes | None, edp_thresholds: Sequence[float] | None, mechanism: str, group: str
 ) -> Axes:
     """Draw the mean curve of each damage state, collapse the boldest."""
-    thresholds = (typology.edp_thresholds if edp is None else as_array("edp", edp)).tolist()
+    chosen = typology.edp_thresholds if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)
+    thresholds = chosen.tolist()
     ax = curves.axes(ax, len(thresholds) + 1)
     grid = curves.grid(typology.levels)
     states: list[PopulationCurve] = []

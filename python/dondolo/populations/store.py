@@ -67,38 +67,41 @@ class Store:
         self._request, self._states = request, states
         file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
         study, people = request._study.number, request._people.number
-        handle, stat, message = _core.open_store(file, study, people, states)
+        handle, stat, message = _core.stores.open_store(file, study, people, states)
         _binding.check(stat, message)
         self._handle = handle
-        self._close = weakref.finalize(self, _core.close_store, handle)
+        self._close = weakref.finalize(self, _core.stores.close_store, handle)
 
     def complete(self) -> NDArray[np.bool_]:
         """Which rows are there, shape (rows,)."""
-        there: IntArray = _core.store_state(self._handle, len(self._request.walls))[0]
-        return there.astype(bool)
+        return self._state()[0]
 
     def claim(self) -> None:
         """Make the file this process's; a `DondoloError` tells that it cannot be written, or that another run does."""
-        _binding.check(*_core.claim_store(self._handle))
+        _binding.check(*_core.stores.claim_store(self._handle))
 
     def put(self, block: IntArray, rows: int) -> None:
         """Put in the rows of a block; a `DondoloError` tells that they cannot be written."""
-        _binding.check(*_core.put_block(self._handle, block, rows))
+        _binding.check(*_core.stores.put_block(self._handle, block, rows))
 
     def read(self) -> Contents:
         """Everything that is there."""
         request, rows = self._request, len(self._request.walls)
-        there, counts = _core.store_state(self._handle, rows)
-        complete = there.astype(bool)
+        complete, counts = self._state()
         states, levels = len(self._states), len(request.levels)
-        numbers = _binding.receive(*_core.read_store(self._handle)).integers
+        numbers = _binding.receive(*_core.stores.read_store(self._handle)).integers
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
-        events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
+        events, checksums = zip(*((record.event, record.checksum) for record in self._request.records), strict=True)
         labels = cluster_labels(len(events), events, checksums)
         flags = Flags(histories[complete], levels, states, labels, packed)
-        return Contents(complete, exceedances, flags, Work(*map(int, counts)))
+        return Contents(complete, exceedances, flags, Work.of(counts))
+
+    def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
+        there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))
+        _binding.check(stat, message)
+        return there.astype(bool), counts
 
     def __enter__(self) -> Store:
         return self

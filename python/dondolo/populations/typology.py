@@ -17,12 +17,15 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _binding
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
+from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fragility_table
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.populations.curve import Group, IntArray, PopulationCurve, Source
+from dondolo.populations.curve import Group, IntArray, PopulationCurve
+from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import Flags
+from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
 
@@ -32,8 +35,8 @@ if TYPE_CHECKING:
 _Table = Literal["typology", "fragility", "stripes", "walls"]
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class Typology(Shown):
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Typology(Shown, Saved):
     """Fragility of a population of walls.
 
     A damage state is reached where rotation / capacity comes to a threshold; collapse is the last. Whatever names no
@@ -123,17 +126,14 @@ class Typology(Shown):
         # Where there is but one mechanism, and it can occur in all walls, its curve is that of all.
         last = list(of_group)[-1]
         one_of("mechanism", mechanism, (*of_group, "all"))
-        source = Source(
-            self.population, self.im, self.levels, self.curves, self.exceedances, self.histories, self.flags
-        )
-        return PopulationCurve.of(of_group[last if mechanism == "all" else mechanism], source)
+        return PopulationCurve.of(of_group[last if mechanism == "all" else mechanism], self)
 
-    def at(self, edp: float) -> Typology:
+    def at(self, edp_threshold: float) -> Typology:
         """The typology of one damage state.
 
         Parameters
         ----------
-        edp : float
+        edp_threshold : float
             One of `edp_thresholds`.
 
         Returns
@@ -151,10 +151,11 @@ class Typology(Shown):
         DondoloWarning
             Walls that have no fit in this state, a fit that extrapolates.
         """
-        value = as_number("edp", edp)
+        value = as_number("edp_threshold", edp_threshold)
         place = np.flatnonzero(self.edp_thresholds == value)
         if len(place) == 0:
-            raise InputError(f"edp = {value}: must be one of {', '.join(f'{one:g}' for one in self.edp_thresholds)}")
+            known = ", ".join(f"{one:g}" for one in self.edp_thresholds)
+            raise InputError(f"edp_threshold = {value}: must be one of {known}")
         if len(self.edp_thresholds) == 1:
             return self
         if value not in self._states and place[0] == len(self.edp_thresholds) - 1:
@@ -167,8 +168,6 @@ class Typology(Shown):
 
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
             if self.flags is not None:
-                from dondolo.populations.errors import with_clustered_errors
-
                 flags = self.flags.at(int(place[0]))
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             self._states[value] = state
@@ -247,7 +246,7 @@ class Typology(Shown):
         self,
         ax: Axes | None = None,
         *,
-        edp: Sequence[float] | None = None,
+        edp_thresholds: Sequence[float] | None = None,
         mechanism: str = "all",
         group: str = "",
     ) -> Axes:
@@ -259,7 +258,7 @@ class Typology(Shown):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        edp : sequence of float, optional
+        edp_thresholds : sequence of float, optional
             Which of `edp_thresholds`; all if left out.
         mechanism, group : str
             Only the walls of this mechanism, of this group, as in ``typology[mechanism, group]``.
@@ -276,7 +275,7 @@ class Typology(Shown):
         """
         from dondolo.populations.plots import draw_damage_states
 
-        return draw_damage_states(self, ax, edp, mechanism, group)
+        return draw_damage_states(self, ax, edp_thresholds, mechanism, group)
 
     def _tables(self) -> dict[_Table, Any]:
         return {
@@ -308,7 +307,22 @@ class Typology(Shown):
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
-    def save(self, prefix: str | os.PathLike[str]) -> None:
+    def _stored(self) -> dict[str, Any]:
+        """What a file has of it: all but what follows from the rest."""
+        names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
+        stored = {name: getattr(self, name) for name in (*names, "warnings")}
+        return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
+
+    @classmethod
+    def _restored(cls, rows: dict[str, Any], walls: dict[str, Any], **more: Any) -> Typology:
+        people, levels = more["population"], more["levels"]
+        origin = {"im": more["im"], "edp_threshold": float(more["edp_thresholds"][-1])}
+        own = curves_of_rows(people, levels, more["exceedances"][-1], more["histories"], unpacked(rows), **origin)
+        combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
+        stored = cls(curves=own, combined=combined, **more)
+        return stored if stored.flags is None else with_clustered_errors(stored, stored.flags)
+
+    def write_results(self, prefix: str | os.PathLike[str]) -> None:
         """Write all tables into files of the names that the executable gives them.
 
         They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of

@@ -53,8 +53,8 @@ class Record:
         What the header of its file says, in its order. Keys that mean the same in every format are event, date,
         station, network, component, magnitude, latitude, longitude (of the station), processing, format,
         quantity and units; all others are as the file names them.
-    pga : float
-        Peak ground acceleration [m/s2].
+    peak_acceleration : float
+        Largest ground acceleration [m/s2].
 
     Raises
     ------
@@ -67,7 +67,7 @@ class Record:
     name: str = "record"
     processing: tuple[str, ...] = ()
     metadata: Mapping[str, str] = field(default_factory=dict)
-    pga: float = field(init=False)
+    peak_acceleration: float = field(init=False)
 
     def __init__(
         self,
@@ -84,7 +84,7 @@ class Record:
         steps = (processing,) if isinstance(processing, str) else tuple(processing)
         for text in steps:
             as_text("processing", text)
-        pga, stat, message = _core.check_record(values, step)
+        peak, stat, message = _core.records.check_record(values, step)
         _binding.check(stat, message)
         values.flags.writeable = False
         if not isinstance(metadata, Mapping):
@@ -96,11 +96,11 @@ class Record:
             ("name", name),
             ("processing", steps),
             ("metadata", known),
-            ("pga", pga),
+            ("peak_acceleration", peak),
         ):
             object.__setattr__(self, what, value)
 
-    def processed(self, acceleration: ArrayLike, step: str, dt: float | None = None) -> Record:
+    def processed(self, acceleration: ArrayLike, step: str, *, dt: float | None = None) -> Record:
         """A record made from this one by a step of processing, one of your own for instance.
 
         Parameters
@@ -185,17 +185,14 @@ class Record:
             Periods or a damping beyond what is allowed.
         """
         several, ratio = as_array("periods", periods).copy(), as_number("damping", damping)
-        displacements = suite.spectral_displacements(self, several, ratio)
-        for array in (several, displacements):
-            array.flags.writeable = False
-        return Spectrum(several, ratio, displacements)
+        return Spectrum(periods=several, damping=ratio, displacement=suite.spectral_displacements(self, several, ratio))
 
     @property
     def velocity(self) -> FloatArray:
         """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
         return suite.velocity(self)
 
-    def significant_times(self, low: float = 0.05, high: float = 0.95) -> tuple[float, float]:
+    def significant_times(self, *, low: float = 0.05, high: float = 0.95) -> tuple[float, float]:
         """Times at which Arias' integral of the squared acceleration reaches two parts of its end value [s].
 
         Parameters
@@ -308,9 +305,10 @@ class Record:
         makes a band-limited signal: frequencies above half the lower of the two sampling rates are taken out, which
         keeps them from coming back as lower ones, and the straight lines between samples are others than before.
         """
-        return self.processed(*process.resample(self, dt))
+        values, step, dt = process.resample(self, dt)
+        return self.processed(values, step, dt=dt)
 
-    def trim(self, low: float = 0.05, high: float = 0.95, *, before: float = 1.0, after: float = 1.0) -> Record:
+    def trim(self, *, low: float = 0.05, high: float = 0.95, before: float = 1.0, after: float = 1.0) -> Record:
         """Cut to the significant duration.
 
         Parameters
@@ -381,17 +379,17 @@ class Record:
         values = component(self, other, direction)
         return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata)
 
-    def rotd(self, other: Record, measure: str | Callable[[Record], float] | None = None, *, angles: int = 180) -> RotD:
+    def rotd(self, other: Record, measure: str | Callable[[Record], float] = "pga", *, n_angles: int = 180) -> RotD:
         """Median and largest value of a measure over all directions of this and another horizontal component.
 
         Parameters
         ----------
         other : Record
             The component at right angles, of the same step and number of samples.
-        measure : str or callable, optional
+        measure : str or callable
             Name of an intensity measure, in the unit of `Record.intensity` ('pga' is in g), or a number of a record
-            that does not depend on its polarity; the peak ground acceleration in m/s2 if left out.
-        angles : int
+            that does not depend on its polarity.
+        n_angles : int
             Directions in half a circle: 180 for steps of one degree, as Boore (2010) takes.
 
         Returns
@@ -407,21 +405,18 @@ class Record:
         -----
         RotD50 and RotD100: Boore (2010), Orientation-independent, nongeometric-mean measures of seismic intensity from
         two horizontal components of motion, BSSA 100(4):1830-1835. The largest peak is missed by up to 1 -
-        cos(90/angles degrees): 4e-5 of it for 180.
+        cos(90/n_angles degrees): 4e-5 of it for 180.
         """
         check_components(self, _as_record(other))
-        count = as_count("angles", angles, 1, 36000)
+        count = as_count("n_angles", n_angles, 1, 36000)
         directions = 180.0 * np.arange(count) / count
         if isinstance(measure, str):
             measure = partial(Record.intensity, im=_binding.describe_measure(measure, of_record=True).name)
-        if measure is not None and not callable(measure):
+        if not callable(measure):
             raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
         values = np.empty(count)
         for i, direction in enumerate(directions):
-            if measure is None:
-                values[i] = np.abs(component(self, other, direction)).max()
-            else:
-                values[i] = as_number("measure", measure(self.rotate(other, direction)))
+            values[i] = as_number("measure", measure(self.rotate(other, direction)))
         if np.isnan(values).any():
             raise InputError("measure: must be a number in every direction")
         largest = int(values.argmax())
@@ -435,7 +430,7 @@ class Record:
             ("samples", str(len(self))),
             ("dt", f"{self.dt:.6g} s"),
             ("duration", f"{self.duration:.6g} s"),
-            ("PGA", f"{self.pga:.6g} m/s2"),
+            ("PGA", f"{self.peak_acceleration:.6g} m/s2"),
             *((key, self.metadata[key]) for key in ("event", "date", "station", "component") if key in self.metadata),
             *(("processing", step) for step in self.processing),
         ]

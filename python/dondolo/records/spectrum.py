@@ -12,7 +12,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Spectrum(Saved):
     """Elastic response spectrum of a record.
 
@@ -22,27 +22,34 @@ class Spectrum(Saved):
         [s]
     damping : float
         Damping ratio.
-    sd : ndarray, shape (periods,)
+    displacement : ndarray, shape (periods,)
         Spectral displacement: the largest displacement relative to the ground [m].
     """
 
     periods: FloatArray
     damping: float
-    sd: FloatArray
+    displacement: FloatArray
 
     @property
-    def sv(self) -> FloatArray:
+    def pseudo_velocity(self) -> FloatArray:
         """Pseudo-spectral velocity, 2 pi / T times the displacement [m/s]."""
-        return 2.0 * np.pi / self.periods * self.sd
+        return 2.0 * np.pi / self.periods * self.displacement
 
     @property
-    def sa(self) -> FloatArray:
+    def pseudo_acceleration(self) -> FloatArray:
         """Pseudo-spectral acceleration, (2 pi / T)**2 times the displacement [m/s2]."""
-        return (2.0 * np.pi / self.periods) ** 2 * self.sd
+        return (2.0 * np.pi / self.periods) ** 2 * self.displacement
 
     def to_frame(self) -> Any:
         """The spectrum as a pandas DataFrame."""
-        return tables.frame({"period [s]": self.periods, "sd [m]": self.sd, "sv [m/s]": self.sv, "sa [m/s2]": self.sa})
+        return tables.frame(
+            {
+                "period [s]": self.periods,
+                "displacement [m]": self.displacement,
+                "pseudo_velocity [m/s]": self.pseudo_velocity,
+                "pseudo_acceleration [m/s2]": self.pseudo_acceleration,
+            }
+        )
 
     def __repr__(self) -> str:
         low, high = self.periods.min(), self.periods.max()

@@ -44,7 +44,7 @@ def upload(records: tuple[Motion, ...]) -> Handle:
     suite: Handle | None = homes[0][0]
     if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
         return suite
-    handle, stat, message = _core.new_suite(
+    handle, stat, message = _core.records.new_suite(
         "\n".join(record.name for record in records).encode(),
         np.array([len(record) for record in records], dtype=np.int32),
         np.array([record.dt for record in records]),
@@ -70,28 +70,28 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
-    values, stat, message = _core.intensities(upload(records).number, as_text("im", im), len(records), pull, 0)
+    values, stat, message = _core.records.intensities(upload(records).number, as_text("im", im), len(records), pull, 0)
     _binding.check(stat, message)
     return np.asarray(values)
 
 
 def spectral_displacements(record: Motion, periods: FloatArray, damping: float) -> FloatArray:
     """Largest displacements of oscillators relative to the ground [m]."""
-    values, stat, message = _core.spectrum(*place_of(record), periods, damping)
+    values, stat, message = _core.records.spectrum(*place_of(record), periods, damping)
     _binding.check(stat, message)
     return np.asarray(values)
 
 
 def velocity(record: Motion) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
-    values, stat, message = _core.ground_velocity(*place_of(record), len(record))
+    values, stat, message = _core.records.ground_velocity(*place_of(record), len(record))
     _binding.check(stat, message)
     return np.asarray(values)
 
 
 def significant_times(record: Motion, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
-    (first, last), stat, message = _core.significant_times(*place_of(record), low, high)
+    (first, last), stat, message = _core.records.significant_times(*place_of(record), low, high)
     _binding.check(stat, message)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")

@@ -71,7 +71,7 @@ def synthetic_records(
 
 
 def _realisation(*arguments: Any) -> Record:
-    parcel = _binding.receive(*_core.synthetic_record(*arguments))
+    parcel = _binding.receive(*_core.records.synthetic_record(*arguments))
     (data,) = _binding.unpack_records(parcel, 1)
     magnitude, distance, site, seed, realisation, deviations = arguments
     metadata = {

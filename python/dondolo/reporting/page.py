@@ -47,8 +47,8 @@ class Chapter:
 def report(
     results: StoredResults | Results | Typology | Stripes | Response,
     path: str | os.PathLike[str],
-    hazard: HazardCurve | None = None,
     *,
+    hazard: HazardCurve | None = None,
     title: str | None = None,
 ) -> None:
     """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.
@@ -181,7 +181,7 @@ def _lead(run: Run) -> str:
     parts = []
     if isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
-        counted = results["all"].walls
+        counted = results["all"].n_walls
         parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
         if counted < walls:
             parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"

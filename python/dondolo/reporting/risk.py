@@ -39,7 +39,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
     found = []
     if any(issubclass(one.category, DondoloWarning) for one in caught):
         short = [name for (name, _), one in zip(cases, risks, strict=True) if one.bounds[0] < 0.99 * one.bounds[1]]
-        first, last = hazard.im_levels[[0, -1]]
+        first, last = hazard.levels[[0, -1]]
         found.append(
             f"the hazard curve, {first:g} to {last:g}{blank_unit(hazard.im)}, is too short: the bounds of the annual"
             f" frequency differ by more than 1 % for {'; '.join(short)}"
@@ -51,7 +51,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
     if not population:
         frequencies["return period [years]"] = [_ends(*one.return_period_bounds) for one in risks]
     frequencies[f"probability in {_YEARS:g} years"] = [_ends(*one.probability_bounds(_YEARS)) for one in risks]
-    edges = hazard.im_levels
+    edges = hazard.levels
     parts = risk.deaggregate(edges)
     unit = level_unit(hazard.im)
     deaggregation: dict[Piece, Sequence[Piece]] = {
@@ -59,7 +59,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         f"to [{unit}]": [number(x) for x in edges[1:]],
         "exceeded, lower end [1/year]": [number(h, 3) for h in hazard.annual_frequency[:-1]],
         "contribution [1/year]": [number(part, 3) for part in parts],
-        "share": [percent(part / risk.frequency if risk.frequency > 0.0 else 0.0) for part in parts],
+        "share": [percent(part / risk.annual_frequency if risk.annual_frequency > 0.0 else 0.0) for part in parts],
     }
     low, high = risk.bounds
     frequency = between(low, high, "a year", 3)

@@ -133,7 +133,7 @@ def _of_case(results: Results) -> Run:
     case = results.case
     run = run_of(results.typology or results.stripes or results.response)
     run.title, run.population = case.title or run.title, case.population
-    run.records = case.records if case.task != "history" else (case.records[case.record],)
+    run.records = case.records if case.task != "history" else (case.records[case.record_index],)
     run.settings = [
         ("task", case.task),
         ("intensity measure", case.im),

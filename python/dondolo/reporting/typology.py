@@ -61,7 +61,7 @@ def curves(people: Typology) -> dict[str, Any]:
     found["mechanisms"] = []
     for curve in sorted(of_all, key=lambda one: one.mechanism == "all"):
         name = mechanism_name(curve.mechanism)
-        alt = f"Fragility curves of {counted(curve.walls, 'wall')}, {name}, their mean and fractiles. "
+        alt = f"Fragility curves of {counted(curve.n_walls, 'wall')}, {name}, their mean and fractiles. "
         drawn = figure(people[curve.mechanism].plot, alt + _in_words([curve]))
         found["mechanisms"].append((name[0].upper() + name[1:], drawn))
     if grouped := [curve for curve in combined(people) if curve.group]:
@@ -98,9 +98,9 @@ def _in_words(curves: Sequence[Group]) -> str:
     for curve in curves:
         who = f"{curve.group or 'population'}, {mechanism_name(curve.mechanism)}"
         fit = curve.fit
-        if fit.edp is not None and fit.has_fit:
+        if fit.edp_threshold is not None and fit.has_fit:
             numbers = f"median {fit.theta:.3g}{blank_unit(fit.im)}, dispersion {fit.beta:.3g}"
-            texts.append(f"{who}, EDP {fit.edp:g}: {numbers}")
+            texts.append(f"{who}, EDP {fit.edp_threshold:g}: {numbers}")
         else:
             texts.append(f"{who}: no fit ({fit.status})")
     return "; ".join(texts) + "."
@@ -136,7 +136,7 @@ def _curves_table(people: Typology) -> Table:
     columns: dict[Piece, Sequence[Piece]] = {
         "group": [curve.group or "whole population" for curve in curves],
         "mechanism": [mechanism_name(curve.mechanism) for curve in curves],
-        "walls": [whole(curve.walls) for curve in curves],
+        "walls": [whole(curve.n_walls) for curve in curves],
         "weight": [number(curve.weight) for curve in curves],
         (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.fit.theta) for curve in curves],
         BETA: [parameter(curve.fit.beta) for curve in curves],
@@ -169,7 +169,7 @@ def uncertainty(people: Typology) -> dict[str, Any]:
     curve = people["all"]
     stored = people.flags is None
     try:
-        samples = people["all"].bootstrap(_SAMPLES, over=("walls",) if stored else ("records", "walls"))
+        samples = people["all"].bootstrap(n_resamples=_SAMPLES, over=("walls",) if stored else ("records", "walls"))
         intervals = samples.parameter_interval()
     except DondoloError as error:
         return {"problem": str(error)}

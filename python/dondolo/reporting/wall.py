@@ -62,7 +62,7 @@ def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> d
         ),
         "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {fit}."),
         "states": figure(
-            lambda: stripes.plot_damage_states(edp=thresholds),
+            lambda: stripes.plot_damage_states(edp_thresholds=thresholds),
             f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
         )
         if len(thresholds) > 1
@@ -116,7 +116,9 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
     if curve.errors in ("clustered", "naive"):
         methods[f"covariance, {curve._kind()}"] = curve.parameter_interval()
     if curve.sample is not None:
-        methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(_SAMPLES).parameter_interval()
+        methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(
+            n_resamples=_SAMPLES
+        ).parameter_interval()
     columns: dict[Piece, Sequence[Piece]] = {"method": list(methods)}
     for letter, name in ((THETA, "theta"), (BETA, "beta")):
         columns[letter, " from"] = [parameter(interval[name][0]) for interval in methods.values()]

@@ -14,7 +14,7 @@ Beyond the levels
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
     saturation where the curve has one. Those below the lowest, x_1, contribute at least 0, and at most the integral
     with the first power law continued to x = 0: hazard curves bend down on logarithmic axes, they are steeper at rare
-    levels than at frequent ones. `Risk.frequency` is the lower bound. Hazard curves should begin where nothing
+    levels than at frequent ones. `Risk.annual_frequency` is the lower bound. Hazard curves should begin where nothing
     collapses and end where nearly all does; a warning says when the bounds differ by more than 1 %.
 Power laws
     With H = k0 x^-k for all x, and a lognormal fragility, it is (Cornell 1996)
@@ -77,7 +77,7 @@ _WIDE = 0.01
 _FALL = 0.01
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Risk(Shown, Saved):
     """Mean annual frequency of collapse, and where it comes from.
 
@@ -107,13 +107,13 @@ class Risk(Shown, Saved):
         return (self.inside + self.below[0] + self.above[0], self.inside + self.below[1] + self.above[1])
 
     @property
-    def frequency(self) -> float:
+    def annual_frequency(self) -> float:
         """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
         return self.bounds[0]
 
     @property
     def return_period(self) -> float:
-        """Mean time between collapses of one wall [year], that of `frequency`; inf where nothing collapses.
+        """Mean time between collapses of one wall [year], that of `annual_frequency`; inf where nothing collapses.
 
         The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
         population it is no more than the inverse of the share lost a year.
@@ -254,7 +254,7 @@ class Risk(Shown, Saved):
             Edges that are less than two, not positive or do not increase.
         """
         x = increasing("edges", edges)
-        levels = self.hazard.im_levels
+        levels = self.hazard.levels
         if not self.hazard.endless:
             x = np.clip(x, levels[0], levels[-1])
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
@@ -357,12 +357,14 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
             " no faster than the power law rises; give levels of the hazard instead"
         )
     if hazard.endless:
-        return Risk(fragility, hazard, inside, (0.0, 0.0), (0.0, 0.0), error)
-    risk = Risk(fragility, hazard, inside, (0.0, below), (above, most * float(hazard.annual_frequency[-1])), error)
+        ends = (0.0, 0.0), (0.0, 0.0)
+    else:
+        ends = (0.0, below), (above, most * float(hazard.annual_frequency[-1]))
+    risk = Risk(fragility=fragility, hazard=hazard, inside=inside, below=ends[0], above=ends[1], error=error)
     low, high = risk.bounds
     if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
-        first, last = hazard.im_levels[[0, -1]]
+        first, last = hazard.levels[[0, -1]]
         _binding.warn(
             [
                 f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"

@@ -32,7 +32,7 @@ class HazardCurve(Shown, Saved):
 
     Parameters
     ----------
-    im_levels : array_like, shape (levels,)
+    levels : array_like, shape (levels,)
         Levels of intensity, positive and increasing, in the unit of dondolo; at least two.
     annual_frequency : array_like, shape (levels,)
         Mean annual frequency of exceedance of each, positive and not increasing [1/year].
@@ -46,7 +46,7 @@ class HazardCurve(Shown, Saved):
 
     Attributes
     ----------
-    im_levels : ndarray, shape (levels,)
+    levels : ndarray, shape (levels,)
         In the unit of the measure: accelerations in g, all else in SI units.
     annual_frequency : ndarray, shape (levels,)
         [1/year].
@@ -62,16 +62,16 @@ class HazardCurve(Shown, Saved):
     0.002
     """
 
-    im_levels: FloatArray
+    levels: FloatArray
     annual_frequency: FloatArray
     im: str
     endless: bool
 
-    def __init__(self, im_levels: ArrayLike, annual_frequency: ArrayLike, im: str = "pga") -> None:
-        x = increasing("im_levels", im_levels)
+    def __init__(self, levels: ArrayLike, annual_frequency: ArrayLike, *, im: str = "pga") -> None:
+        x = increasing("levels", levels)
         h = as_array("annual_frequency", annual_frequency).copy()
         if len(x) != len(h):
-            raise InputError(f"{len(x)} im_levels, {len(h)} annual_frequency: must be as many")
+            raise InputError(f"{len(x)} levels, {len(h)} annual_frequency: must be as many")
         wrong = ~((h > 0.0) & (h < np.inf))
         if wrong.any():
             hint = "; leave out the levels that are never exceeded" if h[wrong][0] == 0.0 else ""
@@ -82,7 +82,7 @@ class HazardCurve(Shown, Saved):
             raise InputError(f"annual_frequency = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level")
         h.flags.writeable = False
         for what, value in (
-            ("im_levels", x),
+            ("levels", x),
             ("annual_frequency", h),
             ("im", _binding.describe_measure(im).name),
             ("endless", False),
@@ -90,7 +90,7 @@ class HazardCurve(Shown, Saved):
             object.__setattr__(self, what, value)
 
     @classmethod
-    def power_law(cls, k0: float, k: float, im: str = "pga") -> HazardCurve:
+    def power_law(cls, k0: float, k: float, *, im: str = "pga") -> HazardCurve:
         """H(x) = k0 x^-k for all x > 0.
 
         Parameters
@@ -116,7 +116,7 @@ class HazardCurve(Shown, Saved):
             if not 0.0 < as_number(what, value) < np.inf:
                 raise InputError(f"{what} = {value:g}: must be positive")
         levels = np.array([0.5, 2.0])
-        curve = cls(levels, k0 * levels**-k, im)
+        curve = cls(levels, k0 * levels**-k, im=im)
         object.__setattr__(curve, "endless", True)
         return curve
 
@@ -155,7 +155,7 @@ class HazardCurve(Shown, Saved):
         name = os.fspath(as_file("path", path))
         im, levels, frequency = read_hazard(name)
         try:
-            return cls(levels, frequency, im)
+            return cls(levels, frequency, im=im)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
 
@@ -187,35 +187,35 @@ class HazardCurve(Shown, Saved):
 
     def _covers(self, x: FloatArray) -> Any:
         """Where is the curve given?"""
-        return ((x >= self.im_levels[0]) & (x <= self.im_levels[-1])) | self.endless
+        return ((x >= self.levels[0]) & (x <= self.levels[-1])) | self.endless
 
     def _power_laws(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Of the step at u = ln x: exponent, and ln level and frequency where it begins; the outer ones go on."""
-        known, slope = np.log(self.im_levels), self._slopes()
+        known, slope = np.log(self.levels), self._slopes()
         step = np.clip(np.searchsorted(known, u, side="right") - 1, 0, len(slope) - 1)
         return slope[step], known[step], self.annual_frequency[step]
 
     def _slopes(self) -> FloatArray:
         """Exponents k of the power laws of each step."""
         # No -0 where two frequencies are the same
-        return 0.0 - np.diff(np.log(self.annual_frequency)) / np.diff(np.log(self.im_levels))
+        return 0.0 - np.diff(np.log(self.annual_frequency)) / np.diff(np.log(self.levels))
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame."""
-        return tables.frame({self.im: self.im_levels, "annual_frequency": self.annual_frequency})
+        return tables.frame({self.im: self.levels, "annual_frequency": self.annual_frequency})
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as `from_csv` reads it."""
         comments = [f"unit of {self.im}: {_binding.unit_of(self.im) or '1'}, of annual_frequency: 1/year"]
-        tables.write_csv(path, {self.im: self.im_levels, "annual_frequency": self.annual_frequency}, comments)
+        tables.write_csv(path, {self.im: self.levels, "annual_frequency": self.annual_frequency}, comments)
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = f" {_binding.unit_of(self.im)}".rstrip()
         if self.endless:
             k = float(self._slopes()[0])
             return [("power law", f"{self(1.0):.4g} {self.im}^-{k:.4g} a year")]
-        first, last = self.im_levels[[0, -1]]
+        first, last = self.levels[[0, -1]]
         return [
-            ("levels", f"{len(self.im_levels)} of {self.im}, {first:g} to {last:g}{unit}"),
+            ("levels", f"{len(self.levels)} of {self.im}, {first:g} to {last:g}{unit}"),
             ("exceeded", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g} times a year"),
         ]

@@ -73,7 +73,7 @@ def of_lognormal(theta: FloatArray, beta: FloatArray, hazard: HazardCurve) -> Co
         return Contributions(
             lognormal_integrals(theta, beta, hazard, np.array([-np.inf, np.inf]))[..., 0], nothing, nothing, nothing
         )
-    cuts = np.log(hazard.im_levels)
+    cuts = np.log(hazard.levels)
     inside = lognormal_integrals(theta, beta, hazard, cuts).sum(axis=-1)
     below = lognormal_integrals(theta, beta, hazard, np.array([-np.inf, cuts[0]]))[..., 0]
     above = ndtr((cuts[-1] - np.log(theta)) / beta) * hazard.annual_frequency[-1]
@@ -105,12 +105,12 @@ def of_function(
         # What is still above: between the probability there and 1
         p, h = probability(np.exp([top]))[..., 0], float(hazard(np.exp(top)))
         return Contributions(converged(parts) + p * h, 0.0 * p, 0.0 * p, error + (1.0 - p) * h)
-    cuts = np.log(hazard.im_levels)
+    cuts = np.log(hazard.levels)
     parts, error = parts_of(cuts)
     inside = parts.sum(axis=-1)
     # Far enough for its lowest step to tell whether there is an end
     below, _ = parts_of(steps(min(low, cuts[0]) - 10.0 * _STEP, cuts[0]))
-    above = probability(hazard.im_levels[-1:])[..., 0] * hazard.annual_frequency[-1]
+    above = probability(hazard.levels[-1:])[..., 0] * hazard.annual_frequency[-1]
     return Contributions(inside, converged(below, inside), above, error)
 
 

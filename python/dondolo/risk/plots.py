@@ -21,17 +21,17 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     """Draw the hazard, the fragility, and the intensities that the risk comes from."""
     axes = above, middle, below = style.panels(ax, 3, (6.0, 6.6), sharex=True, height_ratios=(2, 2, 2))
     hazard = risk.hazard
-    ends = np.log(hazard.im_levels[[0, -1]])
+    ends = np.log(hazard.levels[[0, -1]])
     if hazard.endless:
         # Where the risk comes from
         wide = np.linspace(-20.0, 20.0, 4001)
         density = risk.density(np.exp(wide))
         ends = wide[density > 1e-3 * density.max()][[0, -1]] if density.max() > 0.0 else ends
     grid = np.exp(np.linspace(ends[0], ends[1], _POINTS))
-    grid[[0, -1]] = np.exp(ends) if hazard.endless else hazard.im_levels[[0, -1]]
+    grid[[0, -1]] = np.exp(ends) if hazard.endless else hazard.levels[[0, -1]]
     above.plot(grid, hazard(grid), color=style.BLACK)
     if not hazard.endless:
-        above.plot(hazard.im_levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
+        above.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
     above.set_yscale("log")
     above.set_ylabel("exceeded\n[1/year]")
     above.set_title(f"mean annual frequency of collapse:\n{between(*risk.bounds, 'a year', 3)}", loc="left")

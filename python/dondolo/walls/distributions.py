@@ -136,7 +136,7 @@ class Lognormal:
 
     Parameters
     ----------
-    median : float
+    theta : float
         Median, of the whole distribution.
     beta : float
         Standard deviation of the logarithm, of the whole distribution.
@@ -149,7 +149,7 @@ class Lognormal:
         A parameter is no positive finite number, or `high` not greater than `low`.
     """
 
-    median: float
+    theta: float
     beta: float
     _: KW_ONLY
     low: float | None = None
@@ -157,7 +157,7 @@ class Lognormal:
 
     def __post_init__(self) -> None:
         _check_numbers(self)
-        for what in ("median", "beta", "low", "high"):
+        for what in ("theta", "beta", "low", "high"):
             value = getattr(self, what)
             if value is not None and not value > 0.0:
                 raise InputError(f"{what} = {value:g}: must be positive")
@@ -165,8 +165,8 @@ class Lognormal:
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
-        ends = (None if end is None else math.log(end / self.median) / self.beta for end in (self.low, self.high))
-        return self.median * np.exp(self.beta * _cut_normal(q, *ends))
+        ends = (None if end is None else math.log(end / self.theta) / self.beta for end in (self.low, self.high))
+        return self.theta * np.exp(self.beta * _cut_normal(q, *ends))
 
 
 @dataclass(frozen=True)

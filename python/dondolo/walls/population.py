@@ -18,6 +18,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_text, one_of
 from dondolo._base.shown import Shown, html_of
 from dondolo._fortran import _binding
 from dondolo._storage import tables
+from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
 from dondolo.walls.wall import Wall, wall_from, walls_table
@@ -32,6 +33,7 @@ _UNNAMED = "wall"
 Kind = Literal["mechanism", "group"]
 
 
+@part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
 class Population(Shown):
     """Walls and how many of the kind each stands for.
@@ -112,6 +114,19 @@ class Population(Shown):
         filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": origin}
         for name, value in filled.items():
             object.__setattr__(self, name, value)
+
+    def _stored(self) -> dict[str, Any]:
+        """What a file has of it: the properties of its walls as columns."""
+        columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in _binding.WALL_PROPERTIES}
+        return {
+            "properties": {name: column if None in column else np.array(column) for name, column in columns.items()},
+            "gravity": np.array([wall.gravity for wall in self.walls]),
+            **{name: getattr(self, name) for name in ("weights", "groups", "p_occ", "origin")},
+        }
+
+    @classmethod
+    def _restored(cls, properties: dict[str, Any], gravity: FloatArray, **more: Any) -> Population:
+        return cls(tuple(map(wall_from, _binding.describe_walls(len(gravity), properties, gravity))), **more)
 
     @functools.cached_property
     def first_rows(self) -> NDArray[np.intp]:
@@ -309,7 +324,7 @@ class Population(Shown):
         return walls_table(self.walls, self.weights, self.groups, self.p_occ)
 
 
-def read_population(path: str | os.PathLike[str], gravity: float | None = None) -> Population:
+def read_population(path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
     """Read a population of walls.
 
     Parameters

@@ -389,7 +389,7 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     alone = walls[0].__dict__ if len(walls) == 1 else {}
     if "_handle" in alone:
         return alone["_handle"]  # type: ignore[no-any-return]
-    number, stat, message = _core.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
+    number, stat, message = _core.walls.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
     _binding.check(stat, message)
     alone["_handle"] = handle = Handle(number)
     return handle

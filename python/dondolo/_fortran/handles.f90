@@ -1,4 +1,4 @@
-!> What Python has uploaded: suites, walls and studies live here, and Python knows each by a number, its handle.
+!> What Python has uploaded: suites, walls, studies and stores live here, and Python knows each by a number, its handle.
 !>
 !> A handle is the number of a slot and, above it, how often the slot was used: one that was freed is never valid again.
 !> Python's lock is held while a slot is filled or emptied, so that only one thread does, and no fork comes in between;
@@ -6,6 +6,7 @@
 module dondolo_handles
    use, intrinsic :: iso_c_binding, only : c_int64_t
    use dondolo_error, only : error_type, raise_input
+   use dondolo_store, only : store_type
    use dondolo_study, only : study_type
    use dondolo_suite, only : suite_type
    use dondolo_text, only : to_text
@@ -14,7 +15,7 @@ module dondolo_handles
    private
 
    public :: walls_type, held_study_type
-   public :: hold, release, find_suite, find_walls, find_study
+   public :: hold, release, find_suite, find_walls, find_study, find_store
 
    !> Walls, one or many
    type :: walls_type
@@ -29,6 +30,10 @@ module dondolo_handles
       !> Handle of its suite
       integer(c_int64_t) :: suite = 0
    end type held_study_type
+
+   !> What a handle stands for that is not valid
+   type :: nothing_type
+   end type nothing_type
 
    !> Where something is kept
    type :: slot_type
@@ -53,6 +58,7 @@ module dondolo_handles
    integer, parameter :: slot_bits = 32
 
    type(chunk_type), target :: chunk(chunks)
+   type(nothing_type), target :: nothing
 
    !> Slots that are free, those used last at the end, and how many there are
    integer, allocatable :: free_slots(:)
@@ -88,9 +94,14 @@ contains
       integer(c_int64_t), intent(in) :: handle
 
       type(slot_type), pointer :: slot
+      class(*), pointer :: content
 
-      slot => slot_with(handle)
-      if (.not. associated(slot)) return
+      content => content_of(handle)
+      select type (content)
+      type is (nothing_type)
+         return
+      end select
+      slot => slot_of(number_of(handle))
       !$omp atomic write seq_cst
       slot%handle = 0
       !$omp end atomic
@@ -146,22 +157,24 @@ contains
       if (k <= chunks) slot => chunk(k)%slot(left)
    end function slot_of
 
-   !> The slot that holds a handle
-   function slot_with(handle) result(slot)
+   !> What a handle stands for
+   function content_of(handle) result(content)
       !> The handle
       integer(c_int64_t), intent(in) :: handle
-      !> Slot; null: the handle is not valid
-      type(slot_type), pointer :: slot
+      !> It; `nothing` where the handle is not valid
+      class(*), pointer :: content
 
+      type(slot_type), pointer :: slot
       integer(c_int64_t) :: held
 
+      content => nothing
       slot => slot_of(number_of(handle))
       if (.not. associated(slot)) return
       !$omp atomic read seq_cst
       held = slot%handle
       !$omp end atomic
-      if (held /= handle .or. handle == 0) slot => null()
-   end function slot_with
+      if (held == handle .and. handle /= 0) content => slot%content
+   end function content_of
 
    !> The suite of a handle
    subroutine find_suite(handle, suite, error)
@@ -172,17 +185,16 @@ contains
       !> The handle is that of no suite, or was freed
       type(error_type), allocatable, intent(out) :: error
 
-      type(slot_type), pointer :: slot
+      class(*), pointer :: content
 
       suite => null()
-      slot => slot_with(handle)
-      if (associated(slot)) then
-         select type (content => slot%content)
-         type is (suite_type)
-            suite => content
-         end select
-      end if
-      if (.not. associated(suite)) call refuse('records', handle, error)
+      content => content_of(handle)
+      select type (content)
+      type is (suite_type)
+         suite => content
+      class default
+         call refuse('records', handle, error)
+      end select
    end subroutine find_suite
 
    !> The walls of a handle
@@ -194,17 +206,16 @@ contains
       !> The handle is that of no walls, or was freed
       type(error_type), allocatable, intent(out) :: error
 
-      type(slot_type), pointer :: slot
+      class(*), pointer :: content
 
       walls => null()
-      slot => slot_with(handle)
-      if (associated(slot)) then
-         select type (content => slot%content)
-         type is (walls_type)
-            walls => content%wall
-         end select
-      end if
-      if (.not. associated(walls)) call refuse('walls', handle, error)
+      content => content_of(handle)
+      select type (content)
+      type is (walls_type)
+         walls => content%wall
+      class default
+         call refuse('walls', handle, error)
+      end select
    end subroutine find_walls
 
    !> The study of a handle
@@ -216,21 +227,40 @@ contains
       !> The handle is that of no study; it or its suite was freed
       type(error_type), allocatable, intent(out) :: error
 
-      type(slot_type), pointer :: slot
+      class(*), pointer :: content
       type(suite_type), pointer :: suite
 
       study => null()
-      slot => slot_with(handle)
-      if (associated(slot)) then
-         select type (content => slot%content)
-         type is (held_study_type)
-            call find_suite(content%suite, suite, error)
-            if (allocated(error)) return
-            study => content%study
-         end select
-      end if
-      if (.not. associated(study)) call refuse('study', handle, error)
+      content => content_of(handle)
+      select type (content)
+      type is (held_study_type)
+         call find_suite(content%suite, suite, error)
+         if (.not. allocated(error)) study => content%study
+      class default
+         call refuse('study', handle, error)
+      end select
    end subroutine find_study
+
+   !> The store of a handle
+   subroutine find_store(handle, store, error)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> The store
+      type(store_type), pointer, intent(out) :: store
+      !> The handle is that of no store, or was freed
+      type(error_type), allocatable, intent(out) :: error
+
+      class(*), pointer :: content
+
+      store => null()
+      content => content_of(handle)
+      select type (content)
+      type is (store_type)
+         store => content
+      class default
+         call refuse('store', handle, error)
+      end select
+   end subroutine find_store
 
    !> Refuse a handle
    subroutine refuse(name, handle, error)

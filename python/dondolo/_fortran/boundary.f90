@@ -1,0 +1,158 @@
+!> What the procedures that f2py reads share: errors as statuses, checks of what crosses, lines of text, solver and responses.
+module dondolo_boundary
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_interrupt, only : look_for_interrupt
+   use dondolo_lines, only : lines_type
+   use dondolo_memory, only : check_memory => check_room
+   use dondolo_record, only : largest_acceleration
+   use dondolo_response, only : response_type
+   use dondolo_solver, only : solver_type
+   use dondolo_suite, only : suite_type
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: report, check_room, check_interrupt, check_scale, next_line, split_lines, as_solver, unpack_response
+
+   !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
+   real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
+      & bytes_of_sample = 64.0_c_double, bytes_of_history = 160.0_c_double
+
+contains
+
+   !> An error as status and message
+   subroutine report(error, stat, message)
+      !> The error; not allocated: success
+      type(error_type), allocatable, intent(in) :: error
+      !> 0, or the kind of the error
+      integer(c_int), intent(out) :: stat
+      !> Its sentence
+      character(len=*), intent(out) :: message
+
+      stat = 0
+      message = ''
+      if (.not. allocated(error)) return
+      stat = error%stat
+      message = error%message
+   end subroutine report
+
+   !> Check that there is room for what is worked on
+   subroutine check_room(error, walls, records, samples, histories, reals)
+      !> There is not
+      type(error_type), allocatable, intent(out) :: error
+      !> Numbers of walls, of records, of their samples, of histories, and of other reals
+      integer(c_int), intent(in), optional :: walls, records
+      real(c_double), intent(in), optional :: samples, histories, reals
+
+      real(c_double) :: bytes
+
+      bytes = 0.0_c_double
+      if (present(walls)) bytes = bytes + bytes_of_wall*real(walls, c_double)
+      if (present(records)) bytes = bytes + bytes_of_record*real(records, c_double)
+      if (present(samples)) bytes = bytes + bytes_of_sample*samples
+      if (present(histories)) bytes = bytes + bytes_of_history*histories
+      if (present(reals)) bytes = bytes + real(storage_size(reals)/8, c_double)*reals
+      call check_memory(bytes, error)
+   end subroutine check_room
+
+   !> Check that Ctrl-C did not break off what was computed
+   subroutine check_interrupt(error)
+      !> It did
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(c_int) :: interrupted
+
+      call look_for_interrupt(interrupted)
+      if (interrupted == 1) call raise_failure(error, 'interrupted')
+   end subroutine check_interrupt
+
+   !> Check the scale of a record
+   subroutine check_scale(suite, number, scale, error)
+      type(suite_type), intent(in) :: suite
+      !> Number of the record
+      integer(c_int), intent(in) :: number
+      !> Factor on it
+      real(c_double), intent(in) :: scale
+      !> It makes the record exceed what an acceleration can be
+      type(error_type), allocatable, intent(out) :: error
+
+      if (.not. abs(scale)*suite%peaks(number) <= largest_acceleration) call raise_input(error, 'scale = '// &
+         & to_text(scale)//': makes record '''//suite%records(number)%name//''' exceed '// &
+         & to_text(largest_acceleration)//' m/s2')
+   end subroutine check_scale
+
+   !> The next line of a text
+   pure subroutine next_line(text, at, line)
+      !> Lines, separated by new_line
+      character(len=*), intent(in) :: text
+      !> Position: where the line begins, then where the next one does; 1 for the first
+      integer, intent(inout) :: at
+      !> The line; blanks at its end are lost, and after the last line it is empty
+      character(len=:), allocatable, intent(out) :: line
+
+      integer :: length
+
+      length = index(text(at:), new_line('a')) - 1
+      if (length < 0) length = len(text) - at + 1
+      line = trim(text(at:at + length - 1))
+      at = min(at + length + 1, len(text) + 1)
+   end subroutine next_line
+
+   !> All lines of a text
+   subroutine split_lines(text, lines)
+      !> Lines, each ended by new_line
+      character(len=*), intent(in) :: text
+      !> The lines
+      type(lines_type), intent(out) :: lines
+
+      character(len=:), allocatable :: line
+      integer :: at
+
+      at = 1
+      do while (at <= len(text))
+         call next_line(text, at, line)
+         call lines%add(line)
+      end do
+   end subroutine split_lines
+
+   !> Settings of the computation
+   pure function as_solver(engine, settings) result(solver)
+      !> Engine
+      character(len=*), intent(in) :: engine
+      !> rtol, atol, edp_limit; 1 where errors are to be estimated, 1 where collapses alone are wanted, else 0
+      real(c_double), intent(in) :: settings(5)
+      !> The settings
+      type(solver_type) :: solver
+
+      solver%engine = engine
+      solver%rtol = settings(1)
+      solver%atol = settings(2)
+      solver%edp_limit = settings(3)
+      solver%estimate_error = settings(4) > 0.0_c_double
+      solver%collapses_only = settings(5) > 0.0_c_double
+   end function as_solver
+
+   !> A response as flat numbers
+   elemental subroutine unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
+      !> The response
+      type(response_type), intent(in) :: response
+      !> Largest rotation / capacity
+      real(c_double), intent(out) :: edp
+      !> 1: collapsed
+      integer(c_int), intent(out) :: collapsed
+      !> Impacts
+      integer(c_int), intent(out) :: impacts
+      !> Time of the peak [s]
+      real(c_double), intent(out) :: time_of_peak
+      !> Estimated error of the EDP, 0 where it was not asked for
+      real(c_double), intent(out) :: edp_error
+
+      edp = response%edp
+      collapsed = merge(1, 0, response%collapsed)
+      impacts = response%impacts
+      time_of_peak = response%time_of_peak
+      edp_error = response%edp_error
+   end subroutine unpack_response
+
+end module dondolo_boundary

@@ -1,0 +1,70 @@
+!> Case files.
+module cases
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room
+   use dondolo_case, only : case_type, load_case => read_case
+   use dondolo_error, only : error_type
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_population, only : member_type, read_population
+   use dondolo_record_parcel, only : pack_records
+   use dondolo_wall_parcel, only : pack_members
+   implicit none
+   private
+
+   public :: read_case
+
+contains
+
+   !> Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
+   !> 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
+   !> the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
+   !> task, title, output, im, polarity, engine, then walls, their groups, and records, and how its tables were read, where
+   !> there is something to say of it
+   subroutine read_case(path, sent, stat, message)
+      character(len=*), intent(in) :: path
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(case_type) :: case
+      type(member_type), allocatable :: members(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      real(c_double) :: scale
+      integer :: i
+
+      call load_case(path, case, error)
+      if (.not. allocated(error)) then
+         if (case%job%task == 'typology') then
+            call read_population(case%population_path(), members, error, case%solver%gravity)
+         else
+            allocate (members(1))
+            members(1)%wall = case%wall
+            members(1)%group = ''
+         end if
+      end if
+      if (.not. allocated(error)) call check_room(error, walls=size(members))
+      if (.not. allocated(error)) then
+         if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
+         scale = 1
+         if (case%job%task == 'history') scale = case%history_scale()
+         parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
+            & size(case%stripes%thresholds), case%job%threads, case%history%record]
+         parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
+            & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
+            & case%stripes%thresholds]
+         call parcel%lines%add(case%job%task)
+         call parcel%lines%add(case%job%title)
+         call parcel%lines%add(case%job%output)
+         call parcel%lines%add(case%stripes%scaling%name)
+         call parcel%lines%add(case%records_input%polarity)
+         call parcel%lines%add(trim(case%solver%solver%engine))
+         call pack_members(members, parcel)
+         call pack_records(case%suite%records, parcel, error)
+         do i = 1, case%notes%count
+            call parcel%lines%add(case%notes%line(i)%text)
+         end do
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine read_case
+
+end module cases

@@ -1,0 +1,364 @@
+!> Fragility curves of walls and populations.
+module curves
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report, split_lines
+   use dondolo_clustered, only : cluster_errors
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
+   use dondolo_handles, only : find_walls
+   use dondolo_lines, only : lines_type
+   use dondolo_members, only : choose_members, members_type, population_probabilities
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_population_counts, only : new_population_counts, population_counts_type
+   use dondolo_roster, only : number_of_group, roster_row_type, roster_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_wall, only : mechanism_names, wall_type
+   use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
+   use dondolo_warnings, only : fit_warning_type, warn_of_fit
+   implicit none
+   private
+
+   public :: fit_curves, cluster_curves, cluster_changes, probability, warn_of_curve, fit_walls, curve_of_population
+
+contains
+
+   !> Fit k curves, each to m levels. A status of 0 is a fit that failed; message tells of the first that went wrong
+   subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat, message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: m, k
+      real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
+      real(c_double), intent(out) :: curves(8, k)
+      integer(c_int), intent(out) :: statuses(k), stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve
+      type(error_type), allocatable :: error
+      character(len=2048) :: sentence
+      integer(c_int) :: this
+      integer :: i, worst
+
+      curves = 0
+      statuses = 0
+      call check_room(error, reals=40.0_c_double*m)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      worst = k + 1
+      !$omp parallel do default(none) private(curve, error, sentence, this) &
+      !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, stat, message)
+      do i = 1, k
+         call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
+         if (allocated(error)) then
+            call report(error, this, sentence)
+            !$omp critical (first_error)
+            if (i < worst) then
+               worst = i
+               stat = this
+               message = sentence
+            end if
+            !$omp end critical (first_error)
+         else
+            statuses(i) = status_code(curve)
+         end if
+         curves(:, i) = pack_curve(curve)
+      end do
+      !$omp end parallel do
+   end subroutine fit_curves
+
+   !> Clustered covariances (var ln theta, covariance, var beta) of k fitted curves from the collapses and histories of each of
+   !> g clusters at each of m levels; the histories are the same for all curves if h is 1, else h is k. errors are places among
+   !> the names, and clusters count those that have histories
+   subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, stat, &
+         & message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: m, g, k, h, statuses(k)
+      real(c_double), intent(in) :: levels(m), collapses(m, g, k), histories(m, g, h), curves(8, k)
+      real(c_double), intent(out) :: covariances(3, k)
+      integer(c_int), intent(out) :: errors(k), clusters(k), stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve
+      type(error_type), allocatable :: error
+      real(c_double) :: changes(2, g)
+      integer :: i
+
+      covariances = 0
+      errors = 0
+      clusters = 0
+      call check_room(error, reals=40.0_c_double*m)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      !$omp parallel do default(none) private(curve, changes) &
+      !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
+      !$omp & shared(errors, clusters)
+      do i = 1, k
+         curve = fragility_type(status=status_names(statuses(i)), theta=curves(1, i), beta=curves(2, i))
+         call cluster_errors(curve, levels, collapses(:, :, i), histories(:, :, min(i, h)), changes)
+         covariances(:, i) = [curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2)]
+         errors(i) = findloc(error_names, curve%errors, dim=1)
+         clusters(i) = curve%clusters
+      end do
+      !$omp end parallel do
+   end subroutine cluster_curves
+
+   !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors as cluster_curves
+   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, stat, message)
+      integer(c_int), intent(in) :: m, g
+      real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
+      real(c_double), intent(out) :: changes(2, g)
+      integer(c_int), intent(out) :: errors, stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve
+      type(error_type), allocatable :: error
+
+      changes = 0
+      errors = 0
+      call check_room(error, reals=40.0_c_double*m)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      curve = fragility_type(status='ok', theta=theta, beta=beta)
+      call cluster_errors(curve, levels, collapses, histories, changes)
+      errors = findloc(error_names, curve%errors, dim=1)
+   end subroutine cluster_changes
+
+   !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
+   subroutine probability(theta, beta, x, n, p)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: theta, beta, x(n)
+      real(c_double), intent(out) :: p(n)
+      type(fragility_type) :: curve
+
+      curve%theta = theta
+      curve%beta = beta
+      p = curve%probability(x)
+   end subroutine probability
+
+   !> What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
+   subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: m, status
+      real(c_double), intent(in) :: levels(m), largest_edp, curve(8)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(stripes_type) :: stripes
+      type(fragility_type) :: fragility
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         fragility%status = status_names(status)
+         fragility%theta = curve(1)
+         fragility%bracket = curve(7:8)
+         stripes%levels = levels
+         ! Of the responses the sentences need the largest only
+         allocate (stripes%response(1, 1))
+         stripes%response%edp = largest_edp
+         call warn_of_fit(people(1), stripes, fragility, warnings)
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine warn_of_curve
+
+   !> Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
+   !> of its wall; shares: weight and probability of occurrence of each row; rows: how many each wall has. Integers: number of
+   !> the population's curves, statuses of the rows, of the walls and of the population's curves, and the number of walls in
+   !> each of these; reals: numbers of the curves of the rows and of the walls, fractions of collapse of the walls, then for
+   !> each of the population's curves weight, dispersions between walls and between records, share with a curve, saturation,
+   !> histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group and mechanism of the population's
+   !> curves, then warnings
+   subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, sent, stat, message)
+      character(len=*), intent(in) :: texts, names
+      integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
+      real(c_double), intent(in) :: levels(m), shares(2, r)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(population_counts_type) :: population
+      type(wall_curves_type) :: wall
+      type(typology_type), allocatable :: groups(:)
+      type(fit_warning_type) :: fits
+      type(lines_type) :: words
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      real(c_double), allocatable :: parts(:, :), whole(:, :)
+      integer :: i
+
+      call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
+      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+      if (.not. allocated(error)) call population%fit(error)
+      if (.not. allocated(error)) call combine_population(groups, population, 1, error)
+      if (.not. allocated(error)) then
+         call split_lines(names, words)
+         do i = 1, r
+            call fits%look(population%curve(1, i), words%line(i)%text)
+         end do
+         allocate (whole(m, w))
+         do i = 1, w
+            wall = population%wall(i, 1)
+            parts = wall%fractions()
+            whole(:, i) = parts(:, size(parts, 2))
+         end do
+         parcel%integers = [size(groups), (status_code(population%curve(1, i)), i=1, r), &
+            & (status_code(population%combined(1, i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups)), &
+            & (groups(i)%walls, i=1, size(groups))]
+         parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r), (pack_curve(population%combined(1, i)), i=1, w), &
+            & whole, (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
+            & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
+            & pack_curve(groups(i)%fit), i=1, size(groups))]
+         do i = 1, size(groups)
+            call parcel%lines%add(groups(i)%group)
+            call parcel%lines%add(groups(i)%mechanism)
+         end do
+         call fits%warn(groups, warnings)
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine fit_walls
+
+   !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
+   !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
+   !> probabilities = 1 a parcel has their number as integer and their probabilities as reals (members, n)
+   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
+         & x, n, q, k, probabilities, mean, fractiles, sent, stat, message)
+      character(len=*), intent(in) :: texts, mechanism, group
+      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(r), rows(w), statuses(r)
+      real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
+      real(c_double), intent(out) :: mean(n), fractiles(k, n)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      ! Numbers that are held at a time: a few tens of MB
+      integer, parameter :: most = 2000000
+      type(population_counts_type) :: population
+      type(members_type) :: members
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      real(c_double), allocatable :: p(:, :), all(:, :)
+      integer :: first, last, part
+
+      mean = 0
+      fractiles = 0
+      call check_room(error, r + w, reals=real(most, c_double))
+      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+      if (.not. allocated(error)) then
+         call set_curves(population, curves, statuses)
+         call choose_members(members, population, mechanism, number_of_group(population%groups, group))
+         if (probabilities == 1) then
+            call check_room(error, reals=4.0_c_double*real(size(members%column), c_double)*n)
+            if (.not. allocated(error)) allocate (all(size(members%column), n))
+         end if
+      end if
+      part = max(1, most/(r + w))
+      do first = 1, n, part
+         if (allocated(error)) exit
+         last = min(first + part - 1, n)
+         call population_probabilities(population, 1, x(first:last), p, error)
+         if (allocated(error)) exit
+         mean(first:last) = members%mean(p)
+         fractiles(:, first:last) = members%fractiles(p, q)
+         if (probabilities == 1) all(:, first:last) = transpose(p(:, members%column))
+      end do
+      if (.not. allocated(error) .and. probabilities == 1) then
+         parcel%integers = [size(members%column)]
+         parcel%reals = reshape(all, [size(all)])
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine curve_of_population
+
+   !> A population with the counts of one damage state, without curves
+   subroutine new_population(population, texts, levels, collapses, histories, shares, rows, error)
+      !> The population
+      type(population_counts_type), intent(out) :: population
+      !> Two lines a row: mechanism and group
+      character(len=*), intent(in) :: texts
+      !> Levels of intensity
+      real(c_double), intent(in) :: levels(:)
+      !> Histories that reach the state (levels, rows)
+      integer(c_int), intent(in) :: collapses(:, :)
+      !> Histories of a stripe of each row
+      integer(c_int), intent(in) :: histories(:)
+      !> Weight of the wall and probability that the mechanism can occur (2, rows)
+      real(c_double), intent(in) :: shares(:, :)
+      !> How many rows each wall has
+      integer(c_int), intent(in) :: rows(:)
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(roster_type) :: roster
+      type(lines_type) :: words
+      integer :: i, first, group
+
+      call split_lines(texts, words)
+      roster%count = size(histories)
+      allocate (roster%row(roster%count))
+      do i = 1, roster%count
+         group = 0
+         associate (name => words%line(2*i)%text)
+            if (len(name) > 0) then
+               group = number_of_group(roster%groups, name)
+               if (group == 0) then
+                  call roster%groups%add(name)
+                  group = roster%groups%count
+               end if
+            end if
+         end associate
+         roster%row(i) = roster_row_type(.true., findloc(mechanism_names == words%line(2*i - 1)%text, .true., dim=1), &
+            & group, shares(1, i), shares(2, i))
+      end do
+      first = 1
+      do i = 1, size(rows)
+         roster%row(first)%continues = .false.
+         first = first + rows(i)
+      end do
+      call new_population_counts(population, roster, levels, 1, error)
+      if (allocated(error)) return
+      population%histories = histories
+      population%reached(:, 1, :) = collapses
+   end subroutine new_population
+
+   !> Set the curves of the rows of a population: those that were fitted to it before
+   subroutine set_curves(population, curves, statuses)
+      !> The population
+      type(population_counts_type), intent(inout) :: population
+      !> Their numbers, of which theta and beta come first (8, rows)
+      real(c_double), intent(in) :: curves(:, :)
+      !> Places of their statuses among the names
+      integer(c_int), intent(in) :: statuses(:)
+
+      integer :: i
+
+      do i = 1, size(statuses)
+         population%curve(1, i)%status = status_names(statuses(i))
+         population%curve(1, i)%theta = curves(1, i)
+         population%curve(1, i)%beta = curves(2, i)
+      end do
+   end subroutine set_curves
+
+   !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket
+   pure function pack_curve(curve) result(numbers)
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> Its numbers
+      real(c_double) :: numbers(8)
+
+      numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
+         & curve%log_likelihood, curve%bracket]
+   end function pack_curve
+
+   !> Place of a status among the names
+   pure function status_code(curve) result(code)
+      !> The curve
+      type(fragility_type), intent(in) :: curve
+      !> From 1
+      integer(c_int) :: code
+
+      code = findloc(status_names, curve%status, dim=1)
+   end function status_code
+
+end module curves

@@ -1,0 +1,196 @@
+!> Time histories of one wall.
+module histories
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_scale, report, unpack_response
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_error, only : error_type
+   use dondolo_handles, only : find_suite, find_walls
+   use dondolo_memory, only : check_memory => check_room, raise_shortage
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_plausibility, only : wall_warning_type
+   use dondolo_record, only : record_type
+   use dondolo_response, only : response_type, trace_type
+   use dondolo_simulate, only : check_history, simulate_wall => simulate
+   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_stripes, only : stripes_type
+   use dondolo_suite, only : suite_type
+   use dondolo_threads, only : check_threads
+   use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
+   use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors, warn_of_records
+   implicit none
+   private
+
+   public :: simulate, run_scaled, warn_of_motion, warn_of_errors
+
+contains
+
+   !> One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
+   !> side and whether it is just after an impact
+   subroutine simulate(walls, suite, number, scale, engine, settings, history, &
+         & edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: walls, suite
+      character(len=*), intent(in) :: engine
+      integer(c_int), intent(in) :: number, history
+      real(c_double), intent(in) :: scale, settings(5)
+      real(c_double), intent(out) :: edp, time_of_peak, edp_error
+      integer(c_int), intent(out) :: collapsed, impacts
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(suite_type), pointer :: records
+      type(solver_type) :: solver
+      type(response_type) :: response
+      type(trace_type) :: trace
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      solver = as_solver(engine, settings)
+      if (.not. allocated(error)) call check_solver(solver, error)
+      if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
+      if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error)
+      if (.not. allocated(error)) call check_scale(records, number, scale, error)
+      if (.not. allocated(error)) then
+         if (history == 1) then
+            call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response, trace)
+         else
+            call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response)
+         end if
+         call check_interrupt(error)
+      end if
+      if (.not. allocated(error) .and. history == 1) call check_trace(trace, error)
+      if (.not. allocated(error) .and. history == 1) then
+         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+         parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
+      end if
+      call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
+      call send(parcel, error, sent, stat, message)
+   end subroutine simulate
+
+   !> Check that there was room for a time history, and that there is some to send it
+   subroutine check_trace(trace, error)
+      !> The time history
+      type(trace_type), intent(in) :: trace
+      !> There was not, or is not
+      type(error_type), allocatable, intent(out) :: error
+
+      ! Six columns, twice
+      real(c_double), parameter :: bytes_of_row = 96.0_c_double
+
+      if (trace%lacks_memory) then
+         call raise_shortage(2.0_c_double*bytes_of_row*real(trace%rows, c_double), error)
+      else
+         call check_memory(bytes_of_row*real(trace%rows, c_double), error)
+      end if
+   end subroutine check_trace
+
+   !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
+   subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, &
+         & edp, collapsed, impacts, time_of_peak, edp_error, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: walls, suite
+      character(len=*), intent(in) :: engine
+      integer(c_int), intent(in) :: k, threads, record(k)
+      real(c_double), intent(in) :: scale(k), settings(5)
+      real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k)
+      integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(suite_type), pointer :: records
+      type(solver_type) :: solver
+      type(ensemble_type) :: ensemble
+      type(error_type), allocatable :: error
+      integer :: i
+
+      edp = 0
+      collapsed = 0
+      impacts = 0
+      time_of_peak = 0
+      edp_error = 0
+      solver = as_solver(engine, settings)
+      call check_room(error, histories=real(k, c_double))
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_solver(solver, error)
+      if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
+      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error)
+      do i = 1, k
+         if (allocated(error)) exit
+         call check_scale(records, record(i), scale(i), error)
+      end do
+      if (.not. allocated(error)) then
+         ensemble%record = record
+         ensemble%scale = scale
+         call run_ensemble(ensemble, people(1)%mechanism, records, solver, threads)
+         call unpack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
+         call check_interrupt(error)
+      end if
+      call report(error, stat, message)
+   end subroutine run_scaled
+
+   !> What the executable would warn of, of a wall and a record, before it runs one motion
+   subroutine warn_of_motion(walls, record, pga, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: record
+      real(c_double), intent(in) :: pga
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(record_type) :: records(1)
+      type(wall_warning_type) :: oddities
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         call oddities%look(people(1))
+         call oddities%warn(warnings)
+         records(1)%name = record
+         call warn_of_records(records, [pga], people(1)%gravity, warnings)
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine warn_of_motion
+
+   !> What the executable would warn of, of estimated errors; record and level are those of the largest, without a record
+   !> it is one history
+   subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, sent, stat, message)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit, level
+      character(len=*), intent(in) :: record
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type) :: records(1)
+      type(stripes_type) :: stripes
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call check_room(error, histories=real(n, c_double))
+      if (.not. allocated(error)) then
+         records(1)%name = record
+         stripes%levels = [level]
+         stripes%record = spread(1, 1, n)
+         allocate (stripes%response(n, 1))
+         stripes%response(:, 1)%edp = edp
+         stripes%response(:, 1)%edp_error = edp_error
+         if (len(record) == 0) then
+            call sentence(stripes%response(1, 1), edp_limit, warnings)
+         else
+            call sentences(stripes, records, edp_limit, warnings)
+         end if
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine warn_of_errors
+
+end module histories

@@ -1,0 +1,120 @@
+!> What Python asks of the library itself: version, defaults, tables of properties; Ctrl-C, forks, parcels, handles.
+!>
+!> f2py reads this and its neighbours listed in meson.build, each a module of the extension. Their arguments are flat:
+!> c_double, c_int, c_int64_t and bytes only, since f2py turns any other kind into a C float without a word. Records and
+!> walls are uploaded once and stay; other procedures take their handles (dondolo_handles). Results whose size only the
+!> library knows are sent as parcels (dondolo_parcel). Status and message come last: 0, or the kind of the error
+!> (dondolo_error), and its sentence. Procedures that compute release Python's lock (threadsafe); those that fill or empty a
+!> handle hold it.
+module library
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use, intrinsic :: omp_lib, only : omp_set_max_active_levels
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_fragility, only : error_names, status_names
+   use dondolo_handles, only : release
+   use dondolo_interrupt, only : begin => listen, finish => end_listening
+   use dondolo_lane_variants, only : build_variant, check_variant
+   use dondolo_parcel, only : parcel_type, send, take
+   use dondolo_property, only : describe_property, property_type
+   use dondolo_property_tables, only : property_table, table_names
+   use dondolo_solver, only : solver_type
+   use dondolo_text, only : join
+   use dondolo_version, only : dondolo_version_text
+   use dondolo_wall, only : standard_gravity
+   implicit none
+   private
+
+   public :: constants, properties, variant, listen, end_listening, work_alone, take_parcel, free
+
+contains
+
+   !> Version, defaults and limits that Python must not repeat
+   subroutine constants(defaults, version, statuses, errors)
+      ! rtol, atol, edp_limit, gravity
+      real(c_double), intent(out) :: defaults(4)
+      character(len=32), intent(out) :: version
+      character(len=256), intent(out) :: statuses, errors
+      type(solver_type) :: solver
+      integer :: i
+
+      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity]
+      version = dondolo_version_text
+      statuses = ''
+      do i = 1, size(status_names)
+         statuses = trim(statuses)//' '//status_names(i)
+      end do
+      errors = ''
+      do i = 1, size(error_names)
+         errors = trim(errors)//' '//error_names(i)
+      end do
+   end subroutine constants
+
+   !> The table of properties of a group, one of table_names; a line for each, its entries separated by tabs
+   !> (describe_property)
+   subroutine properties(group, sent, stat, message)
+      character(len=*), intent(in) :: group
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(property_type), allocatable :: table(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: line
+      integer :: i
+
+      table = property_table(group)
+      do i = 1, size(table)
+         call describe_property(table(i), line)
+         call parcel%lines%add(line)
+      end do
+      if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
+      call send(parcel, error, sent, stat, message)
+   end subroutine properties
+
+   !> Build variant that the engine lanes runs; the environment may change it from call to call
+   subroutine variant(name, stat, message)
+      character(len=32), intent(out) :: name
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(error_type), allocatable :: error
+
+      call check_variant(error)
+      name = build_variant()
+      call report(error, stat, message)
+   end subroutine variant
+
+   !> Listen to Ctrl-C while something is computed: the main thread alone may
+   subroutine listen()
+      call begin()
+   end subroutine listen
+
+   !> Listen no more
+   subroutine end_listening()
+      call finish()
+   end subroutine end_listening
+
+   !> Let the thread that calls it work alone from now on: OpenMP's other threads do not survive a fork
+   subroutine work_alone()
+      call omp_set_max_active_levels(0)
+   end subroutine work_alone
+
+   !> Contents of a parcel that another procedure has sent
+   subroutine take_parcel(handle, m, n, k, integers, reals, characters)
+      !f2py threadsafe
+      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int), intent(in) :: m, n, k
+      integer(c_int), intent(out) :: integers(m), characters(k)
+      real(c_double), intent(out) :: reals(n)
+
+      call take(handle, integers, reals, characters)
+   end subroutine take_parcel
+
+   !> Free what a handle stands for; nothing, if that was done before
+   subroutine free(handle)
+      integer(c_int64_t), intent(in) :: handle
+
+      call release(handle)
+   end subroutine free
+
+end module library

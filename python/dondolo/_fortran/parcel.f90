@@ -1,0 +1,137 @@
+!> Results whose size only the library knows, on their way to Python: f2py cannot pass them.
+!>
+!> A procedure sends a parcel and returns where it lies and how much it holds; `take` copies its contents into arrays of
+!> these sizes and frees it.
+module dondolo_parcel
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_ptr
+   use dondolo_boundary, only : report
+   use dondolo_error, only : error_type
+   use dondolo_lines, only : lines_type
+   implicit none
+   private
+
+   public :: parcel_type, send, take
+
+   !> Contents of unknown size
+   type :: parcel_type
+      !> Integers
+      integer(c_int), allocatable :: integers(:)
+      !> Reals
+      real(c_double), allocatable :: reals(:)
+      !> Lines of text
+      type(lines_type) :: lines
+   contains
+      procedure, private :: add_integers
+      procedure, private :: add_reals
+      !> Add numbers after those that are there
+      generic :: add => add_integers, add_reals
+      !> Add a note to the lines
+      procedure :: add_note
+   end type parcel_type
+
+contains
+
+   !> Add integers
+   subroutine add_integers(self, integers)
+      class(parcel_type), intent(inout) :: self
+      !> Integers
+      integer(c_int), intent(in) :: integers(:)
+
+      if (.not. allocated(self%integers)) allocate (self%integers(0))
+      self%integers = [self%integers, integers]
+   end subroutine add_integers
+
+   !> Add reals
+   subroutine add_reals(self, reals)
+      class(parcel_type), intent(inout) :: self
+      !> Reals
+      real(c_double), intent(in) :: reals(:)
+
+      if (.not. allocated(self%reals)) allocate (self%reals(0))
+      self%reals = [self%reals, reals]
+   end subroutine add_reals
+
+   !> Add how something was read, where there is something to say of it
+   subroutine add_note(self, note)
+      class(parcel_type), intent(inout) :: self
+      !> The note; empty or not allocated: none
+      character(len=:), allocatable, intent(in) :: note
+
+      if (.not. allocated(note)) return
+      if (len(note) > 0) call self%lines%add(note)
+   end subroutine add_note
+
+   !> Send a parcel, unless there was an error
+   subroutine send(parcel, error, sent, stat, message)
+      !> The parcel; its numbers are moved away
+      type(parcel_type), intent(inout) :: parcel
+      !> The error that came instead
+      type(error_type), allocatable, intent(in) :: error
+      !> Its address and numbers of integers, reals and characters; zeros where there is nothing in it
+      integer(c_int64_t), intent(out) :: sent(4)
+      !> As from report
+      integer(c_int), intent(out) :: stat
+      character(len=*), intent(out) :: message
+
+      type(parcel_type), pointer :: content
+
+      sent = 0
+      call report(error, stat, message)
+      if (allocated(error)) return
+      if (.not. (allocated(parcel%integers) .or. allocated(parcel%reals) .or. parcel%lines%count > 0)) return
+      allocate (content)
+      allocate (content%integers(0), content%reals(0))
+      if (allocated(parcel%integers)) call move_alloc(parcel%integers, content%integers)
+      if (allocated(parcel%reals)) call move_alloc(parcel%reals, content%reals)
+      content%lines%count = parcel%lines%count
+      if (allocated(parcel%lines%line)) call move_alloc(parcel%lines%line, content%lines%line)
+      sent = [transfer(c_loc(content), 0_c_intptr_t), size(content%integers, kind=c_int64_t), &
+         & size(content%reals, kind=c_int64_t), length_of(content%lines)]
+   end subroutine send
+
+   !> Take a parcel and free it
+   subroutine take(handle, integers, reals, characters)
+      !> Its address, which is valid once; 0: nothing was sent
+      integer(c_intptr_t), intent(in) :: handle
+      !> Its integers
+      integer(c_int), intent(out) :: integers(:)
+      !> Its reals
+      real(c_double), intent(out) :: reals(:)
+      !> Codes of the characters of its lines (bytes), each line ended by new_line
+      integer(c_int), intent(out) :: characters(:)
+
+      type(parcel_type), pointer :: content
+      type(c_ptr) :: address
+      integer :: i, k, at
+
+      if (handle == 0) return
+      address = transfer(handle, address)
+      call c_f_pointer(address, content)
+      integers = content%integers
+      reals = content%reals
+      at = 0
+      do i = 1, content%lines%count
+         associate (line => content%lines%line(i))
+            do k = 1, len(line%text)
+               characters(at + k) = ichar(line%text(k:k))
+            end do
+            at = at + len(line%text) + 1
+         end associate
+         characters(at) = ichar(new_line('a'))
+      end do
+      deallocate (content)
+   end subroutine take
+
+   !> Number of characters of lines, each ended by new_line
+   pure integer(c_int64_t) function length_of(lines) result(length)
+      type(lines_type), intent(in) :: lines
+
+      integer :: i
+
+      length = lines%count
+      do i = 1, lines%count
+         length = length + len(lines%line(i)%text)
+      end do
+   end function length_of
+
+end module dondolo_parcel

@@ -1,0 +1,329 @@
+!> Records: uploading, measuring, reading and making them.
+module records
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report
+   use dondolo_catalogue, only : read_catalogue
+   use dondolo_csv_row, only : cell_type
+   use dondolo_energy_measures, only : times_of => significant_times
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_ground_motion, only : velocity_of => ground_velocity
+   use dondolo_handles, only : find_suite, hold
+   use dondolo_intensity, only : measure_type, new_measure
+   use dondolo_kinds, only : wp
+   use dondolo_number_table, only : read_table => read_number_table
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_record, only : new_record, record_type
+   use dondolo_record_parcel, only : pack_records, set_records
+   use dondolo_record_reader, only : read_all => read_records, read_record
+   use dondolo_record_table, only : record_table
+   use dondolo_response_spectrum, only : largest_period, smallest_period, spectral_displacement
+   use dondolo_scaling, only : new_scaling, scaling_type
+   use dondolo_suite, only : make_suite => new_suite, suite_type
+   use dondolo_synthetic, only : make_record => synthetic_record
+   use dondolo_text, only : to_text
+   use dondolo_threads, only : check_threads
+   implicit none
+   private
+
+   public :: new_suite, measure_suite, check_record, describe_measure, intensities, spectrum, ground_velocity, &
+      & significant_times, read_records, read_number_table, catalogue_table, synthetic_record
+
+contains
+
+   !> Upload records that Python has checked: a suite
+   subroutine new_suite(names, lengths, dt, r, acceleration, n, handle, stat, message)
+      character(len=*), intent(in) :: names
+      integer(c_int), intent(in) :: r, n, lengths(r)
+      real(c_double), intent(in) :: dt(r), acceleration(n)
+      integer(c_int64_t), intent(out) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type), allocatable :: records(:)
+      type(suite_type), pointer :: suite
+      class(*), pointer :: content
+      type(error_type), allocatable :: error
+
+      handle = 0
+      call set_records(records, names, lengths, dt, acceleration, error)
+      if (.not. allocated(error)) then
+         allocate (suite)
+         call make_suite(suite, records)
+         content => suite
+         call hold(content, handle)
+      end if
+      call report(error, stat, message)
+   end subroutine new_suite
+
+   !> Measure the records of a suite, which keeps the values for the studies to come
+   subroutine measure_suite(suite, im, threads, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: suite
+      character(len=*), intent(in) :: im
+      integer(c_int), intent(in) :: threads
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(scaling_type) :: scaling
+      type(error_type), allocatable :: error
+
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) call new_scaling(scaling, im, error)
+      if (.not. allocated(error)) call records%measure(scaling%measure, threads)
+      call report(error, stat, message)
+   end subroutine measure_suite
+
+   !> Check what a record is to be made of
+   subroutine check_record(acceleration, n, dt, pga, stat, message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: acceleration(n), dt
+      real(c_double), intent(out) :: pga
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+
+      pga = 0
+      call check_room(error, samples=real(n, c_double))
+      if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
+      if (.not. allocated(error)) pga = record%pga()
+      call report(error, stat, message)
+   end subroutine check_record
+
+   !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
+   !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;
+   !> else those that records can be scaled by
+   subroutine describe_measure(im, of_record, sent, stat, message)
+      character(len=*), intent(in) :: im
+      integer(c_int), intent(in) :: of_record
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(measure_type) :: measure
+      type(scaling_type) :: scaling
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      if (of_record == 1) then
+         call new_measure(measure, im, error)
+      else
+         call new_scaling(scaling, im, error)
+      end if
+      if (.not. allocated(error)) then
+         if (of_record == 1) then
+            call parcel%lines%add(measure%name)
+            call parcel%lines%add(measure%unit())
+            call parcel%lines%add(measure%title())
+            parcel%integers = [measure%power()]
+         else
+            call parcel%lines%add(scaling%name)
+            call parcel%lines%add(scaling%unit())
+            call parcel%lines%add(scaling%title())
+            parcel%integers = [scaling%measure%power()]
+         end if
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine describe_measure
+
+   !> Intensities of the records of a suite, in the unit of the levels
+   subroutine intensities(suite, im, r, gravity, threads, values, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: suite
+      character(len=*), intent(in) :: im
+      integer(c_int), intent(in) :: r, threads
+      real(c_double), intent(in) :: gravity
+      real(c_double), intent(out) :: values(r)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(measure_type) :: measure
+      type(suite_type), pointer :: records
+      type(error_type), allocatable :: error
+
+      values = 0
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) call new_measure(measure, im, error)
+      if (.not. allocated(error)) then
+         call records%measure(measure, threads)
+         values = records%values(measure, threads)/measure%level_size(gravity)
+      end if
+      call report(error, stat, message)
+   end subroutine intensities
+
+   !> Spectral displacements of a record
+   subroutine spectrum(suite, number, periods, m, damping, displacement, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: suite
+      integer(c_int), intent(in) :: number, m
+      real(c_double), intent(in) :: periods(m), damping
+      real(c_double), intent(out) :: displacement(m)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(error_type), allocatable :: error
+
+      displacement = 0
+      call check_room(error, reals=10.0_c_double*m)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_spectrum(periods, damping, error)
+      if (.not. allocated(error)) displacement = spectral_displacement(records%records(number), periods, damping)
+      call report(error, stat, message)
+   end subroutine spectrum
+
+   !> Check the oscillators of a response spectrum
+   subroutine check_spectrum(periods, damping, error)
+      !> Periods [s]
+      real(c_double), intent(in) :: periods(:)
+      !> Damping ratio
+      real(c_double), intent(in) :: damping
+      !> The first that cannot be
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. (damping >= 0.0_c_double .and. damping < 1.0_c_double)) then
+         call raise_input(error, 'damping = '//to_text(damping)//': must be at least 0 and below 1')
+         return
+      end if
+      do i = 1, size(periods)
+         if (periods(i) >= smallest_period .and. periods(i) <= largest_period) cycle
+         call raise_input(error, 'periods = '//to_text(periods(i))//': must lie between '//to_text(smallest_period)// &
+            & ' and '//to_text(largest_period)//' s')
+         return
+      end do
+   end subroutine check_spectrum
+
+   !> Velocity of the ground at the samples of a record
+   subroutine ground_velocity(suite, number, n, velocity, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: suite
+      integer(c_int), intent(in) :: number, n
+      real(c_double), intent(out) :: velocity(n)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(error_type), allocatable :: error
+
+      velocity = 0
+      call check_room(error, reals=3.0_c_double*n)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) velocity = velocity_of(records%records(number))
+      call report(error, stat, message)
+   end subroutine ground_velocity
+
+   !> Times at which the integral of the squared acceleration reaches two shares of its end value
+   subroutine significant_times(suite, number, low, high, times, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: suite
+      integer(c_int), intent(in) :: number
+      real(c_double), intent(in) :: low, high
+      real(c_double), intent(out) :: times(2)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(error_type), allocatable :: error
+
+      times = 0
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) times = times_of(records%records(number), low, high)
+      call report(error, stat, message)
+   end subroutine significant_times
+
+   !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
+   !> where they are not given
+   subroutine read_records(path, what, dt_given, dt, units, channel, layout, sent, stat, message)
+      character(len=*), intent(in) :: path, units, channel, layout
+      integer(c_int), intent(in) :: what, dt_given
+      real(c_double), intent(in) :: dt
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type), allocatable :: records(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: note
+      real(c_double), allocatable :: step
+
+      ! A step that is not allocated is an argument that is not present
+      if (dt_given == 1) step = dt
+      select case (what)
+      case (0)
+         allocate (records(1))
+         call read_record(path, records(1), error, step, units, channel, layout)
+      case (1)
+         call read_catalogue(path, records, error, note)
+      case default
+         call read_all(path, records, error, step, units, layout)
+      end select
+      if (.not. allocated(error)) call pack_records(records, parcel, error)
+      call parcel%add_note(note)
+      call send(parcel, error, sent, stat, message)
+   end subroutine read_records
+
+   !> Read a table of numbers. Integers: columns, rows; reals: its numbers, row by row; text: names of the columns, and how it
+   !> was read, where there is something to say of it
+   subroutine read_number_table(path, sent, stat, message)
+      character(len=*), intent(in) :: path
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(cell_type), allocatable :: columns(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: values(:, :)
+      character(len=:), allocatable :: note
+      integer :: i
+
+      call read_table(path, columns, values, note, error)
+      if (.not. allocated(error)) then
+         do i = 1, size(columns)
+            call parcel%lines%add(columns(i)%text)
+         end do
+         parcel%integers = shape(values)
+         parcel%reals = reshape(values, [size(values)])
+         call parcel%add_note(note)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine read_number_table
+
+   !> The table of the records of a catalogue. Integer: number of its lines; text: its lines, and how the catalogue was read,
+   !> where there is something to say of it
+   subroutine catalogue_table(path, gravity, sent, stat, message)
+      character(len=*), intent(in) :: path
+      real(c_double), intent(in) :: gravity
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type), allocatable :: records(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: note
+
+      call read_catalogue(path, records, error, note)
+      if (.not. allocated(error)) then
+         parcel%lines = record_table(records, gravity)
+         parcel%integers = [parcel%lines%count]
+         call parcel%add_note(note)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine catalogue_table
+
+   !> A synthetic record: one realisation of the model of Sabetta and Pugliese (1996)
+   subroutine synthetic_record(magnitude, distance, site, seed, stream, deviations, sent, stat, message)
+      character(len=*), intent(in) :: site
+      integer(c_int), intent(in) :: seed, stream
+      real(c_double), intent(in) :: magnitude, distance, deviations
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type) :: records(1)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call make_record(records(1), magnitude, distance, site, seed, stream, deviations, error)
+      if (.not. allocated(error)) call pack_records(records, parcel, error)
+      call send(parcel, error, sent, stat, message)
+   end subroutine synthetic_record
+
+end module records

@@ -1,0 +1,195 @@
+!> Studies, and the multiple stripes of walls under them.
+module stripes
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : as_solver, check_interrupt, check_room, report, unpack_response
+   use dondolo_ensemble, only : ensemble_type
+   use dondolo_error, only : add_place, error_type
+   use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_plausibility, only : wall_warning_type
+   use dondolo_scaling, only : new_scaling, scaling_type, unscaled
+   use dondolo_solver, only : check_limit
+   use dondolo_stripes, only : histories_of, plan_stripes, run_part, stripes_type
+   use dondolo_study, only : make_study => new_study, study_type
+   use dondolo_suite, only : suite_type
+   use dondolo_threads, only : check_threads, team_of
+   use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
+   use dondolo_warnings, only : scale_warning_type, warn_of_records
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: new_study, plan, scales, run_block
+
+contains
+
+   !> A study: a suite and how walls are tried under it. Without a measure its levels are factors on the records
+   subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, handle, stat, message)
+      integer(c_int64_t), intent(in) :: suite
+      character(len=*), intent(in) :: im, polarity, engine
+      integer(c_int), intent(in) :: m, threads
+      real(c_double), intent(in) :: levels(m), settings(5)
+      integer(c_int64_t), intent(out) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(scaling_type) :: scaling
+      type(held_study_type), pointer :: held
+      class(*), pointer :: content
+      type(error_type), allocatable :: error
+
+      handle = 0
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) then
+         scaling = unscaled()
+         if (len(im) > 0) call new_scaling(scaling, im, error)
+      end if
+      if (.not. allocated(error)) then
+         allocate (held)
+         held%suite = suite
+         call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, settings), threads)
+         content => held
+         call hold(content, handle)
+      end if
+      call report(error, stat, message)
+   end subroutine new_study
+
+   !> Check what stripes of walls would be, without running them: histories of a stripe of each, and the parcel of the warnings
+   subroutine plan(study, walls, w, histories, sent, stat, message)
+      integer(c_int64_t), intent(in) :: study, walls
+      integer(c_int), intent(in) :: w
+      integer(c_int), intent(out) :: histories(w)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(wall_type), pointer :: people(:)
+      type(stripes_type) :: stripes
+      type(scale_warning_type) :: scales
+      type(wall_warning_type) :: oddities
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i
+      logical :: fresh
+
+      histories = 0
+      call find_study(study, chosen, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      do i = 1, w
+         if (allocated(error)) exit
+         ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
+         fresh = i == 1 .or. chosen%scaling%needs_wall()
+         if (.not. fresh) fresh = people(i)%gravity < people(i - 1)%gravity .or. people(i)%gravity > people(i - 1)%gravity &
+            & .or. (people(i)%mechanism%two_sided .neqv. people(i - 1)%mechanism%two_sided)
+         if (fresh) then
+            call plan_stripes(stripes, people(i), chosen, error)
+         else
+            call check_limit(chosen%solver, people(i)%mechanism, error)
+         end if
+         if (allocated(error)) then
+            if (w > 1) call add_place(error, 'wall '''//people(i)%name()//'''')
+            exit
+         end if
+         histories(i) = size(stripes%record)
+         call scales%look(stripes, chosen%suite%records)
+         call oddities%look(people(i))
+      end do
+      if (.not. allocated(error)) then
+         call oddities%warn(warnings)
+         call warn_of_records(chosen%suite%records, chosen%suite%peaks, people(1)%gravity, warnings)
+         call scales%warn(warnings)
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine plan
+
+   !> Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels
+   subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, message)
+      integer(c_int64_t), intent(in) :: study, walls
+      integer(c_int), intent(in) :: number, k, m
+      integer(c_int), intent(out) :: record(k), polarity(k), stat
+      real(c_double), intent(out) :: scale(k, m)
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(wall_type), pointer :: people(:)
+      type(stripes_type) :: stripes
+      type(error_type), allocatable :: error
+
+      record = 0
+      polarity = 0
+      scale = 0
+      call find_study(study, chosen, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call plan_stripes(stripes, people(number), chosen, error)
+      if (.not. allocated(error)) then
+         record = stripes%record
+         polarity = stripes%polarity
+         scale = stripes%scale
+      end if
+      call report(error, stat, message)
+   end subroutine scales
+
+   !> Run `count` histories of walls `one` to `last`, which plan has checked, from number `first` of wall `one` on; they are
+   !> numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names
+   subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
+         & stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: study, walls
+      integer(c_int), intent(in) :: one, last, first, count
+      real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
+      integer(c_int), intent(inout) :: collapsed(count), impacts(count)
+      real(c_double), intent(out) :: work(7)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(wall_type), pointer :: people(:)
+      type(ensemble_type), allocatable :: part(:)
+      type(work_type) :: total
+      type(error_type), allocatable :: error
+      integer, allocatable :: range(:, :)
+      integer :: i, k, left, crew, shared_out
+
+      call check_room(error, walls=last - one + 1, histories=real(count, c_double))
+      if (.not. allocated(error)) call find_study(study, chosen, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         allocate (part(one:last), range(2, one:last))
+         left = count
+         range(1, :) = 1
+         range(1, one) = first
+         do i = one, last
+            range(2, i) = min(histories_of(chosen, people(i))*size(chosen%levels), range(1, i) + left - 1)
+            left = left - (range(2, i) - range(1, i) + 1)
+         end do
+         ! As in run_rows: as many walls as go round evenly are shared out, all threads work on each of the others.
+         crew = team_of(chosen%threads, huge(1))
+         shared_out = last - modulo(last - one + 1, crew)
+         !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
+         !$omp & shared(one, shared_out, chosen, people, range, part)
+         do i = one, shared_out
+            call run_part(part(i), people(i), chosen, 1, range(:, i))
+         end do
+         !$omp end parallel do
+         do i = shared_out + 1, last
+            call run_part(part(i), people(i), chosen, chosen%threads, range(:, i))
+         end do
+         k = 0
+         do i = one, last
+            call total%add(part(i)%work)
+            associate (to => k + size(part(i)%response))
+               call unpack_response(part(i)%response, edp(k + 1:to), collapsed(k + 1:to), impacts(k + 1:to), &
+                  & time_of_peak(k + 1:to), edp_error(k + 1:to))
+            end associate
+            k = k + size(part(i)%response)
+         end do
+         call check_interrupt(error)
+      end if
+      work = real(total%counts(), c_double)
+      call report(error, stat, message)
+   end subroutine run_block
+
+end module stripes

@@ -1,0 +1,127 @@
+!> Walls across the boundary: a line for each text and numbers with a mask of those given, in the order of their table.
+module dondolo_wall_parcel
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room, next_line
+   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_parcel, only : parcel_type
+   use dondolo_population, only : member_type
+   use dondolo_property, only : is_text
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
+   implicit none
+   private
+
+   public :: set_walls, pack_walls, pack_members
+
+contains
+
+   !> Make walls
+   subroutine set_walls(walls, texts, numbers, given, gravity, error)
+      !> The walls
+      type(wall_type), allocatable, intent(out) :: walls(:)
+      !> A line for each text of a wall, in the order of the table of properties; empty: not given
+      character(len=*), intent(in) :: texts
+      !> Numbers of each wall, in the order of the table (numbers, walls)
+      real(c_double), intent(in) :: numbers(:, :)
+      !> 1 where the number was given (numbers, walls)
+      integer(c_int), intent(in) :: given(:, :)
+      !> Gravity [m/s2]
+      real(c_double), intent(in) :: gravity(:)
+      !> The first thing that is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+      character(len=:), allocatable :: text
+      integer :: i, k, at, number
+
+      if (size(numbers, 1) /= wall_numbers .or. size(given, 1) /= wall_numbers) then
+         call raise_input(error, 'walls: '//to_text(size(numbers, 1))//' numbers each: must be '//to_text(wall_numbers))
+         return
+      end if
+      call check_room(error, walls=size(gravity))
+      if (allocated(error)) return
+      allocate (walls(size(gravity)))
+      at = 1
+      do i = 1, size(walls)
+         input = wall_input_type()
+         number = 0
+         do k = 1, size(wall_properties)
+            associate (property => wall_properties(k))
+               if (property%kind == is_text) then
+                  call next_line(texts, at, text)
+                  if (len(text) > 0) call input%set(property%name, text)
+               else
+                  number = number + 1
+                  if (given(number, i) /= 0) call input%set(property%name, numbers(number, i))
+               end if
+            end associate
+         end do
+         call new_wall(walls(i), input, error, gravity(i))
+         if (.not. allocated(error)) cycle
+         if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%name()//'''')
+         return
+      end do
+   end subroutine set_walls
+
+   !> Walls as they were understood: names, numbers and static quantities
+   subroutine pack_walls(walls, parcel)
+      !> The walls
+      type(wall_type), intent(in) :: walls(:)
+      !> Integers: a wall's numbers given, two_sided; reals: its numbers, gravity, R, alpha, p, trigger, q_c, e; text: its
+      !> texts, one a line
+      type(parcel_type), intent(inout) :: parcel
+
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = wall_numbers + 7
+      integer(c_int), allocatable :: integers(:, :)
+      real(c_double), allocatable :: reals(:, :)
+      integer :: i, k, number
+
+      allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)))
+      do i = 1, size(walls)
+         associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
+            number = 0
+            do k = 1, size(wall_properties)
+               associate (property => wall_properties(k))
+                  if (property%kind == is_text) then
+                     call parcel%lines%add(input%word(property%name))
+                  else
+                     number = number + 1
+                     integers(number, i) = merge(1, 0, input%has(property%name))
+                     reals(number, i) = input%number(property%name)
+                  end if
+               end associate
+            end do
+            integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
+            reals(wall_numbers + 1:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
+               & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
+               & mechanism%restitution]
+         end associate
+      end do
+      call parcel%add(reshape(integers, [size(integers)]))
+      call parcel%add(reshape(reals, [size(reals)]))
+   end subroutine pack_walls
+
+   !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
+   !> mechanisms; text: their groups
+   subroutine pack_members(members, parcel)
+      !> The rows
+      type(member_type), intent(in) :: members(:)
+      !> What was in it stays before them
+      type(parcel_type), intent(inout) :: parcel
+
+      type(wall_type), allocatable :: walls(:)
+      integer :: i
+
+      allocate (walls(size(members)))
+      do i = 1, size(members)
+         walls(i) = members(i)%wall
+      end do
+      call pack_walls(walls, parcel)
+      call parcel%add([members%weight, members%p_occ])
+      do i = 1, size(members)
+         call parcel%lines%add(members(i)%group)
+      end do
+   end subroutine pack_members
+
+end module dondolo_wall_parcel

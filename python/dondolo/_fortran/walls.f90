@@ -1,0 +1,129 @@
+!> Walls: uploading, describing and reading them.
+module walls
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_handles, only : find_walls, hold, walls_type
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_population, only : member_type, read_population
+   use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
+   use dondolo_wall_parcel, only : pack_members, pack_walls, set_walls
+   implicit none
+   private
+
+   public :: new_walls, describe_walls, wall_terms, read_walls
+
+contains
+
+   !> Upload walls that Python has had described
+   subroutine new_walls(texts, numbers, given, q, gravity, w, handle, stat, message)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: q, w, given(q, w)
+      real(c_double), intent(in) :: numbers(q, w), gravity(w)
+      integer(c_int64_t), intent(out) :: handle
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(walls_type), pointer :: walls
+      class(*), pointer :: content
+      type(error_type), allocatable :: error
+
+      handle = 0
+      allocate (walls)
+      call set_walls(walls%wall, texts, numbers, given, gravity, error)
+      if (allocated(error)) then
+         deallocate (walls)
+      else
+         content => walls
+         call hold(content, handle)
+      end if
+      call report(error, stat, message)
+   end subroutine new_walls
+
+   !> Walls with their defaults filled in and their static quantities, as pack_walls has them
+   subroutine describe_walls(texts, numbers, given, q, gravity, w, sent, stat, message)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: q, w, given(q, w)
+      real(c_double), intent(in) :: numbers(q, w), gravity(w)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), allocatable :: walls(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call set_walls(walls, texts, numbers, given, gravity, error)
+      if (.not. allocated(error)) call pack_walls(walls, parcel)
+      call send(parcel, error, sent, stat, message)
+   end subroutine describe_walls
+
+   !> Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
+   subroutine wall_terms(walls, rotation, n, terms, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: rotation(n)
+      real(c_double), intent(out) :: terms(n, 6)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      terms = 0
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) call check_rotations(people(1)%mechanism, rotation, error)
+      if (.not. allocated(error)) then
+         associate (mechanism => people(1)%mechanism)
+            do i = 1, n
+               call mechanism%terms(rotation(i), terms(i, 1), terms(i, 2), terms(i, 3), terms(i, 4), terms(i, 5))
+               terms(i, 6) = mechanism%potential(rotation(i))
+            end do
+         end associate
+      end if
+      call report(error, stat, message)
+   end subroutine wall_terms
+
+   !> Check that a mechanism can have rotations
+   subroutine check_rotations(mechanism, rotation, error)
+      !> The mechanism
+      class(mechanism_type), intent(in) :: mechanism
+      !> Rotations [rad]
+      real(c_double), intent(in) :: rotation(:)
+      !> The first that is negative or beyond the geometric end
+      type(error_type), allocatable, intent(out) :: error
+
+      real(c_double) :: last
+      integer :: i
+
+      last = mechanism%geometric_end()
+      do i = 1, size(rotation)
+         if (rotation(i) >= 0.0_c_double .and. rotation(i) < last) cycle
+         call raise_input(error, 'rotation = '//to_text(rotation(i))//': must be at least 0 and less than '// &
+            & to_text(last)//', where the geometry of this wall ends')
+         return
+      end do
+   end subroutine check_rotations
+
+   !> Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
+   !> text: their groups, and how the table was read, where there is something to say of it
+   subroutine read_walls(path, gravity, sent, stat, message)
+      character(len=*), intent(in) :: path
+      real(c_double), intent(in) :: gravity
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(member_type), allocatable :: members(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: note
+
+      call read_population(path, members, error, gravity, note)
+      if (.not. allocated(error)) call check_room(error, walls=size(members))
+      if (.not. allocated(error)) call pack_members(members, parcel)
+      call parcel%add_note(note)
+      call send(parcel, error, sent, stat, message)
+   end subroutine read_walls
+
+end module walls
