@@ -647,9 +647,9 @@ catalogue "a decimal comma in dt" 'file,dt_s,units\nr1.txt,"0,01",g\n' "records/
 catalogue "an unknown unit" 'file,dt_s,units\nr1.txt,0.01,furlong\n' 'furlong'
 catalogue "the same record twice" 'file,dt_s,units\nr1.txt,0.01,g\nr1.txt,0.01,g\n' "'r1.txt' is a duplicate"
 catalogue "a name of two lines" 'file,dt_s,units,name\nr1.txt,0.01,g,"a\n# collapsed: 1"\n' \
-   "records/bad.csv: line 2: name = 'a # collapsed: 1': must be one line without control characters"
+   "records/bad.csv: line 2: name = 'a\n# collapsed: 1': must be one line without control characters"
 catalogue "a name with a line separator" 'file,dt_s,units,name\nr1.txt,0.01,g,a\0342\0200\0250b\n' \
-   "records/bad.csv: line 2: name = 'a   b': must be one line"
+   "records/bad.csv: line 2: name = 'a\u2028b': must be one line"
 printf '1\n2\nx\n' >records/broken.txt
 catalogue "a broken record" 'file,dt_s,units\nbroken.txt,0.01,g\n' 'records/broken.txt: line 3'
 rm records/broken.txt records/bad.csv
@@ -684,7 +684,7 @@ check "population: everything wrong at once" equal "$(cut -c 1-40 stderr | tr '\
    "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;dondolo: walls.csv: line 5: thickness = ;"
 check "population: everything wrong at once: exit code" equal "$rc" 2
 people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1\n" \
-   "walls.csv: line 2: name = 'a [2Jb': must be one line without control characters"
+   "walls.csv: line 2: name = 'a\x1b[2Jb': must be one line without control characters"
 awk 'BEGIN { print "name,mechanism,height,thickness"; print "\"a,one_sided,3,0.3"; for (i = 1; i <= 100000; i++) print "w" i ",one_sided,3,0.3" }' \
    >walls.csv
 refused "population: a quote that is not closed" 'walls.csv: line 2: a double quote is not closed' people.nml
@@ -697,7 +697,7 @@ people "semicolons and points" 'name;mechanism;height;thickness\na;one_sided;3,5
 people "decimal commas between commas" "${head}a,one_sided,3,5,0,25,1\n" \
    'walls.csv: line 2: 7 cells: must be 5 as in the header (columns separated by commas need decimal points)'
 people "Windows-1252" "${head}a\0340,one_sided,3,0.25,1\nb\0340,one_sided,3,0.25,1\n" \
-   'walls.csv: line 2: is not UTF-8 (Windows-1252?): save it as UTF-8 (in Excel: CSV UTF-8)'
+   'walls.csv: line 2: byte 2 (E0) is not UTF-8 (Windows-1252?): save it as UTF-8 (in Excel: CSV UTF-8)'
 people "an empty file" '' 'walls.csv: the file is empty'
 rm walls.csv
 refused "population: no file" "people.nml: &population: file = 'walls.csv': there is no file walls.csv" people.nml

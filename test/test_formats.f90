@@ -7,6 +7,7 @@ program test_formats
    use dondolo_error, only : error_type
    use dondolo_kinds, only : pi, wp
    use dondolo_lines, only : lines_type
+   use dondolo_limits, only : longest_case
    use dondolo_metadata, only : metadata_type
    use dondolo_record, only : new_record, record_type
    use dondolo_record_format, only : read_fixed
@@ -95,12 +96,12 @@ contains
 
       call suite('fixed width')
       call write_file(scratch//'/fixed.txt', 'head'//lf//' 1.5-2.25  3.'//cr//lf//'1e-2 -1.0   '//lf//'tail')
-      call read_text_file(scratch//'/fixed.txt', text, error)
+      call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
       call read_fixed(text, 2, 3, 5, 3, values, error)
       call check_error(error, ': line 2: value 1 of 3 = '' 1.5-'': must be a number in column 1 of width 5', &
          & 'wrong width')
       call write_file(scratch//'/fixed.txt', 'head'//lf//'  1.5-2.25   3.'//cr//lf//' 1e-2 -1.0   '//lf//'tail')
-      call read_text_file(scratch//'/fixed.txt', text, error)
+      call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
       call read_fixed(text, 2, 5, 5, 3, values, error)
       call check_ok(error, 'touching columns')
       call check(size(values) == 5, 'five')
@@ -116,7 +117,7 @@ contains
       call read_fixed(text, 2, 2000000000, 5, 3, values, error)
       call check_error(error, 'must be a number', 'a count beyond the file')
       call write_file(scratch//'/fixed.txt', '    1    2')
-      call read_text_file(scratch//'/fixed.txt', text, error)
+      call read_text_file(scratch//'/fixed.txt', text, error, longest_case)
       call read_fixed(text, 1, 4, 5, 2, values, error)
       call check_error(error, ': line 1: the file ends after 2 values: the header states 4', 'end of the file')
    end subroutine test_fixed
@@ -529,7 +530,7 @@ contains
       call check_text(table%line(2)%text, '                                s         s          g      cm/s', 'units')
       call check_text(table%line(3)%text(:64), '    1  wave         401   0.01000      4.00     0.1000      6.35', &
          & 'numbers')
-      call check_text(table%line(3)%text(65:), '  Friuli, TLM', 'event and station, no escape character')
+      call check_text(table%line(3)%text(65:), '  Friuli, TLM\x1b', 'event and station, the escape character made visible')
       call check_text(table%line(4)%text(65:89), '  1976-05-06      begins ', 'date where there is no event')
    end subroutine test_table
 

@@ -3,9 +3,10 @@ program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
    use dondolo_csv_reader, only : csv_reader_type
-   use dondolo_encoding, only : is_utf8
+   use dondolo_encoding, only : is_utf8, take_utf16
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_case
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
@@ -133,7 +134,7 @@ contains
       call write_file('lines.txt', achar(239)//achar(187)//achar(191)//'one'//cr//lf//lf//' three'//lf//'four'// &
          & cr//lf// &
          & achar(26)//cr//lf)
-      call read_text_file(scratch//'/lines.txt', text, error)
+      call read_text_file(scratch//'/lines.txt', text, error, longest_case)
       call check_ok(error, 'read')
       call check(text%lines() == 4, 'four lines')
       call check_text(text%line(1), 'one', 'line 1')
@@ -143,21 +144,21 @@ contains
       call check_text(text%line(5), '', 'line 5')
       call check_text(text%place(3), scratch//'/lines.txt: line 3', 'place')
       call write_file('lines.txt', 'a'//lf//'b')
-      call read_text_file(scratch//'/lines.txt', text, error)
+      call read_text_file(scratch//'/lines.txt', text, error, longest_case)
       call check(text%lines() == 2, 'two lines')
       call check_text(text%line(2), 'b', 'last line without line end')
       call write_file('lines.txt', '')
-      call read_text_file(scratch//'/lines.txt', text, error)
+      call read_text_file(scratch//'/lines.txt', text, error, longest_case)
       call check_error(error, scratch//'/lines.txt: the file is empty', 'no bytes')
       call write_file('lines.txt', cr//lf//lf//' ')
-      call read_text_file(scratch//'/lines.txt', text, error)
+      call read_text_file(scratch//'/lines.txt', text, error, longest_case)
       call check_error(error, 'the file is empty', 'blanks')
-      call read_text_file(scratch//'/none.txt', text, error)
+      call read_text_file(scratch//'/none.txt', text, error, longest_case)
       call check_error(error, scratch//'/none.txt: no such file', 'missing file')
       call check(error%stat == status_missing, 'a missing file is one')
-      call read_text_file(scratch//'/folder', text, error)
+      call read_text_file(scratch//'/folder', text, error, longest_case)
       call check_error(error, scratch//'/folder: ', 'folder')
-      call read_text_file('', text, error)
+      call read_text_file('', text, error, longest_case)
       call check(allocated(error), 'no name')
    end subroutine test_text_file
 
@@ -329,7 +330,8 @@ contains
       ! Windows-1252, an overlong form, a surrogate, beyond U+10FFFF, a form that is cut off
       integer, parameter :: wrong(4, 5) = reshape([97, 224, 98, 99, 192, 175, 97, 98, 237, 160, 128, 97, &
          & 244, 144, 128, 128, 97, 98, 226, 130], [4, 5])
-      integer :: i
+      character(len=:), allocatable :: text
+      integer :: i, used
 
       call suite('encodings')
       do i = 1, size(right, 2)
@@ -337,10 +339,32 @@ contains
          call check(.not. is_utf8(bytes(wrong(:, i))), 'not UTF-8')
       end do
       call check_csv('a,b'//lf//'1,2'//lf//'x'//achar(224)//',y'//achar(224)//lf//achar(224)//',1'//lf, &
-         & ': line 3: is not UTF-8 (Windows-1252?)'//remedy)
-      call check_csv(achar(255)//achar(254)//'a'//achar(0)//','//achar(0)//'b'//achar(0)//lf//achar(0), &
-         & ': line 1: is UTF-16, or no text'//remedy)
+         & ': line 3: byte 2 (E0) is not UTF-8 (Windows-1252?)'//remedy)
+      call check_csv('a'//achar(0)//','//achar(0)//'b'//achar(0)//lf//achar(0), ': line 1: byte 2 is NUL: this is no '// &
+         & 'text, or UTF-16 without a byte order mark'//remedy)
+      call check_numbers(achar(255)//achar(254)//wide('a,b'//cr//lf//'1.5,2'), [1.5_wp, 2.0_wp], '')
+      call check_numbers(achar(254)//achar(255)//achar(0)//wide('a,b'//cr//lf//'1.5,2'//lf)//' ', [1.5_wp, 2.0_wp], '')
+      call check_numbers('a,b'//cr//'1.5,2'//cr, [1.5_wp, 2.0_wp], '')
+      call check_numbers('a,b'//cr//cr//lf//'1.5,2'//cr//cr//lf, [1.5_wp, 2.0_wp], '')
+      ! Code points beyond 16 bits are pairs of surrogates; the first half of one waits for the second
+      call take_utf16(bytes([60, 216, 219, 223, 233, 0, 60, 216]), 1, .false., text, used)
+      call check(used == 6, 'half a pair waits')
+      call check_text(text, bytes([240, 159, 143, 155, 195, 169]), 'UTF-16')
+      call take_utf16(bytes([216, 60, 0, 97, 223, 219, 0]), 2, .true., text, used)
+      call check(used == 7, 'all is used')
+      call check_text(text, bytes([239, 191, 189, 97, 239, 191, 189, 239, 191, 189]), 'surrogates alone')
    end subroutine test_encodings
+
+   !> ASCII as UTF-16, the low byte first
+   pure function wide(text)
+      character(len=*), intent(in) :: text
+      character(len=2*len(text)) :: wide
+      integer :: i
+
+      do i = 1, len(text)
+         wide(2*i - 1:2*i) = text(i:i)//achar(0)
+      end do
+   end function wide
 
    !> A text of bytes
    pure function bytes(codes) result(text)
@@ -656,7 +680,8 @@ contains
       call check_bad_file('words'//lf//'and more'//lf//'words'//lf, ': the format is not known')
       call check_bad_file('# remark'//lf, ': the format is not known')
       call check_bad_file('', ': the file is empty')
-      call check_bad_file(achar(0)//achar(1)//achar(2)//lf//achar(255), ': the format is not known')
+      call check_bad_file(achar(1)//achar(2)//lf//achar(255), ': the format is not known')
+      call check_bad_file(achar(0)//achar(1)//achar(2)//lf//achar(255), ': line 1: byte 1 is NUL: this is no text')
    end subroutine test_unknown
 
    !> Catalogues

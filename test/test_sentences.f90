@@ -13,7 +13,7 @@ program test_sentences
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_format, only : shown
+   use dondolo_plain, only : shown
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_text, only : counted, first_word, join, rounded, stripped, to_table, to_text
    use dondolo_text_file, only : text_file_type

@@ -28,7 +28,7 @@ class DondoloWarning(UserWarning):
     sentence : str
         What `str` gives.
     code : str
-        What it is, such as ``scale_factors_large``; docs/files.md lists the codes. Empty if it has none.
+        What it is, such as ``scale_factors_large``; docs/files.md lists the codes.
     subject : mapping
         What it is about: kind -> name, such as ``{"record": "tolmezzo"}``.
     numbers : mapping
@@ -38,7 +38,7 @@ class DondoloWarning(UserWarning):
     def __init__(
         self,
         sentence: str,
-        code: str = "",
+        code: str,
         subject: Mapping[str, str] | None = None,
         numbers: Mapping[str, float] | None = None,
     ) -> None:

@@ -117,13 +117,16 @@ def test_shown():
         ({"groups": ["x", "y", "", ""]}, "name = 'a': mechanisms of one wall must have the same weight and group"),
         (
             {"groups": ["x", "x", "a\nb", ""]},
-            "wall 'b, \"the\" #2': group: must be one line without control characters",
+            "wall 'b, \"the\" #2': group = 'a\\nb': must be one line without control characters and marks of direction",
         ),
         ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
         ({"groups": 5}, "groups = 5: must be a name for each wall"),
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),
-        ({"origin": ["two\nlines"]}, "origin: must be one line without control characters"),
+        (
+            {"origin": ["two\nlines"]},
+            "origin = 'two\\nlines': must be one line without control characters and marks of direction",
+        ),
         ({"origin": "hello"}, "origin = 'hello': must be lines"),
     ],
 )
@@ -213,9 +216,12 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
 SPREADSHEET = "Rilievo, 2024;;;;\r\nname;mechanism;height;thickness;\r\nunità;ONE_SIDED;3,5;0,25;\r\n;;;;\r\n"
 
 
-def test_table_of_a_spreadsheet(tmp_path):
+@pytest.mark.parametrize(
+    ("encoding", "end"), [("utf-8-sig", "\r\n"), ("utf-16", "\r\n"), ("utf-8", "\r"), ("utf-16", "\r")]
+)
+def test_table_of_a_spreadsheet(encoding, end, tmp_path):
     path = tmp_path / "walls.csv"
-    path.write_text(SPREADSHEET, encoding="utf-8-sig")
+    path.write_text(SPREADSHEET.replace("\r\n", end), encoding=encoding, newline="")
     with pytest.warns(dd.DondoloWarning) as caught:
         (wall,) = dd.read_population(path)
     note = "read with columns separated by semicolons, decimal commas, line 1 is a title"
@@ -223,11 +229,13 @@ def test_table_of_a_spreadsheet(tmp_path):
     assert (wall.name, wall.mechanism, wall.height, wall.thickness) == ("unità", "one_sided", 3.5, 0.25)
 
 
-@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16-le"])
 def test_table_that_is_no_utf8(encoding, tmp_path):
     path = tmp_path / "walls.csv"
     path.write_text(SPREADSHEET, encoding=encoding)
-    with pytest.raises(dd.InputError, match=r"line \d: is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)") as caught:
+    with pytest.raises(
+        dd.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
+    ) as caught:
         dd.read_population(path)
     assert "\n" not in str(caught.value)
 

@@ -219,6 +219,7 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_rows", "run_scaled", "fit_curves", "probability",
+        "in_series",
     }  # fmt: skip
 
 
@@ -420,3 +421,14 @@ def test_linters(command, root):
         pytest.skip(f"{tool.name} is not installed")
     run = subprocess.run([tool, *options], cwd=root, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
+
+
+def test_limits_are_documented(root):
+    """docs/files.md lists every limit with its value."""
+    source = (root / "src/dondolo/base/text/limits.f90").read_text()
+    limits = {}
+    for line in re.findall(r"parameter, public :: (.*)", source):
+        for name, value in re.findall(r"(\w+) = ([^,]+)", line):
+            limits[name] = eval(value.replace("_int64", ""))
+    rows = re.findall(r"^\|.*`(\w+)` \| (\d+) \|$", (root / "docs/files.md").read_text(), flags=re.MULTILINE)
+    assert {name: int(value) for name, value in rows} == limits

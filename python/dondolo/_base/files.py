@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import codecs
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, InputError, MissingFileError
 
 
 def as_file(name: str, path: Any) -> Path:
@@ -22,6 +23,32 @@ def as_file(name: str, path: Any) -> Path:
     if not valid:
         raise InputError(f"{name} = {path!r}: must be the path of a file")
     return target
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """The text of a file: UTF-8, or UTF-16 with a byte order mark, as the readers in Fortran take them.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, or is no text.
+    MissingFileError
+        There is none.
+    """
+    try:
+        content = Path(path).read_bytes()
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    utf16 = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    try:
+        return content.decode("utf-16" if utf16 else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        begin = content.rfind(b"\n", 0, error.start) + 1
+        number = content.count(b"\n", 0, begin) + 1
+        place = f"line {number}: byte {error.start - begin + 1}"
+        raise InputError(f"{path}: {place} is not {error.encoding.upper()}: save it as UTF-8") from None
 
 
 @contextmanager

@@ -293,13 +293,18 @@ def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
     return [unpack_warning(json.loads(line)) for line in lines]
 
 
-def warn(found: Iterable[str | DondoloWarning]) -> None:
+def warn_of_notes(sentences: Iterable[str]) -> None:
+    """Warn of how a table was read."""
+    warn(DondoloWarning(sentence, "note") for sentence in sentences)
+
+
+def warn(found: Iterable[DondoloWarning]) -> None:
     """Warn of each, where the user's own line is."""
     frame, depth = sys._getframe(), 1
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, depth = frame.f_back, depth + 1
     for one in found:
-        warnings.warn(one if isinstance(one, DondoloWarning) else DondoloWarning(one), stacklevel=depth)
+        warnings.warn(one, stacklevel=depth)
 
 
 def settings(
@@ -454,7 +459,7 @@ def read_records(
     )
     parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts))
     count = len(parcel.integers) // 2
-    warn(parcel.lines[records_end(parcel, count) :])
+    warn_of_notes(parcel.lines[records_end(parcel, count) :])
     return unpack_records(parcel, count)
 
 
@@ -462,7 +467,7 @@ def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArr
     """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
     parcel = receive(*_core.records.read_number_table(as_path(path)))
     columns, rows = (int(count) for count in parcel.integers)
-    warn(parcel.lines[columns:])
+    warn_of_notes(parcel.lines[columns:])
     return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
 
 
@@ -470,7 +475,7 @@ def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
     parcel = receive(*_core.records.catalogue_table(as_path(path), constants().gravity))
     lines = int(parcel.integers[0])
-    warn(parcel.lines[lines:])
+    warn_of_notes(parcel.lines[lines:])
     return parcel.lines[:lines]
 
 
@@ -483,7 +488,7 @@ def read_walls(
     count = len(parcel.integers) // _WALL_INTEGERS
     weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
     groups = len(WALL_TEXTS) * count
-    warn(parcel.lines[groups + count :])
+    warn_of_notes(parcel.lines[groups + count :])
     return unpack_walls(parcel, count), weights, parcel.lines[groups : groups + count], p_occ
 
 
@@ -607,6 +612,12 @@ def curve_of_population(
         parcel = receive(*sent)
         found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
     return mean, fractiles, found
+
+
+def in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+    """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
+    whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
+    return whole
 
 
 def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:

@@ -14,14 +14,15 @@ module curves
    use dondolo_stripes, only : stripes_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names, wall_type
-   use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_wall_curves, only : combined => in_series, wall_curves_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
    use dondolo_warnings, only : fit_warning_type, warn_of_fit
    implicit none
    private
 
-   public :: fit_curves, cluster_curves, cluster_changes, probability, warn_of_curve, fit_walls, curve_of_population
+   public :: fit_curves, cluster_curves, cluster_changes, probability, in_series, warn_of_curve, fit_walls
+   public :: curve_of_population
 
 contains
 
@@ -133,6 +134,23 @@ contains
       curve%beta = beta
       p = curve%probability(x)
    end subroutine probability
+
+   !> Probability that any mechanism of each wall happens, of k probabilities of each row; rows: how many each wall has
+   subroutine in_series(p, k, r, rows, w, whole)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: k, r, w, rows(w)
+      real(c_double), intent(in) :: p(k, r)
+      real(c_double), intent(out) :: whole(k, w)
+      real(c_double) :: certain(r)
+      integer :: i, first
+
+      certain = 1
+      first = 1
+      do i = 1, w
+         whole(:, i) = combined(certain(:rows(i)), p(:, first:first + rows(i) - 1))
+         first = first + rows(i)
+      end do
+   end subroutine in_series
 
    !> What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
    subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent, stat, message)

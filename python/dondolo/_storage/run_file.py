@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, fields
 from datetime import datetime
 from typing import Any
 
+from dondolo._base.files import read_text
 from dondolo._fortran import _binding
-from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 1"
 
@@ -121,15 +122,11 @@ def read_run_file(path: str) -> RunFile:
     MissingFileError
         There is none.
     """
+    text = read_text(path)
     try:
-        with open(path, encoding="utf-8") as file:
-            content = json.load(file)
-            written = datetime.fromtimestamp(os.fstat(file.fileno()).st_mtime).astimezone()
-    except FileNotFoundError as error:
-        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:
+        content = json.loads(text)
+        written = datetime.fromtimestamp(os.stat(path).st_mtime).astimezone()
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: no JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")

@@ -49,8 +49,8 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import FEWEST, Clusters, errors_of_parts, no_errors
-from dondolo.curves.fragility import Fragility, with_errors
-from dondolo.errors import InputError
+from dondolo.curves.fragility import Fragility, extrapolation, with_errors
+from dondolo.errors import DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -169,11 +169,6 @@ class Incremental(Shown, Saved):
             else:
                 errors = errors_of_parts([Clusters("records", labels, changes)])
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
-        if status == "extrapolated":
-            low, high = levels[[0, -1]]
-            _binding.warn([f"theta = {theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
-        elif status != "ok":
-            _binding.warn([f"no curve of first collapses is fitted (status '{status}')"])
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
         curve = FirstCollapseFragility(
@@ -190,6 +185,11 @@ class Incremental(Shown, Saved):
             wall=self.stripes.wall,
             naive_covariance=covariance,
         )
+        if status == "extrapolated":
+            _binding.warn([extrapolation(curve)])
+        elif status != "ok":
+            sentence = f"no curve of first collapses is fitted (status '{status}')"
+            _binding.warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
         return curve if errors is None else with_errors(curve, errors)
 
     def plot(self, ax: Axes | None = None) -> Axes:

@@ -11,7 +11,7 @@ from dondolo._base.arguments import FloatArray, tails
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import InputError
 
 Interval = tuple[float, float]
 

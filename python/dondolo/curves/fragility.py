@@ -19,7 +19,7 @@ from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.clusters import Clusters, Errors, errors_of_sample
 from dondolo.curves.sample import Sample, given_labels
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures import style
 from dondolo.walls.wall import Wall
 
@@ -374,9 +374,18 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     """
     curve = fit(*_counts(levels, collapses, histories), im=im)
     if curve.status == "extrapolated":
-        low, high = curve.levels.min(), curve.levels.max()
-        _binding.warn([f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates"])
+        _binding.warn([extrapolation(curve)])
     return curve
+
+
+def extrapolation(curve: Fragility) -> DondoloWarning:
+    """The warning that a curve with its median outside the levels is worth."""
+    low, high = float(curve.levels.min()), float(curve.levels.max())
+    return DondoloWarning(
+        f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates",
+        "extrapolated",
+        numbers={"levels": len(curve.levels), "first_level": low, "last_level": high, "theta": curve.theta},
+    )
 
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:

@@ -7,12 +7,11 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _binding
 
 
 def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatArray:
     """Probability that at least one of the mechanisms of each wall happens, 1 - prod(1 - p).
-
-    Added up rather than multiplied, so that small probabilities keep their digits.
 
     Parameters
     ----------
@@ -25,9 +24,6 @@ def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatAr
     -------
     ndarray, shape (walls, ...)
     """
-    number = np.diff(np.append(first, len(probabilities)))
-    whole: FloatArray = probabilities[first]
-    for k in range(1, max(number, default=0)):
-        walls = np.flatnonzero(number > k)
-        whole[walls] += (1.0 - whole[walls]) * probabilities[first[walls] + k]
-    return whole
+    number = np.diff(first, append=len(probabilities))
+    whole = _binding.in_series(probabilities.reshape(len(probabilities), -1), number)
+    return whole.reshape(len(first), *probabilities.shape[1:])

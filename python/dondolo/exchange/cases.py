@@ -144,7 +144,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
     groups = parcel.lines[lines : lines + walls]
     motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
-    _binding.warn(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
+    _binding.warn_of_notes(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
     return Case(
         task=task,
         title=title,

@@ -6,13 +6,13 @@ import csv
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
-from dondolo.errors import InputError, MissingFileError
+from dondolo._base.files import read_text
+from dondolo.errors import InputError
 
 
 class ResultFile:
@@ -33,13 +33,7 @@ class ResultFile:
 
     def __init__(self, path: str) -> None:
         self.path = path
-        try:
-            lines = Path(path).read_text(encoding="utf-8").split("\n")
-        except FileNotFoundError as error:
-            raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
-        except (OSError, UnicodeDecodeError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "not UTF-8"
-            raise InputError(f"{path}: cannot be read: {reason}") from error
+        lines = read_text(path).replace("\r\n", "\n").split("\n")
         # Comments stand at the head: a # or a line end in a cell begins none.
         head = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
         self._lines: list[int] = []

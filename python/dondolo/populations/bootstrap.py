@@ -194,8 +194,7 @@ def _mean_fractions(
         records = records[:1]
     total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        fractions = np.moveaxis(_fractions(flags, rows.row[part], records), 1, 0)
-        collapse = in_series(rows.share[part, None, None] * fractions, starts)
+        collapse = in_series(rows.share[part, None, None] * flags.fractions(rows.row[part], records), starts)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
         occurring += own @ in_series(rows.share[part], starts)
@@ -205,11 +204,6 @@ def _mean_fractions(
             total += own @ collapse[:, 0]
     with np.errstate(invalid="ignore"):
         return np.clip(total / weight[:, None], 0.0, 1.0), occurring / weight
-
-
-def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
-    """Fractions (samples, rows, levels) of rows, with each record taken so many times."""
-    return np.moveaxis(flags.fractions(row, records), 0, 1)
 
 
 def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]:

@@ -62,12 +62,11 @@ def combine_rows(
     data = _binding.fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
     own = curves_of_rows(people, levels, exceedances[-1], histories, data.rows, **origin)
     first = people.first_rows
+    occurrences, least = in_series(people.p_occ, first), np.minimum.reduceat(histories, first)
     others = []
     for k in np.flatnonzero(~has_curve_of_row(people)):
-        rows = slice(first[k], first[k + 1] if k + 1 < len(first) else None)
-        n = np.full(len(levels), float(histories[rows].min()))
-        occurrence = float(in_series(people.p_occ[rows], np.zeros(1, dtype=np.intp))[0])
-        fraction = data.fractions[k]
+        n = np.full(len(levels), float(least[k]))
+        occurrence, fraction = float(occurrences[k]), data.fractions[k]
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
         others.append(curve_of(data.walls[k], levels, n * conditional, n, **origin, saturation=occurrence))
     together = []

@@ -102,7 +102,8 @@ class Flags:
             rows, levels, histories = reached.shape
             # Both polarities of a record stay together.
             of_record = reached.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)
-            found[places] = np.swapaxes(of_record @ member.T, 1, 2) / histories
+            drawn = member @ of_record.reshape(rows * levels, -1).T
+            found[places] = np.moveaxis(drawn.reshape(len(member), rows, levels), 1, 0) / histories
         return found
 
     def at(self, state: int) -> Flags:

@@ -58,7 +58,8 @@ class LargeScales(NamedTuple):
     def warning(self) -> DondoloWarning:
         """The warning that they are worth."""
         sentence = f"scale factors above 10 in {self.many} of {self.histories} histories"
-        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES)
+        numbers = {"limit": 10.0, "histories_beyond": self.many, "histories": self.histories, "largest": self.largest}
+        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES, numbers=numbers)
 
 
 @dataclass

@@ -60,7 +60,7 @@ from dondolo._fortran import _binding
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
@@ -188,12 +188,11 @@ class Risk(Shown, Saved):
             # Whatever the frequency
             return 0.0, 0.0
         if self._of_function:
-            _binding.warn(
-                [
-                    "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
-                    " typology[mechanism, group].risk(hazard)"
-                ]
+            sentence = (
+                "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
+                " typology[mechanism, group].risk(hazard)"
             )
+            _binding.warn([DondoloWarning(sentence, "function_of_one_wall")])
         return self._walls.probability(time)
 
     @functools.cached_property
@@ -365,12 +364,12 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     if low < (1.0 - _WIDE) * high:
         unit = f" {_binding.unit_of(hazard.im)}".rstrip()
         first, last = hazard.levels[[0, -1]]
-        _binding.warn(
-            [
-                f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
-                f" lies between {low:.3g} and {high:.3g}"
-            ]
+        sentence = (
+            f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
+            f" lies between {low:.3g} and {high:.3g}"
         )
+        numbers = {"first_level": float(first), "last_level": float(last), "lower_bound": low, "upper_bound": high}
+        _binding.warn([DondoloWarning(sentence, "hazard_too_short", {"im": hazard.im}, numbers)])
     return risk
 
 

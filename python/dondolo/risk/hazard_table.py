@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _binding
-from dondolo.errors import InputError
+from dondolo.errors import DondoloWarning, InputError
 
 #: Columns that say how often a level is exceeded.
 _FREQUENCIES = ("annual_frequency", "return_period", "poe")
@@ -32,7 +32,11 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
     except InputError as error:
         raise InputError(f"{os.fspath(path)}: {error}") from None
     if unused:
-        _binding.warn([f"{os.fspath(path)}: columns that are not used: {', '.join(unused)}"])
+        names = ", ".join(unused)
+        subject = {"file": os.fspath(path), "columns": names}
+        _binding.warn(
+            [DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)]
+        )
     return im, levels, frequency
 
 

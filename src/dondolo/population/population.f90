@@ -8,6 +8,7 @@ module dondolo_population
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_walls
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
    use dondolo_property, only : is_text, property_type
@@ -184,6 +185,11 @@ contains
          return
       end if
       self%row = self%row + 1
+      if (self%row > most_walls) then
+         call raise_input(error, self%table%place()//': more than '//to_text(most_walls)//' rows')
+         found = .false.
+         call self%close()
+      end if
       self%is_right = self%is_right .and. .not. allocated(error)
       if (allocated(error)) return
       call read_row(self, member, error)

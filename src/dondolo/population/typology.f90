@@ -7,6 +7,7 @@ module dondolo_typology
    use dondolo_error, only : error_type, raise_input
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_groups
    use dondolo_members, only : choose_members, members_type, population_probabilities
    use dondolo_population_counts, only : population_counts_type
    use dondolo_population_sums, only : add_group, group_type, sum_wall, sums_type
@@ -16,13 +17,10 @@ module dondolo_typology
    implicit none
    private
 
-   public :: typology_type, combine_population, whole_population, fractile_shares, most_groups
+   public :: typology_type, combine_population, whole_population, fractile_shares
 
    !> Shares of the weight that the fractiles stand for: the median, and one standard deviation of a normal variable
    real(wp), parameter :: fractile_shares(3) = [0.16_wp, 0.5_wp, 0.84_wp]
-   !> Most groups there can be
-   integer, parameter :: most_groups = 64
-
    !> A curve of a population, or of one of its groups
    type :: typology_type
       !> Name of the group, empty for the whole population

@@ -11,7 +11,7 @@ module dondolo_wall_curves
    implicit none
    private
 
-   public :: wall_curves_type, mechanism_length
+   public :: wall_curves_type, in_series, mechanism_length
 
    !> Room for the name of a mechanism
    integer, parameter :: mechanism_length = len(mechanism_names)

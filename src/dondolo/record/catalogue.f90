@@ -8,11 +8,13 @@ module dondolo_catalogue
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_limits, only : longest_name, most_records
    use dondolo_memory, only : check_room
    use dondolo_name_index, only : name_index_type
+   use dondolo_plain, only : is_plain, must_be_plain, shown, visible
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
-   use dondolo_text, only : must_be_plain, plain
+   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -83,6 +85,9 @@ contains
             call table%next(found, error)
             if (allocated(error) .or. .not. found) exit
             rows = rows + 1
+            if (rows <= most_records) cycle
+            call raise_input(error, file//': more than '//to_text(most_records)//' records')
+            exit
          end do
          if (rows == 0 .and. .not. allocated(error)) call raise_input(error, file//': no records')
       end if
@@ -109,7 +114,11 @@ contains
       do row = 1, size(records)
          is_given(row) = len(names%line(row)%text) > 0
          if (is_given(row)) records(row)%name = names%line(row)%text
-         if (plain(records(row)%name) /= records(row)%name) then
+         if (len(records(row)%name) > longest_name) then
+            call raise_input(error, places%line(row)%text//': name = '''//shown(records(row)%name)// &
+               & ''': must have at most '//to_text(longest_name)//' bytes')
+            return
+         else if (.not. is_plain(records(row)%name)) then
             call raise_input(error, places%line(row)%text//': name = '''//records(row)%name//''': '//must_be_plain)
             return
          end if
@@ -129,7 +138,7 @@ contains
             path = trim(paths%line(row)%text)
             file = path(scan(path, '/\', back=.true.) + 1:)
             if (level == 2) file = path
-            records(row)%name = plain(file)//records(row)%name(length(row) + 1:)
+            records(row)%name = visible(file)//records(row)%name(length(row) + 1:)
             length(row) = len(file)
          end do
       end do

@@ -4,8 +4,9 @@ module dondolo_channel
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_format, only : channel_type, raise_at, samples_type, shown
-   use dondolo_text, only : lower, plain, to_text
+   use dondolo_plain, only : shown, visible
+   use dondolo_record_format, only : channel_type, raise_at, samples_type
+   use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    use dondolo_units, only : unit_factor
    implicit none
@@ -59,7 +60,7 @@ contains
          if (allocated(error)) return
          name = stem(text%file)
          if (size(samples%channels) > 1) name = name//'.'//underscored(channel%name)
-         call new_record(record, factor*channel%values, step, plain(name), error)
+         call new_record(record, factor*channel%values, step, visible(name), error)
          call add_place(error, text%file)
          if (allocated(error)) return
          record%metadata = samples%metadata

@@ -4,7 +4,9 @@
 module dondolo_record
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_name, most_samples
    use dondolo_metadata, only : metadata_type
+   use dondolo_plain, only : shown
    use dondolo_text, only : to_text
    implicit none
    private
@@ -48,7 +50,7 @@ contains
       real(wp), intent(in) :: dt
       !> Name of the record
       character(len=*), intent(in) :: name
-      !> Fewer than two samples, a step that is not positive, a value that is no acceleration
+      !> Fewer than two samples, or too many, a step that is not positive, a value that is no acceleration, a long name
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
@@ -60,6 +62,13 @@ contains
       end if
       if (size(acceleration) < 2) then
          call raise_input(error, 'number of samples = '//to_text(size(acceleration))//': must be at least 2')
+         return
+      else if (size(acceleration) > most_samples) then
+         call raise_input(error, 'number of samples = '//to_text(size(acceleration))//': must be at most '// &
+            & to_text(most_samples))
+         return
+      else if (len(name) > longest_name) then
+         call raise_input(error, 'name = '''//shown(name)//''': must have at most '//to_text(longest_name)//' bytes')
          return
       end if
       do i = 1, size(acceleration)

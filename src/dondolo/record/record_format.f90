@@ -4,15 +4,13 @@ module dondolo_record_format
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
+   use dondolo_plain, only : shown
    use dondolo_text, only : to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, shown
-
-   !> Characters of a file that a message shows at most
-   integer, parameter :: longest_shown = 60
+   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration
 
    !> One channel of a file, before units are converted
    type :: channel_type
@@ -165,17 +163,6 @@ contains
       call raise_at(error, text, line, 'duration '//to_text(duration)//' s: count and time step make '// &
          & to_text(length)//' s')
    end subroutine check_duration
-
-   !> A part of a file as messages show it: its beginning, where it is long
-   pure function shown(part)
-      !> Part of a file, of any length
-      character(len=*), intent(in) :: part
-      !> Its first characters
-      character(len=merge(longest_shown + 3, len(part), len(part) > longest_shown)) :: shown
-
-      shown = part
-      if (len(part) > longest_shown) shown(longest_shown + 1:) = '...'
-   end function shown
 
    !> Report what is wrong in a line of a file
    subroutine raise_at(error, text, line, message)

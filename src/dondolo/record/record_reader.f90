@@ -4,6 +4,7 @@ module dondolo_record_reader
    use dondolo_error, only : add_place, error_type
    use dondolo_formats, only : find_format, format_type, recognise_format
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_record_file
    use dondolo_record, only : record_type
    use dondolo_record_format, only : samples_type
    use dondolo_text_file, only : read_text_file, text_file_type
@@ -98,7 +99,8 @@ contains
       if (present(format)) is_given = len_trim(format) > 0
       if (is_given) call find_format(format, chosen, error)
       call add_place(error, file)
-      if (.not. allocated(error)) call read_text_file(file, text, error)
+      if (.not. allocated(error)) call read_text_file(file, text, error, &
+         & longest_record_file, has_latin=.true.)
       if (allocated(error)) return
       if (.not. is_given) call recognise_format(text, chosen, error)
       call add_place(error, file)

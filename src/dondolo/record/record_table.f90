@@ -3,8 +3,9 @@ module dondolo_record_table
    use dondolo_ground_motion, only : ground_velocity, peak_velocity
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_plain, only : visible
    use dondolo_record, only : record_type
-   use dondolo_text, only : plain, rounded, to_text
+   use dondolo_text, only : rounded, to_text
    implicit none
    private
 
@@ -65,7 +66,7 @@ contains
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
             if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
             call find_problems(record, gravity, problems)
-            call table%add(trim(plain(numbered(i)//left(record%name, width)//trim(numbers)//column// &
+            call table%add(trim(visible(numbered(i)//left(record%name, width)//trim(numbers)//column// &
                & titled(origin(record), origins)//'  '//problems)))
          end associate
       end do

@@ -2,9 +2,11 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_name
+   use dondolo_plain, only : is_plain, must_be_plain, shown
    use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
       & is_text, name_length, number_of_choices, property_type
-   use dondolo_text, only : join, lower, must_be_plain, plain, to_text
+   use dondolo_text, only : join, lower, to_text
    implicit none
    private
 
@@ -393,7 +395,7 @@ contains
       integer, intent(in) :: at
 
       if (allocated(self%words(at)%text)) then
-         value_length = len(self%words(at)%text) + 2
+         value_length = len(shown(self%words(at)%text)) + 2
       else
          value_length = len(to_text(self%numbers(at)))
       end if
@@ -408,7 +410,7 @@ contains
       character(len=value_length(self, at)) :: text
 
       if (allocated(self%words(at)%text)) then
-         text = ''''//self%words(at)%text//''''
+         text = ''''//shown(self%words(at)%text)//''''
       else
          text = to_text(self%numbers(at))
       end if
@@ -455,7 +457,8 @@ contains
             select case (property%kind)
             case (is_text)
                call check_word(property, self%words(i)%text, allowed)
-               if (plain(self%words(i)%text) /= self%words(i)%text) allowed = must_be_plain
+               if (.not. is_plain(self%words(i)%text)) allowed = must_be_plain
+               if (len(self%words(i)%text) > longest_name) allowed = 'must have at most '//to_text(longest_name)//' bytes'
             case (is_real, is_integer)
                call check_number(property, self%numbers(i), allowed)
             case default

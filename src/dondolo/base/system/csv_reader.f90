@@ -5,14 +5,14 @@
 !>
 !> Tables of spreadsheets may differ from this: semicolons or tabs between the columns, then with decimal commas if the
 !> numbers show them (`find_decimal_mark`); a title above the names of the columns; rows and columns of empty cells at the
-!> end. `note` says how such a table was read. What is not UTF-8 is refused.
+!> end. `note` says how such a table was read.
 module dondolo_csv_reader
    use dondolo_csv_row, only : cell_type, is_title, separator_of, split_row
    use dondolo_decimal_mark, only : decimal_mark_type
-   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_line_reader, only : line_reader_type, longest_line
+   use dondolo_limits, only : longest_line
+   use dondolo_line_reader, only : line_reader_type
    use dondolo_name_index, only : name_index_type
    use dondolo_text, only : lower, occurrences, to_text
    use dondolo_text_file, only : padding
@@ -279,7 +279,7 @@ contains
       type(csv_reader_type), intent(inout) :: self
       !> Its text, lines joined where a quoted cell holds line ends
       character(len=:), allocatable, intent(out) :: row
-      !> A quote that is not closed, more bytes than a row of a table has, a text that is not UTF-8
+      !> A quote that is not closed, more bytes than a row of a table has, a line that is refused
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: more
@@ -295,13 +295,6 @@ contains
       do
          call self%lines%next(row, found, error)
          if (allocated(error) .or. .not. found) return
-         if (.not. is_utf8(row)) then
-            self%line = self%lines%number
-            call raise_input(error, self%place()//': '//encoding_problem(row))
-            ! One such line is as good as all
-            call self%close()
-            return
-         end if
          ! Blank lines, and rows of empty cells
          if (self%separator == unknown) then
             if (verify(row, padding//',;') == 0) cycle
@@ -326,10 +319,6 @@ contains
          if (allocated(error)) return
          if (.not. found) then
             call raise_input(error, self%place()//': a double quote is not closed')
-            return
-         else if (.not. is_utf8(more)) then
-            call raise_input(error, self%lines%file//': line '//to_text(self%lines%number)//': '//encoding_problem(more))
-            call self%close()
             return
          end if
          quotes = quotes + occurrences(more, '"')

@@ -1,19 +1,19 @@
 !> The lines of a text file, one after the other, within a memory that does not depend on its length.
 module dondolo_line_reader
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_encoding, only : byte_order_mark, encoding_problem, is_ascii, is_utf8, mend_line_ends, take_utf16, &
+      & utf16_order
    use dondolo_error, only : error_type, raise_input
+   use dondolo_limits, only : longest_line
    use dondolo_text, only : to_text
-   use dondolo_text_file, only : byte_order_mark, open_text, padding
+   use dondolo_text_file, only : open_text, padding
    implicit none
    private
 
-   public :: line_reader_type, longest_line
+   public :: line_reader_type
 
    !> Bytes that are read at once, unless a line is longer
    integer, parameter :: chunk = 65536
-
-   !> Most bytes of a line
-   integer, parameter :: longest_line = 2**20
 
    !> A file that is being read
    type :: line_reader_type
@@ -29,6 +29,14 @@ module dondolo_line_reader
       character(len=:), allocatable :: text
       !> Position in it of what was not given out yet
       integer :: at = 1
+      !> Is it ASCII?
+      logical, private :: is_ascii = .true.
+      !> Byte order of UTF-16, 0: UTF-8, -1: nothing was read yet
+      integer, private :: order = -1
+      !> Bytes of a character that was not whole
+      character(len=:), allocatable, private :: rest
+      !> Has the end of a line been seen, and is it a CR alone?
+      logical, private :: knows_end = .false., ends_in_return = .false.
    contains
       !> Open a file
       procedure :: open => open_reader
@@ -53,6 +61,10 @@ contains
       self%number = 0
       self%at = 1
       self%text = ''
+      self%order = -1
+      self%rest = ''
+      self%knows_end = .false.
+      self%ends_in_return = .false.
       call open_text(file, self%unit, self%left, error)
       if (allocated(error)) return
       call refill(self, error)
@@ -60,17 +72,18 @@ contains
       if (index(self%text, byte_order_mark) == 1) self%at = 1 + len(byte_order_mark)
    end subroutine open_reader
 
-   !> Read the next line: lines end in LF or CRLF
+   !> Read the next line: lines end in LF, CRLF or CR
    subroutine next(self, line, found, error)
       class(line_reader_type), intent(inout) :: self
       !> The line without its end; what may follow the last line, such as NUL or Ctrl-Z, is dropped from it
       character(len=:), allocatable, intent(out) :: line
       !> Was there one?
       logical, intent(out) :: found
-      !> The file cannot be read, or the line is too long
+      !> The file cannot be read, or the line is too long or not UTF-8; the file is closed then
       type(error_type), allocatable, intent(out) :: error
 
       character(len=*), parameter :: line_feed = achar(10), return = achar(13)
+      character(len=:), allocatable :: problem
       integer :: length
 
       line = ''
@@ -96,12 +109,16 @@ contains
       if (length < 0) then
          line = self%text(self%at:self%at - 1 + verify(self%text(self%at:), padding, back=.true.))
          self%at = len(self%text) + 1
-         return
+      else
+         line = self%text(self%at:self%at - 1 + verify(self%text(self%at:self%at + length - 1), return, back=.true.))
+         self%at = self%at + length + 1
       end if
-      line = self%text(self%at:self%at + length - 1)
-      self%at = self%at + length + 1
-      if (length == 0) return
-      if (line(length:) == return) line = line(:length - 1)
+      if (self%is_ascii) return
+      if (is_utf8(line)) return
+      call encoding_problem(line, problem)
+      call raise_input(error, self%file//': line '//to_text(self%number)//': '//problem)
+      found = .false.
+      call self%close()
    end subroutine next
 
    !> Read the next chunk behind what was not given out yet
@@ -110,8 +127,8 @@ contains
       !> The file cannot be read
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: more
-      integer :: stat
+      character(len=:), allocatable :: more, bytes
+      integer :: stat, used
 
       ! As much again as is there: a long line is not copied chunk by chunk.
       allocate (character(len=int(min(self%left, int(max(chunk, len(self%text) - self%at + 1), int64)))) :: more)
@@ -122,8 +139,16 @@ contains
          return
       end if
       self%left = self%left - len(more)
+      if (self%order < 0) self%order = utf16_order(more)
+      if (self%order > 0) then
+         bytes = self%rest//more
+         call take_utf16(bytes, self%order, self%left == 0, more, used)
+         self%rest = bytes(used + 1:)
+      end if
       self%text = self%text(self%at:)//more
       self%at = 1
+      call mend_line_ends(self%text, self%knows_end, self%ends_in_return)
+      self%is_ascii = is_ascii(self%text)
    end subroutine refill
 
    !> Close the file: there are no more lines; nothing happens if it is not open

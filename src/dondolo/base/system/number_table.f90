@@ -2,8 +2,10 @@
 module dondolo_number_table
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_csv_row, only : cell_type
-   use dondolo_error, only : add_place, error_type
+   use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_numbers
+   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -21,7 +23,7 @@ contains
       real(wp), allocatable, intent(out) :: values(:, :)
       !> How it was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out) :: note
-      !> No table, or a cell that is no number
+      !> No table, a cell that is no number, or too many numbers
       type(error_type), allocatable, intent(out) :: error
 
       type(csv_reader_type) :: table
@@ -34,7 +36,7 @@ contains
       if (allocated(error)) return
       note = table%note()
       columns = table%columns
-      allocate (values(size(columns), 64))
+      allocate (values(size(columns), 8))
       rows = 0
       do
          call table%next(found, error)
@@ -45,6 +47,10 @@ contains
             call move_alloc(more, values)
          end if
          rows = rows + 1
+         if (rows*size(columns) > most_numbers) then
+            call raise_input(error, table%place()//': more than '//to_text(most_numbers)//' numbers')
+            exit
+         end if
          do i = 1, size(columns)
             call table%get_real(i, values(i, rows), error)
             call add_place(error, table%place())

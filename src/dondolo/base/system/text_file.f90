@@ -1,6 +1,8 @@
 !> A text file as a whole: read at once, with an index of its lines.
 module dondolo_text_file
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_encoding, only : byte_order_mark, encoding_problem, from_latin, is_ascii, is_utf8, mend_line_ends, &
+      & take_utf16, utf16_order
    use dondolo_error, only : add_place, error_type, raise_input, raise_missing
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
@@ -9,10 +11,7 @@ module dondolo_text_file
    private
 
    public :: text_file_type, read_text_file, open_text
-   public :: byte_order_mark, padding
-
-   !> Byte order mark that some programs put before UTF-8 text
-   character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+   public :: padding
 
    !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
    real(wp), parameter :: bytes_of_byte = 16.0_wp
@@ -43,33 +42,29 @@ module dondolo_text_file
 
 contains
 
-   !> Read a text file: lines end in LF or CRLF; a byte order mark and Ctrl-Z at the end are dropped
-   subroutine read_text_file(file, text, error, longest)
+   !> Read a text file: UTF-8, or UTF-16 with a byte order mark; lines end in LF, CRLF or CR; Ctrl-Z at the end is dropped
+   subroutine read_text_file(file, text, error, longest, has_latin)
       !> Path of the file
       character(len=*), intent(in) :: file
       type(text_file_type), intent(out) :: text
-      !> The file is missing, unreadable, empty or too large, for the memory too
+      !> The file is missing, unreadable, empty, too large, for the memory too, or no text
       type(error_type), allocatable, intent(out) :: error
-      !> Most bytes that it may have; 2 GiB if absent
-      integer(int64), intent(in), optional :: longest
+      !> Most bytes that it may have, less than 2 GiB
+      integer(int64), intent(in) :: longest
+      !> May it be Latin-1 too? Where nothing but remarks can have other characters than ASCII; no if absent
+      logical, intent(in), optional :: has_latin
 
+      character(len=:), allocatable :: bytes_read
       integer(int64) :: bytes
       integer :: unit, stat
 
       text%file = file
       call open_text(file, unit, bytes, error)
       if (allocated(error)) return
-      if (bytes >= int(huge(stat), int64)) then
+      if (bytes > longest) then
          close (unit)
-         call raise_input(error, file//': larger than 2 GiB, or not a regular file')
+         call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
          return
-      end if
-      if (present(longest)) then
-         if (bytes > longest) then
-            close (unit)
-            call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
-            return
-         end if
       end if
       call check_room(bytes_of_byte*real(bytes, wp), error)
       if (allocated(error)) then
@@ -85,9 +80,58 @@ contains
          call raise_input(error, file//': cannot be read')
          return
       end if
+      call settle(text)
+      if (text%lines() == 0) then
+         call raise_input(error, file//': the file is empty')
+         return
+      end if
+      if (is_ascii(text%text(text%first(1):text%last(text%lines())))) return
+      call check_encoding(text, error)
+      if (.not. (allocated(error) .and. present(has_latin))) return
+      if (.not. has_latin .or. index(text%text(text%first(1):text%last(text%lines())), achar(0)) > 0) return
+      deallocate (error)
+      call move_alloc(text%text, bytes_read)
+      call from_latin(bytes_read, text%text)
+      deallocate (text%first, text%last)
       call index_lines(text)
-      if (text%lines() == 0) call raise_input(error, file//': the file is empty')
    end subroutine read_text_file
+
+   !> Make UTF-8 with lines that end in LF or CRLF of what was read
+   subroutine settle(text)
+      !> Text file, its `text` known; its lines are found
+      type(text_file_type), intent(inout) :: text
+
+      character(len=:), allocatable :: decoded
+      integer :: order, used
+      logical :: is_known, is_return
+
+      order = utf16_order(text%text)
+      if (order > 0) then
+         call take_utf16(text%text, order, .true., decoded, used)
+         call move_alloc(decoded, text%text)
+      end if
+      is_known = .false.
+      is_return = .false.
+      call mend_line_ends(text%text, is_known, is_return)
+      call index_lines(text)
+   end subroutine settle
+
+   !> Refuse a line that is not UTF-8, or has a NUL
+   subroutine check_encoding(text, error)
+      type(text_file_type), intent(in) :: text
+      !> Names the first such line
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: problem
+      integer :: i
+
+      do i = 1, text%lines()
+         if (is_utf8(text%text(text%first(i):text%last(i)))) cycle
+         call encoding_problem(text%line(i), problem)
+         call raise_input(error, text%place(i)//': '//problem)
+         return
+      end do
+   end subroutine check_encoding
 
    !> Open a text file
    subroutine open_text(file, unit, bytes, error)
@@ -157,8 +201,10 @@ contains
       end do
       text%last(count) = finish
       do i = 1, count - 1
-         if (text%last(i) < text%first(i)) cycle
-         if (text%text(text%last(i):text%last(i)) == return) text%last(i) = text%last(i) - 1
+         do while (text%last(i) >= text%first(i))
+            if (text%text(text%last(i):text%last(i)) /= return) exit
+            text%last(i) = text%last(i) - 1
+         end do
       end do
    end subroutine index_lines
 

@@ -1,5 +1,6 @@
 !> A row of a CSV table: what separates its cells, and the cells.
 module dondolo_csv_row
+   use dondolo_limits, only : most_cells
    use dondolo_text, only : blanks, occurrences, stripped, to_text
    implicit none
    private
@@ -7,9 +8,6 @@ module dondolo_csv_row
    public :: cell_type, split_row, separator_of, is_title
 
    character(len=1), parameter :: tab = achar(9)
-
-   !> More cells in a row are surely no table
-   integer, parameter :: most_cells = 10000
 
    !> One cell
    type :: cell_type

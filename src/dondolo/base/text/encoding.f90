@@ -1,77 +1,281 @@
-!> Whether bytes are UTF-8 text.
+!> Bytes of files as text: UTF-8, UTF-16 that begins with a byte order mark, and what to say of all else.
 module dondolo_encoding
    implicit none
    private
 
-   public :: is_utf8, encoding_problem
+   public :: is_ascii, is_utf8, encoding_problem, next_character, utf16_order, take_utf16, from_latin
+   public :: mend_line_ends
+   public :: byte_order_mark
 
-   !> What is said of a text that is not UTF-8
-   character(len=*), parameter :: other_bytes = 'is not UTF-8 (Windows-1252?)', other_text = 'is UTF-16, or no text'
-   character(len=*), parameter :: remedy = ': save it as UTF-8 (in Excel: CSV UTF-8)'
+   !> Byte order mark that some programs put before UTF-8 text
+   character(len=*), parameter :: byte_order_mark = achar(239)//achar(187)//achar(191)
+
+   !> The same before UTF-16
+   character(len=*), parameter :: little_endian = achar(255)//achar(254), big_endian = achar(254)//achar(255)
+
+   !> U+FFFD, which stands for what is no character
+   integer, parameter :: replacement = int(z'fffd')
 
 contains
 
-   !> Does a text look like UTF-16?
-   pure logical function is_utf16(text)
+   !> Has a text bytes of ASCII only, and no NUL?
+   pure logical function is_ascii(text)
       !> Bytes
       character(len=*), intent(in) :: text
 
-      character(len=*), parameter :: little_endian = achar(255)//achar(254), big_endian = achar(254)//achar(255)
+      integer :: i, least, most
 
-      is_utf16 = index(text, little_endian) == 1 .or. index(text, big_endian) == 1 .or. index(text, achar(0)) > 0
-   end function is_utf16
+      least = 1
+      most = 0
+      ! Without an exit in it the loop takes many bytes at a time
+      do i = 1, len(text)
+         least = min(least, iachar(text(i:i)))
+         most = max(most, iachar(text(i:i)))
+      end do
+      is_ascii = least > 0 .and. most < 128
+   end function is_ascii
 
-   !> What is wrong with a text that is not UTF-8, and what to do, for messages
-   pure function encoding_problem(text) result(problem)
-      !> Bytes, such as a line
-      character(len=*), intent(in) :: text
-      !> Half a sentence
-      character(len=merge(len(other_text), len(other_bytes), is_utf16(text)) + len(remedy)) :: problem
-
-      problem = other_bytes//remedy
-      if (is_utf16(text)) problem = other_text//remedy
-   end function encoding_problem
-
-   !> Is a text UTF-8, without NUL? (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF)
+   !> Is a text UTF-8, without NUL?
    pure logical function is_utf8(text)
       !> Bytes
       character(len=*), intent(in) :: text
 
-      integer :: i, k, byte, follow, lowest, highest
+      is_utf8 = is_ascii(text)
+      if (.not. is_utf8) is_utf8 = first_wrong(text) == 0
+   end function is_utf8
 
-      is_utf8 = .false.
-      i = 0
-      do while (i < len(text))
-         i = i + 1
+   !> Position of the first byte that is not UTF-8, or NUL; 0 if there is none
+   pure integer function first_wrong(text) result(at)
+      !> Bytes
+      character(len=*), intent(in) :: text
+
+      integer :: next, code
+
+      at = 1
+      do while (at <= len(text))
+         call next_character(text, at, next, code)
+         if (code <= 0) return
+         at = next
+      end do
+      at = 0
+   end function first_wrong
+
+   !> The character at a place of UTF-8 (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF)
+   pure subroutine next_character(text, at, next, code)
+      !> Bytes
+      character(len=*), intent(in) :: text
+      !> Position of its first byte
+      integer, intent(in) :: at
+      !> Position after its last byte
+      integer, intent(out) :: next
+      !> Its code point; -1 for a byte that begins no character
+      integer, intent(out) :: code
+
+      integer :: byte, follow, lowest, highest, first, i
+
+      first = iachar(text(at:at))
+      next = at + 1
+      code = first
+      if (first < 128) return
+      code = -1
+      ! The range of the second byte depends on the first
+      lowest = 128
+      highest = 191
+      select case (first)
+      case (194:223)
+         follow = 1
+      case (224:239)
+         follow = 2
+         if (first == 224) lowest = 160
+         if (first == 237) highest = 159
+      case (240:244)
+         follow = 3
+         if (first == 240) lowest = 144
+         if (first == 244) highest = 143
+      case default
+         return
+      end select
+      if (at + follow > len(text)) return
+      ! 5, 4 or 3 bits of the first byte, 6 of each that follows
+      code = iand(first, 63/2**follow)
+      do i = at + 1, at + follow
          byte = iachar(text(i:i))
-         if (byte > 0 .and. byte < 128) cycle
-         ! The range of the second byte depends on the first
+         if (byte < lowest .or. byte > highest) then
+            code = -1
+            return
+         end if
+         code = 64*code + iand(byte, 63)
          lowest = 128
          highest = 191
-         select case (byte)
-         case (194:223)
-            follow = 1
-         case (224:239)
-            follow = 2
-            if (byte == 224) lowest = 160
-            if (byte == 237) highest = 159
-         case (240:244)
-            follow = 3
-            if (byte == 240) lowest = 144
-            if (byte == 244) highest = 143
-         case default
-            return
-         end select
-         do k = 1, follow
-            if (i == len(text)) return
-            i = i + 1
-            byte = iachar(text(i:i))
-            if (byte < lowest .or. byte > highest) return
-            lowest = 128
-            highest = 191
-         end do
       end do
-      is_utf8 = .true.
-   end function is_utf8
+      next = at + follow + 1
+   end subroutine next_character
+
+   !> What is wrong with a line that is not UTF-8, and what to do: half a sentence
+   pure subroutine encoding_problem(line, problem)
+      !> Bytes of the line
+      character(len=*), intent(in) :: line
+      !> 'byte 7 (E9) is not UTF-8 ...'
+      character(len=:), allocatable, intent(out) :: problem
+
+      character(len=16) :: place
+      integer :: at
+
+      at = max(first_wrong(line), 1)
+      write (place, '(a, i0)') 'byte ', at
+      if (line(at:at) == achar(0)) then
+         problem = trim(place)//' is NUL: this is no text, or UTF-16 without a byte order mark'
+      else
+         write (place, '(a, i0, a, z2.2, a)') 'byte ', at, ' (', iachar(line(at:at)), ')'
+         problem = trim(place)//' is not UTF-8 (Windows-1252?)'
+      end if
+      problem = problem//': save it as UTF-8 (in Excel: CSV UTF-8)'
+   end subroutine encoding_problem
+
+   !> Byte order of a text that begins with the mark of UTF-16
+   pure integer function utf16_order(text) result(order)
+      !> First bytes of a file
+      character(len=*), intent(in) :: text
+      !> 1: the low byte comes first; 2: the high byte; 0: it is not UTF-16
+
+      order = 0
+      if (len(text) < 2) return
+      if (text(1:2) == little_endian) order = 1
+      if (text(1:2) == big_endian) order = 2
+      ! UTF-32, which nobody writes, begins alike
+      if (len(text) >= 4 .and. order == 1) order = merge(0, 1, text(3:4) == achar(0)//achar(0))
+   end function utf16_order
+
+   !> Make UTF-8 of UTF-16, without a byte order mark; a surrogate alone becomes U+FFFD
+   pure subroutine take_utf16(bytes, order, is_last, text, used)
+      !> UTF-16, from the beginning of a character
+      character(len=*), intent(in) :: bytes
+      !> Byte order as of `utf16_order`
+      integer, intent(in) :: order
+      !> Does nothing follow? A character that is cut off then is U+FFFD
+      logical, intent(in) :: is_last
+      !> UTF-8
+      character(len=:), allocatable, intent(out) :: text
+      !> Bytes that were used: all but those of a character that goes on beyond the end
+      integer, intent(out) :: used
+
+      integer :: at, length, code, low
+
+      ! Two bytes become three at most
+      allocate (character(len=3*(len(bytes)/2 + 1)) :: text)
+      length = 0
+      at = 1
+      do while (at <= len(bytes) - 1)
+         code = unit_at(at)
+         at = at + 2
+         if (code >= int(z'd800') .and. code <= int(z'dbff')) then
+            if (at > len(bytes) - 1 .and. .not. is_last) then
+               at = at - 2
+               exit
+            end if
+            low = 0
+            if (at <= len(bytes) - 1) low = unit_at(at)
+            if (low >= int(z'dc00') .and. low <= int(z'dfff')) then
+               code = int(z'10000') + 1024*(code - int(z'd800')) + low - int(z'dc00')
+               at = at + 2
+            end if
+         end if
+         if (code >= int(z'd800') .and. code <= int(z'dfff')) code = replacement
+         if (code /= int(z'feff')) call append_character(text, length, code)
+      end do
+      used = at - 1
+      if (is_last .and. used < len(bytes)) then
+         call append_character(text, length, replacement)
+         used = len(bytes)
+      end if
+      text = text(:length)
+
+   contains
+
+      !> A unit of 16 bits
+      pure integer function unit_at(i)
+         !> Position of its first byte
+         integer, intent(in) :: i
+
+         unit_at = iachar(bytes(i:i)) + 256*iachar(bytes(i + 1:i + 1))
+         if (order == 2) unit_at = iachar(bytes(i + 1:i + 1)) + 256*iachar(bytes(i:i))
+      end function unit_at
+
+   end subroutine take_utf16
+
+   !> Make UTF-8 of Latin-1; what only Windows-1252 has becomes U+FFFD
+   pure subroutine from_latin(bytes, text)
+      !> Latin-1
+      character(len=*), intent(in) :: bytes
+      !> UTF-8
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: i, length, code
+
+      length = 0
+      do i = 1, len(bytes)
+         if (iachar(bytes(i:i)) >= 128) length = length + 2
+      end do
+      allocate (character(len=len(bytes) + length) :: text)
+      length = 0
+      do i = 1, len(bytes)
+         code = iachar(bytes(i:i))
+         if (code >= 128 .and. code < 160) code = replacement
+         call append_character(text, length, code)
+      end do
+      text = text(:length)
+   end subroutine from_latin
+
+   !> Replace CR by LF where lines end in CR alone, as the first one shows
+   pure subroutine mend_line_ends(text, is_known, is_return)
+      !> Text, or the next part of it
+      character(len=*), intent(inout) :: text
+      !> Has the end of a line been seen?
+      logical, intent(inout) :: is_known
+      !> Is it a CR?
+      logical, intent(inout) :: is_return
+
+      character(len=*), parameter :: line_feed = achar(10), return = achar(13)
+      integer :: at, next, i
+
+      if (.not. is_known) then
+         at = scan(text, line_feed//return)
+         if (at == 0) return
+         next = verify(text(at:), return)
+         ! What follows the CR may stand in the next part
+         if (next == 0) return
+         is_known = .true.
+         is_return = text(at + next - 1:at + next - 1) /= line_feed
+      end if
+      if (.not. is_return) return
+      do i = 1, len(text)
+         if (text(i:i) == return) text(i:i) = line_feed
+      end do
+   end subroutine mend_line_ends
+
+   !> Append a character to a text that has room for it
+   pure subroutine append_character(text, length, code)
+      !> Text
+      character(len=*), intent(inout) :: text
+      !> Its length so far
+      integer, intent(inout) :: length
+      !> Code point
+      integer, intent(in) :: code
+
+      integer :: follow, i
+
+      follow = count(code >= [int(z'80'), int(z'800'), int(z'10000')])
+      length = length + 1
+      if (follow == 0) then
+         text(length:length) = achar(code)
+         return
+      end if
+      ! As many ones as there are bytes, a zero, and the highest bits
+      text(length:length) = achar(256 - 128/2**follow + code/64**follow)
+      do i = follow - 1, 0, -1
+         length = length + 1
+         text(length:length) = achar(128 + iand(code/64**i, 63))
+      end do
+   end subroutine append_character
 
 end module dondolo_encoding

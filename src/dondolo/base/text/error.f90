@@ -5,7 +5,7 @@
 !> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the
 !> variables of a wall or the rows of a table, their sentences stand on lines of their own (problems_type).
 module dondolo_error
-   use dondolo_text, only : plain
+   use dondolo_plain, only : visible
    implicit none
    private
 
@@ -58,7 +58,7 @@ contains
 
       allocate(error)
       error%stat = status_input
-      error%message = plain(message)
+      error%message = visible(message)
    end subroutine raise_input
 
    !> Report a file that does not exist
@@ -81,7 +81,7 @@ contains
 
       allocate(error)
       error%stat = status_failure
-      error%message = plain(message)
+      error%message = visible(message)
    end subroutine raise_failure
 
    !> Put the place (a file, a group) before every sentence of an error, if there is one

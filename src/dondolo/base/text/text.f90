@@ -9,10 +9,7 @@ module dondolo_text
    private
 
    public :: to_text, to_table, rounded, counted, lower, join, first_word, stripped, occurrences, replaced
-   public :: plain, must_be_plain, blanks
-
-   !> What is said of a name that is not plain
-   character(len=*), parameter :: must_be_plain = 'must be one line without control characters'
+   public :: blanks
 
    !> Blank and tab
    character(len=*), parameter :: blanks = ' '//achar(9)
@@ -259,41 +256,6 @@ contains
          if (text(i:i) >= 'A' .and. text(i:i) <= 'Z') lowered(i:i) = achar(iachar(text(i:i)) + 32)
       end do
    end function lower
-
-   !> A text with blanks for control characters and for what ends a line in Unicode (U+0080 to U+009F, U+2028, U+2029, in
-   !> UTF-8); a name that is not plain could forge lines of a result file
-   pure function plain(text)
-      !> Any text
-      character(len=*), intent(in) :: text
-      !> The same, as long
-      character(len=len(text)) :: plain
-
-      integer :: i
-
-      plain = text
-      do i = 1, len(text)
-         select case (ichar(text(i:i)))
-         case (:31, 127)
-            plain(i:i) = ' '
-         case (194)
-            if (code(i + 1) >= 128 .and. code(i + 1) < 160) plain(i:i + 1) = ' '
-         case (226)
-            if (code(i + 1) == 128 .and. (code(i + 2) == 168 .or. code(i + 2) == 169)) plain(i:i + 2) = ' '
-         end select
-      end do
-
-   contains
-
-      !> Code of a character, 0 beyond the end
-      pure integer function code(k)
-         !> Its position
-         integer, intent(in) :: k
-
-         code = 0
-         if (k <= len(text)) code = ichar(text(k:k))
-      end function code
-
-   end function plain
 
    !> Words in quotes, separated by commas: 'a', 'b', 'c'
    pure function join(words) result(text)

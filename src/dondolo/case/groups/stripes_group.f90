@@ -2,6 +2,7 @@
 module dondolo_stripes_group
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_levels, most_thresholds
    use dondolo_namelist_group, only : group_type
    use dondolo_property, only : is_integer, is_list, is_text, property_type
    use dondolo_scaling, only : new_scaling, scaling_type
@@ -14,9 +15,6 @@ module dondolo_stripes_group
 
    public :: stripes_input_type, read_stripes_group, check_states
    public :: stripes_properties
-
-   !> More levels or thresholds than these are surely a slip
-   integer, parameter :: most_levels = 1000, most_thresholds = 100
 
    !> Variables of the group; first, last and count become levels
    type(property_type), target, protected :: stripes_properties(6) = [ &

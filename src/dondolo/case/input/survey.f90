@@ -6,6 +6,7 @@ module dondolo_survey
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_identity, only : add_wall
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_groups
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
@@ -16,7 +17,6 @@ module dondolo_survey
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
-   use dondolo_typology, only : most_groups
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private

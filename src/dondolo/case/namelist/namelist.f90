@@ -7,9 +7,8 @@
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
 module dondolo_namelist
-   use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_encoding, only : encoding_problem, is_utf8
    use dondolo_error, only : error_type, raise_input
+   use dondolo_limits, only : longest_case
    use dondolo_name_index, only : name_index_type
    use dondolo_namelist_group, only : group_type, value_type, variable_type
    use dondolo_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
@@ -19,9 +18,6 @@ module dondolo_namelist
    private
 
    public :: namelist_type, read_namelist
-
-   !> A longer file is surely no case [bytes]
-   integer(int64), parameter :: longest_file = 2_int64**20
 
    !> A namelist file
    type :: namelist_type
@@ -44,20 +40,14 @@ contains
       character(len=*), intent(in) :: file
       !> What stands in it
       type(namelist_type), intent(out) :: namelist
-      !> The file cannot be read, is longer than 1 MiB, or is no namelist file
+      !> The file cannot be read, is too long, or is no namelist file
       type(error_type), allocatable, intent(out) :: error
 
       type(text_file_type) :: text
       type(token_type), allocatable :: tokens(:)
-      integer :: i
 
-      call read_text_file(file, text, error, longest_file)
+      call read_text_file(file, text, error, longest_case)
       if (allocated(error)) return
-      do i = 1, text%lines()
-         if (is_utf8(text%line(i))) cycle
-         call raise_input(error, text%place(i)//': '//encoding_problem(text%line(i)))
-         return
-      end do
       call cut(text, tokens, error)
       if (allocated(error)) return
       namelist%file = file

@@ -5,8 +5,10 @@
 module dondolo_namelist_group
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : longest_name
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : first_word, join, lower, must_be_plain, plain, to_text
+   use dondolo_plain, only : is_plain, must_be_plain, shown
+   use dondolo_text, only : first_word, join, lower, to_text
    implicit none
    private
 
@@ -223,9 +225,9 @@ contains
       integer :: i, j
 
       i = position(self, name)
-      typed = self%variables(i)%values(1)%typed
+      typed = shown(self%variables(i)%values(1)%typed)
       do j = 2, min(size(self%variables(i)%values), 6)
-         typed = typed//', '//self%variables(i)%values(j)%typed
+         typed = typed//', '//shown(self%variables(i)%values(j)%typed)
       end do
       if (size(self%variables(i)%values) > 6) typed = typed//', ...'
       call raise_input(error, self%place()//': '//name//' = '//typed//': '//allowed//self%in_line(name))
@@ -290,10 +292,12 @@ contains
 
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
-      if (found%quoted .and. plain(found%text) == found%text) then
-         value = found%text
-      else if (found%quoted) then
+      if (found%quoted .and. len(found%text) > longest_name) then
+         call self%refuse(name, 'must have at most '//to_text(longest_name)//' bytes', error)
+      else if (found%quoted .and. .not. is_plain(found%text)) then
          call self%refuse(name, must_be_plain, error)
+      else if (found%quoted) then
+         value = found%text
       else
          call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
       end if

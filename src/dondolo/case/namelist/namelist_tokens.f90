@@ -1,7 +1,8 @@
 !> The text of a namelist file, cut into tokens: words, texts in quotes, =, commas, &name and /.
 module dondolo_namelist_tokens
    use dondolo_error, only : error_type, raise_input
-   use dondolo_text, only : lower
+   use dondolo_limits, only : most_tokens
+   use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -61,6 +62,11 @@ contains
             end if
             if (line(at:at) == '!') exit
             if (count + 1 >= size(tokens)) call widen(tokens)
+            if (count == most_tokens) then
+               call raise_input(error, text%place(number)//': a case may have at most '//to_text(most_tokens)// &
+                  & ' words, values and signs')
+               return
+            end if
             count = count + 1
             tokens(count)%line = number
             call take_token(line, at, tokens(count), error)

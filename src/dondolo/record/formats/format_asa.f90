@@ -8,7 +8,8 @@ module dondolo_format_asa
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : raise_at, read_fixed, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none

@@ -12,9 +12,11 @@ module dondolo_format_columns
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
+   use dondolo_limits, only : most_columns
    use dondolo_memory, only : check_room
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : raise_at, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at, samples_type
    use dondolo_text, only : blanks, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -22,8 +24,8 @@ module dondolo_format_columns
 
    public :: recognises_columns, read_columns
 
-   !> Most columns that are told apart
-   integer, parameter :: most_cells = 64
+   !> Cells that are found in a line: one that is too many tells that there are
+   integer, parameter :: most_cells = most_columns + 1
 
    !> Relative difference allowed between the step of the times and one that a comment states
    real(wp), parameter :: step_tolerance = 0.01_wp
@@ -176,7 +178,7 @@ contains
       separator = separator_of(text, begin)
       call find_cells(text, begin, separator, first, last, cells)
       if (cells >= most_cells) then
-         call raise_at(error, text, begin, 'more than '//to_text(most_cells - 1)//' columns')
+         call raise_at(error, text, begin, 'more than '//to_text(most_columns)//' columns')
          return
       end if
       call check_room(32.0_wp*real(cells, wp)*real(text%lines(), wp), error)

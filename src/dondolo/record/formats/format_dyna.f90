@@ -6,7 +6,8 @@ module dondolo_format_dyna
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
-   use dondolo_record_format, only : check_duration, raise_at, read_block, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : check_duration, raise_at, read_block, samples_type
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none

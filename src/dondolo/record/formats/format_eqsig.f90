@@ -4,7 +4,8 @@ module dondolo_format_eqsig
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : raise_at, read_block, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at, read_block, samples_type
    use dondolo_text, only : blanks, first_word
    use dondolo_text_file, only : text_file_type
    implicit none

@@ -9,7 +9,8 @@ module dondolo_format_peer
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : raise_at, read_block, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at, read_block, samples_type
    use dondolo_text, only : first_word, lower
    use dondolo_text_file, only : text_file_type
    implicit none

@@ -4,7 +4,8 @@ module dondolo_format_smtk
    use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
-   use dondolo_record_format, only : raise_at, read_fixed, samples_type, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at, read_fixed, samples_type
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none

@@ -4,7 +4,8 @@ module dondolo_labels
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : raise_at, shown
+   use dondolo_plain, only : shown
+   use dondolo_record_format, only : raise_at
    use dondolo_text, only : stripped
    use dondolo_text_file, only : text_file_type
    implicit none

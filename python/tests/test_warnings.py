@@ -1,0 +1,73 @@
+"""Warnings that Python adds to those of the library: each is data, too, and documented."""
+
+import ast
+import json
+import warnings
+
+import numpy as np
+import pytest
+from dondolo.curves.fragility import Fragility
+
+import dondolo as dd
+
+SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
+
+
+def functions_in_time():
+    dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 4, dd.HazardCurve.power_law(1e-4, 2.0)).probability(50.0)
+
+
+def two_populations():
+    curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
+    values = {name: getattr(curve, name) for name in Fragility.__dataclass_fields__} | {"edp_threshold": 1.0}
+    dd.compare(Fragility(**values), curve)
+
+
+def own_table(path):
+    path.write_text("pga;annual_frequency;F0\n0,1;0,01;2,4\n0,2;0,002;2,5\n")
+    dd.HazardCurve.from_csv(path)
+
+
+@pytest.mark.parametrize(
+    ("call", "codes", "numbers"),
+    [
+        (lambda path: dd.fit_fragility([1.0, 2.0], [1, 2], 44), ["extrapolated"], ["first_level", "theta"]),
+        (lambda path: two_populations(), ["records_shared"], []),
+        (lambda path: functions_in_time(), ["function_of_one_wall"], []),
+        (
+            lambda path: dd.mean_annual_frequency(dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga"), SHORT),
+            ["hazard_too_short"],
+            ["lower_bound", "upper_bound"],
+        ),
+        (own_table, ["note", "columns_unused"], []),
+    ],
+    ids=["fit", "compare", "function", "hazard", "table"],
+)
+def test_codes(call, codes, numbers, tmp_path):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        call(tmp_path / "table.csv")
+    found = [one.message.as_data() for one in caught]
+    assert [one["code"] for one in found] == codes
+    assert set(numbers) <= set(found[-1]["numbers"])
+    assert json.loads(json.dumps(found)) == found
+
+
+def test_first_collapses(stripes):
+    none = dd.incremental(dd.multiple_stripe(stripes.wall, dd.Record([0.0, 0.1, 0.0], 0.01), [0.01], progress=False))
+    with pytest.warns(dd.DondoloWarning, match="no curve of first collapses") as caught:
+        none.fit()
+    assert (caught[0].message.code, caught[0].message.subject) == ("no_collapse", {"wall": "parapet"})
+
+
+def test_codes_are_documented(root):
+    page = (root / "docs/files.md").read_text()
+    calls = [
+        node
+        for path in (root / "python/dondolo").glob("**/*.py")
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "DondoloWarning"
+    ]
+    codes = {call.args[1].value for call in calls if len(call.args) > 1 and isinstance(call.args[1], ast.Constant)}
+    assert len(codes) >= 5
+    assert [code for code in codes if f"`{code}`" not in page] == []
