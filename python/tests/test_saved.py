@@ -54,7 +54,6 @@ def results(stripes, few, wall):
         ),
         "intensities": dd.compare_intensities(wall, few, ims=["pga", "pgv"], progress=False),
         "comparison": dd.compare(curve, gone.fit()) if gone.fit().has_fit else dd.compare(curve, curve),
-        "comparison by bootstrap": dd.compare(curve, curve, method="bootstrap", n_resamples=20),
         "bootstrap": curve.bootstrap(n_resamples=20),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),

@@ -91,7 +91,7 @@ def test_the_counts_behind_the_fit(typology):
     for group in typology.groups:
         again = dd.fit_fragility(group.fit.levels, group.fit.collapses, group.fit.histories)
         assert (again.theta, again.beta) == pytest.approx((group.fit.theta, group.fit.beta), rel=1e-12)
-    low, high = typology["all"].fit.interval(0.6, method="profile")
+    low, high = typology["all"].fit.interval(0.6)
     assert low < typology["all"].fit(0.6) < high
 
 

@@ -304,9 +304,9 @@ def fractiles(values: FloatArray) -> FloatArray:
 def _censored(x: FloatArray, by_cluster: FloatArray) -> tuple[float, float, FloatArray, FloatArray | None]:
     """Mean and deviation of a normal sample of which only the intervals are known, and their covariance.
 
-    Between the values x, which increase, below and above them lie so many of each cluster (clusters, intervals). Besides
-    the covariance of independent values comes the change of mean and deviation if each cluster is left out, to first
-    order; None if one of them alone determines them. In c = 1/deviation and
+    Between the values x, which increase, below and above them lie so many of each cluster (clusters, intervals).
+    Besides the covariance of independent values comes the change of mean and deviation if each cluster is left out, to
+    first order; None if one of them alone determines them. In c = 1/deviation and
     a = mean/deviation the logarithm of the likelihood, sum(n ln(Phi(z_j) - Phi(z_(j-1)))) with z = c x - a, is concave.
     By hand, since SciPy's fit to censored data stops after some four digits and gives no covariance.
     """

@@ -13,7 +13,6 @@ from dondolo._fortran import _binding
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import Sample
 
-
 #: Fewer clusters than this cannot determine the covariance of two parameters, as in dondolo_clustered
 FEWEST = 3
 
@@ -80,7 +79,9 @@ def errors_of_sample(sample: Sample, at: tuple[float, float]) -> Errors:
     labels = tuple(dict.fromkeys(sample.clusters))
     collapses, histories = sample.by_cluster(labels)
     ran = histories.any(axis=1)
-    return errors_of_counts("records", np.array(labels)[ran].tolist(), sample.levels, collapses[ran], histories[ran], at)
+    return errors_of_counts(
+        "records", np.array(labels)[ran].tolist(), sample.levels, collapses[ran], histories[ran], at
+    )
 
 
 def errors_of_counts(

@@ -92,7 +92,9 @@ def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) ->
     for curve in (first, second):
         curve._quantile(confidence)
         if curve.errors == "clustered" and not curve.parts:
-            raise InputError("curves: one wall of a population does not know its records: compare curves of Stripes.fit")
+            raise InputError(
+                "curves: one wall of a population does not know its records: compare curves of Stripes.fit"
+            )
     if first.errors != second.errors:
         raise InputError(f"standard errors: {first.errors} and {second.errors}: both must be of one kind")
     # In ln theta and ln beta
@@ -128,7 +130,9 @@ def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) ->
 
 def _joint(several: Sequence[tuple[tuple[str, ...], FloatArray]]) -> FloatArray:
     """Covariance of a sum of changes, of which those of the same cluster come together."""
-    place = {label: number for number, label in enumerate(dict.fromkeys(one for labels, _ in several for one in labels))}
+    place = {
+        label: number for number, label in enumerate(dict.fromkeys(one for labels, _ in several for one in labels))
+    }
     changes = np.zeros((len(place), 2))
     for labels, own in several:
         changes[[place[label] for label in labels]] += own
@@ -144,16 +148,17 @@ def _comparison(
     degrees: Sequence[float],
     confidence: float,
 ) -> Comparison:
-    from scipy import stats
+    from scipy.special import stdtr, stdtrit
 
     difference = np.log([first.theta / second.theta, first.beta / second.beta])
     found: list[tuple[float, Interval, float]] = []
     for value, variance, freedom_ in zip(difference, np.diag(covariance), degrees, strict=True):
-        spread = stats.norm if np.isinf(freedom_) else stats.t(freedom_)
+        # Student's t with more than 1e15 degrees of freedom is the normal distribution to rounding.
+        number = min(freedom_, 1e15)
         error = float(np.sqrt(variance))
-        half = float(spread.ppf(tails(confidence)[1])) * error
+        half = float(stdtrit(number, tails(confidence)[1])) * error
         # Curves of the same histories do not differ at all.
-        p_value = float(2.0 * spread.sf(abs(value) / error)) if error > 0.0 else float(value == 0.0)
+        p_value = float(2.0 * stdtr(number, -abs(value) / error)) if error > 0.0 else float(value == 0.0)
         found.append((float(np.exp(value)), (float(np.exp(value - half)), float(np.exp(value + half))), p_value))
     (ratio, interval, p_value), (beta_ratio, beta_interval, beta_p_value) = found
     return Comparison(
@@ -172,13 +177,14 @@ def _comparison(
 
 def _hotelling(difference: FloatArray, covariance: FloatArray, degrees: float) -> float:
     """Probability of differences at least as large if there were none, by Hotelling's T squared."""
-    from scipy import stats
+    from scipy.special import fdtrc
 
     if not difference.any():
         return 1.0
-    if not np.linalg.matrix_rank(covariance, hermitian=True) == 2 or degrees <= 1.0:
+    if np.linalg.matrix_rank(covariance, hermitian=True) != 2 or degrees <= 1.0:
         return np.nan
     squared = float(difference @ np.linalg.solve(covariance, difference))
+    # Without an end to the degrees of freedom it is chi-squared with two of them.
     if np.isinf(degrees):
-        return float(stats.chi2.sf(squared, 2))
-    return float(stats.f.sf(squared * (degrees - 1.0) / (2.0 * degrees), 2, degrees - 1.0))
+        return float(np.exp(-0.5 * squared))
+    return float(fdtrc(2.0, degrees - 1.0, squared * (degrees - 1.0) / (2.0 * degrees)))

@@ -6,7 +6,7 @@ import dataclasses
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Interval = tuple[float, float]
+
+_Curve = TypeVar("_Curve", bound="Fragility")
 
 _BOUNDS = ("theta_low", "theta_high", "beta_low", "beta_high")
 
@@ -222,9 +224,9 @@ class Fragility(Shown, Saved):
         seed : int, Generator or None
             Of the random numbers; None: different every time.
         events : sequence, optional
-            A label for each record in place of those that the curve has: records with the same label are drawn together.
-            The two horizontal components of a recording are alike; drawn one by one they look like twice as much
-            evidence as they are.
+            A label for each record in place of those that the curve has: records with the same label are drawn
+            together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
+            much evidence as they are.
 
         Returns
         -------
@@ -324,7 +326,6 @@ class Fragility(Shown, Saved):
             ("status", self.status),
         ]
 
-
     def _shown_error(self, what: str, error: float) -> str:
         return f" ({what} {error:.3g})" if np.isfinite(error) else ""
 
@@ -397,7 +398,7 @@ def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **orig
     return curve
 
 
-def with_errors(curve: Fragility, errors: Errors) -> Fragility:
+def with_errors(curve: _Curve, errors: Errors) -> _Curve:
     """A curve with other standard errors."""
     errors.covariance.flags.writeable = False
     return dataclasses.replace(curve, **errors._asdict())

@@ -93,7 +93,7 @@ class Flags:
     def fractions(self, walls: ArrayLike, member: FloatArray) -> FloatArray:
         """Shares (walls, clusters, levels) of the histories of walls that reach the state, cluster by cluster.
 
-        `member` (clusters, records) says which records a cluster has; the shares of all clusters add up to the fraction.
+        `member` (clusters, records) says which records a cluster has; all shares add up to the fraction.
         """
         chosen = np.asarray(walls)
         found = np.empty((len(chosen), len(member), self.levels))
