@@ -6,12 +6,14 @@ program dondolo_main
    use dondolo_case, only : case_type, read_case
    use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
+   use dondolo_interrupt, only : die_of_signal, end_in_order
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
+   use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
    use dondolo_population_case, only : merge_population
@@ -63,6 +65,7 @@ contains
 
       type(case_type) :: case
       type(results_type) :: results
+      type(result_files_type) :: files
       integer(int64) :: start, finish, rate
       integer :: threads
 
@@ -79,29 +82,33 @@ contains
          return
       end if
       threads = team(case%job%threads)
+      call end_in_order()
+      ! The rows of a part go into a file of counts, which has a lock of its own.
+      if (.not. (case%job%task == 'typology' .and. case%survey%is_part)) call files%claim(case%job%output, error)
+      if (allocated(error)) return
+      call system_clock(start, rate)
       if (arguments%action == 'merge') then
          call merge_population(case, arguments%parts, results, error)
-         if (.not. allocated(error)) call finish_run(case, results, 0.0_wp, threads, error)
-         return
-      end if
-
-      call system_clock(start, rate)
-      if (stderr_is_terminal() .and. .not. arguments%quiet) then
+      else if (stderr_is_terminal() .and. .not. arguments%quiet) then
          call start_progress()
          call run_case(case, results, error, threads, show_progress)
          call erase_progress()
       else
          call run_case(case, results, error, threads)
       end if
-      if (allocated(error)) return
       call system_clock(finish)
-      call finish_run(case, results, real(finish - start, wp)/real(rate, wp), threads, error)
+      if (arguments%action == 'merge') finish = start
+      if (.not. allocated(error)) call finish_run(case, results, files, real(finish - start, wp)/real(rate, wp), &
+         & threads, error)
+      call files%close()
    end subroutine serve
 
    !> Write the reports, unless the run was one part of a population, and print the results at a glance
-   subroutine finish_run(case, results, seconds, threads, error)
+   subroutine finish_run(case, results, files, seconds, threads, error)
       type(case_type), intent(in) :: case
       type(results_type), intent(inout) :: results
+      !> The files that are to be written, claimed
+      type(result_files_type), intent(inout) :: files
       !> Time of the computation [s]
       real(wp), intent(in) :: seconds
       !> Number of threads
@@ -110,12 +117,16 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(lines_type) :: paths, warnings
+      integer :: i
 
       if (case%job%task == 'typology' .and. case%survey%is_part) then
          call paths%add(results%stores(1)%path)
       else
-         call write_reports(case, results, paths, error)
+         call write_reports(case, results, files, error)
          if (allocated(error)) return
+         do i = 1, size(files%written)
+            call paths%add(files%prefix//trim(files%written(i)%suffix))
+         end do
          ! The checkpoint of a whole population has served; parts are the user's
          if (case%job%task == 'typology' .and. arguments%action == 'run') call results%remove_stores()
       end if
@@ -147,7 +158,7 @@ contains
       end do
    end subroutine print_lines
 
-   !> Print an error, one line for each thing that is wrong, and end with its exit code
+   !> Print an error, one line for each thing that is wrong, and end with its exit code, or of the signal that has come
    subroutine give_up(error)
       !> What went wrong
       type(error_type), intent(in) :: error
@@ -160,6 +171,8 @@ contains
          write (error_unit, '(a)') 'dondolo: '//error%message(first:first + length - 1)
          first = first + length + 1
       end do
+      flush (error_unit)
+      call die_of_signal()
       select case (error%stat)
       case (status_input, status_missing)
          stop status_input, quiet=.true.

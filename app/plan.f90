@@ -13,7 +13,7 @@ module dondolo_plan
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
    use dondolo_store, only : store_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : left, rounded, to_text
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_input_type
    use dondolo_warning, only : warnings_type
@@ -231,17 +231,5 @@ contains
          text = trim(text)//' '//to_text(values(i))
       end do
    end function list
-
-   !> A text padded or cut to a width
-   pure function left(text, width)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Width
-      integer, intent(in) :: width
-      !> The text and blanks, or its beginning
-      character(len=width) :: left
-
-      left = text
-   end function left
 
 end module dondolo_plan

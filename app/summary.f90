@@ -8,7 +8,7 @@ module dondolo_summary
    use dondolo_lines, only : lines_type
    use dondolo_plan, only : print_wall
    use dondolo_results, only : results_type
-   use dondolo_text, only : counted, rounded, to_text
+   use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_typology, only : whole_population
    implicit none
    private
@@ -327,17 +327,5 @@ contains
       head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
       head = right(head, max(12, len(head) + 1))
    end subroutine make_head
-
-   !> A text at the right of a column
-   pure function right(text, width)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Width
-      integer, intent(in) :: width
-      !> Blanks and the text
-      character(len=width) :: right
-
-      right = repeat(' ', max(0, width - len(text)))//text
-   end function right
 
 end module dondolo_summary

@@ -239,7 +239,7 @@ def main() -> None:
         " of the draws without a fit or without standard errors, which take no part.\n",
         table([*head, *methods, "without"], sorted(rows, key=lambda row: -int(row[3]))),
         "## Tests of equality\n\nShare of the comparisons (`dd.compare`) that reject equal curves at 5 %,"
-        " in %. On the same records one curve takes one polarity of each record, at random, and the other the other polarity.\n",
+        " in %. On the same records one curve takes a random polarity of each record, and the other curve the other.\n",
         table(
             ["wall", "curves on", *head[2:], "θ", "β", "both", "θ, naive"], sorted(tests, key=lambda row: -int(row[3]))
         ),

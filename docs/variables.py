@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from dondolo._fortran import _binding
+from dondolo._fortran.library import Property, properties
 
 TITLES = {
     "job": "What is to be done",
@@ -22,7 +22,7 @@ group `&wall` are the columns of a population and the arguments of the walls in 
 """
 
 
-def allowed(row: _binding.Property) -> str:
+def allowed(row: Property) -> str:
     """What a value can be."""
     if row.choices:
         return ", ".join(f"'{choice}'" for choice in row.choices)
@@ -36,7 +36,7 @@ def allowed(row: _binding.Property) -> str:
     return f"at least {low}" if low else f"at most {high}" if high else ""
 
 
-def default(row: _binding.Property) -> str:
+def default(row: Property) -> str:
     """Its default, or that it has none."""
     if row.default in ("required", "optional"):
         return {"required": "required", "optional": ""}[row.default]
@@ -48,7 +48,7 @@ def table(group: str) -> list[str]:
     title = f"## {'Columns' if group == 'member' else f'&{group}'}"
     lines = [title, "", TITLES[group] + ".", "", "| variable | unit | default | allowed | only for | meaning |"]
     lines.append("|---|---|---|---|---|---|")
-    for row in _binding.properties(group):
+    for row in properties(group):
         owners = ", ".join(row.owners)
         cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, row.meaning]
         lines.append("| " + " | ".join(cells) + " |")

@@ -1,10 +1,11 @@
 """Mutation checks of the statistics: python test/mutations.py [WORD]...
 
-Each edit makes one formula of the Python package wrong, in a copy of the installed package, and the test named with it
-must then fail. Given words, check only the edits that contain all of them.
+Each edit makes one formula wrong, and the test named with it must then fail. Formulas of the Python package are edited
+in a copy of the installed package. Of a Fortran source a copy is edited, compiled against the modules of the build and
+linked before its library. Given words, check only the edits that contain all of them.
 
-Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once in the package, or if
-a test fails without any edit.
+Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once, or if a test fails
+without any edit.
 """
 
 import importlib.util
@@ -17,14 +18,18 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
-TESTS = Path(__file__).resolve().parents[1] / "python" / "tests"
+ROOT = Path(__file__).resolve().parents[1]
+TESTS = ROOT / "python" / "tests"
 
 # Time limit of one test run [s]; ample for a busy machine
 LONGEST = 1800
 
 
 class Edit(NamedTuple):
-    """A wrong formula: what is wrong with it, the text it replaces, and the test that must fail."""
+    """A wrong formula: what is wrong with it, the text it replaces, and the test that must fail.
+
+    The test is one of pytest for a formula in Python, and a program in test/ for one in Fortran.
+    """
 
     error: str
     old: str
@@ -60,8 +65,8 @@ EDITS = [
     ),
     Edit(
         "fragility curves tend to 1 where not all walls can collapse",
-        "self.saturation * _binding.probability(self.theta, self.beta, values.ravel())",
-        "_binding.probability(self.theta, self.beta, values.ravel())",
+        "self.saturation * probability(self.theta, self.beta, values.ravel())",
+        "probability(self.theta, self.beta, values.ravel())",
         "test_combination.py::test_saturation",
     ),
     # Bootstrap over records
@@ -223,13 +228,125 @@ EDITS = [
         "beta_distribution.ppf(upper, z, n - z + 1.0)",
         "test_plots.py::test_bars_end_at_the_saturation",
     ),
+    # Fractiles over a population, in Fortran
+    Edit(
+        "a fractile has more than its share of the weight below it, not at least that share",
+        "if (reached(middle) >= (shares(k) - rounding)*total) then",
+        "if (reached(middle) > (shares(k) + rounding)*total) then",
+        "test_typology.f90",
+    ),
+    Edit(
+        "weights do not follow the walls into the order of their probabilities",
+        "reached = weights(order)",
+        "reached = weights",
+        "test_typology.f90",
+    ),
+    Edit(
+        "the curves of one mechanism ignore its probabilities of occurrence",
+        "merge(population%weight*population%p_occ, 0.0_wp, population%mechanism == number)",
+        "merge(population%weight, 0.0_wp, population%mechanism == number)",
+        "test_typology.f90",
+    ),
+    # Walls of several mechanisms
+    Edit(
+        "mechanisms in series are added as if they were exclusive",
+        "whole = whole + (1.0_wp - whole)*p_occ(m)*p(:, m)",
+        "whole = whole + p_occ(m)*p(:, m)",
+        "test_typology.f90",
+    ),
+    Edit(
+        "a mechanism beyond the first always occurs",
+        "whole = whole + (1.0_wp - whole)*p_occ(m)*p(:, m)",
+        "whole = whole + (1.0_wp - whole)*p(:, m)",
+        "test_typology.f90",
+    ),
+    Edit(
+        "a wall has as many histories as the mechanism with most of them",
+        "combined_histories = minval(self%histories)",
+        "combined_histories = maxval(self%histories)",
+        "test_typology.f90",
+    ),
+    Edit(
+        "the curve of a wall is fitted to fractions that do not tend to 1",
+        "if (self%occurrence() > 0.0_wp) part = min(part/self%occurrence(), 1.0_wp)",
+        "part = min(part, 1.0_wp)",
+        "test_typology.f90",
+    ),
+    Edit(
+        "fractions are interpolated from zero between all levels",
+        "p(i) = below + (fractions(j + 1) - below)*(x(i) - before)/(levels(j + 1) - before)",
+        "p(i) = fractions(j + 1)*(x(i) - before)/(levels(j + 1) - before)",
+        "test_typology.f90",
+    ),
+    # Means and dispersions of a population
+    Edit(
+        "the mean curve ignores the weights of the walls",
+        "sums%curve = sums%curve + weight*p",
+        "sums%curve = sums%curve + p",
+        "test_typology.f90",
+    ),
+    Edit(
+        "the dispersion between walls is taken from the first wall, not from the mean",
+        "sums%squares = sums%squares + part*distance*(log(fit%theta) - sums%centre)",
+        "sums%squares = sums%squares + part*distance**2",
+        "test_typology.f90",
+    ),
+    Edit(
+        "the dispersion between records is the mean of beta squared, without its root",
+        "curve%beta_records = sqrt(sums%beta_squares/sums%fitted)",
+        "curve%beta_records = sums%beta_squares/sums%fitted",
+        "test_typology.f90",
+    ),
+    Edit(
+        "the mean is fitted as if it tended to 1",
+        "if (curve%saturation > 0.0_wp) share = min(share/curve%saturation, 1.0_wp)",
+        "share = min(share, 1.0_wp)",
+        "test_typology.f90",
+    ),
+    # Fits of fragility curves
+    Edit(
+        "the covariance of ln theta and beta has the wrong sign",
+        "jacobian(2, :) = [0.0_wp, -spread/b(2)**2]",
+        "jacobian(2, :) = [0.0_wp, spread/b(2)**2]",
+        "test_fragility.f90",
+    ),
+    Edit(
+        "the Fisher information ignores the number of histories",
+        "information = outer(n*mills(eta)*mills(-eta), x)",
+        "information = outer(mills(eta)*mills(-eta), x)",
+        "test_fragility.f90",
+    ),
+    Edit(
+        "the log likelihood lacks a part of the binomial coefficients",
+        "& - log_gamma(histories - collapses + 1.0_wp))",
+        "& )",
+        "test_fragility.f90",
+    ),
+    Edit(
+        "a median beyond the highest level is not called extrapolated",
+        "if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels))",
+        "if (fragility%theta < minval(levels))",
+        "test_fragility.f90",
+    ),
+    Edit(
+        "counts that tell of a falling curve are fitted",
+        "else if (score <= 16.0_wp*epsilon(score)*sum(n)) then",
+        "else if (score <= -huge(score)) then",
+        "test_fragility.f90",
+    ),
 ]
 
 
+def is_fortran(edit: Edit) -> bool:
+    """Is the formula one of the Fortran library?"""
+    return edit.test.endswith(".f90")
+
+
 def places(edit: Edit, package: Path) -> list[str]:
-    """Files of the package in which the old text of an edit occurs, once for each occurrence."""
-    sources = {path: path.read_text(encoding="utf-8") for path in sorted(package.rglob("*.py"))}
-    return [str(path.relative_to(package)) for path, text in sources.items() for _ in range(text.count(edit.old))]
+    """Files of the package, or of the library, in which the text of an edit occurs, once for each occurrence."""
+    folder, pattern = (ROOT / "src", "*.f90") if is_fortran(edit) else (package, "*.py")
+    sources = {path: path.read_text(encoding="utf-8") for path in sorted(folder.rglob(pattern))}
+    return [str(path.relative_to(folder)) for path, text in sources.items() for _ in range(text.count(edit.old))]
 
 
 def stale(package: Path) -> list[str]:
@@ -238,11 +355,40 @@ def stale(package: Path) -> list[str]:
     for edit in EDITS:
         where = places(edit, package)
         if len(where) != 1:
-            found.append(f"must occur once in the package, occurs in {', '.join(where) or 'no file'}: {edit.old!r}")
-        file, name = edit.test.split("::")
-        if not (TESTS / file).is_file() or f"\ndef {name}(" not in (TESTS / file).read_text(encoding="utf-8"):
+            found.append(f"must occur once, occurs in {', '.join(where) or 'no file'}: {edit.old!r}")
+        file, _, name = edit.test.partition("::")
+        path = (ROOT / "test" if is_fortran(edit) else TESTS) / file
+        if not path.is_file() or (name and f"\ndef {name}(" not in path.read_text(encoding="utf-8")):
             found.append(f"no such test: {edit.test}")
     return found
+
+
+def run_program(test: str, sources: list[Path], folder: Path) -> int | None:
+    """0 if a Fortran test passes with some sources instead of the library's, 1 if it fails, None if it is endless."""
+    build = ROOT / "build-python" / "src"
+    modules = [f"-I{path}" for path in build.rglob("*.p") if any(path.glob("*.mod"))]
+    libraries = [build / "libdondolo.a", *build.rglob("libdondolo_*.a"), "-llapack", "-lblas"]
+    program = folder / "program"
+    flags = ["-O1", "-fopenmp", "-fimplicit-none", *modules, "-J", folder, "-o", program]
+    subprocess.run(
+        ["gfortran", *flags, ROOT / "test/checks.f90", *sources, ROOT / "test" / test, *libraries],
+        stderr=subprocess.DEVNULL,
+        check=True,
+    )
+    try:
+        done = subprocess.run(program, cwd=ROOT, capture_output=True, timeout=LONGEST, check=False)
+    except subprocess.TimeoutExpired:
+        return None
+    return int(done.returncode != 0)
+
+
+def check_fortran(edit: Edit) -> int | None:
+    """Exit status of the test of an edit in Fortran."""
+    source = ROOT / "src" / places(edit, ROOT)[0]
+    with tempfile.TemporaryDirectory() as name:
+        wrong = Path(name) / source.name
+        wrong.write_text(source.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")
+        return run_program(edit.test, [wrong], Path(name))
 
 
 def copy_of(package: Path, folder: Path) -> Path:
@@ -265,10 +411,13 @@ def run_tests(tests: list[str], folder: Path) -> int | None:
 
 def check(edit: Edit, package: Path) -> str:
     """Apply an edit to a copy and run its test: 'caught', 'survived', 'endless', or 'broken' if pytest cannot run."""
-    with tempfile.TemporaryDirectory() as name:
-        place = copy_of(package, Path(name)) / places(edit, package)[0]
-        place.write_text(place.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")
-        status = run_tests([edit.test], Path(name))
+    if is_fortran(edit):
+        status = check_fortran(edit)
+    else:
+        with tempfile.TemporaryDirectory() as name:
+            place = copy_of(package, Path(name)) / places(edit, package)[0]
+            place.write_text(place.read_text(encoding="utf-8").replace(edit.old, edit.new), encoding="utf-8")
+            status = run_tests([edit.test], Path(name))
     return {0: "survived", 1: "caught", None: "endless"}.get(status, "broken")
 
 
@@ -283,9 +432,12 @@ def main() -> int:
     if not chosen:
         print(f"no edit contains {' and '.join(map(repr, sys.argv[1:]))}")
         return 1
+    tests = sorted({edit.test for edit in chosen if not is_fortran(edit)})
+    programs = sorted({edit.test for edit in chosen if is_fortran(edit)})
     with tempfile.TemporaryDirectory() as name:
         copy_of(package, Path(name))
-        if run_tests(sorted({edit.test for edit in chosen}), Path(name)) != 0:
+        failed = tests and run_tests(tests, Path(name)) != 0
+        if failed or any(run_program(test, [], Path(name)) != 0 for test in programs):
             print("the tests fail without any edit")
             return 1
     caught = 0

@@ -12,3 +12,6 @@ check() {
       echo "FAILED  $what"
    fi
 }
+
+# The same bytes in two folders or files, but for the names of the runs
+same() { diff -r -I '^# run: ' -I '^  "run": ' "$@"; }

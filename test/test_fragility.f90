@@ -39,6 +39,7 @@ contains
 
    !> With two stripes the curve goes through both fractions
    subroutine test_two_stripes()
+      real(wp), parameter :: quartile = 0.674489750196082_wp, variance = acos(-1.0_wp)/88.0_wp
       type(fragility_type) :: curve
 
       call suite('two stripes')
@@ -54,6 +55,12 @@ contains
          & 'level of 84 %')
       call check_close(curve%bracket(1), 0.2_wp, 0.0_wp, 'bracket below')
       call check_close(curve%bracket(2), 0.4_wp, 0.0_wp, 'bracket above')
+
+      ! The probit of a half has the variance 2 pi 1/4 / 44; ln theta depends on it alone, beta on that of a quarter, too.
+      curve = fitted([0.2_wp, 0.4_wp], [11.0_wp, 22.0_wp], [44.0_wp, 44.0_wp], 'the median is a level')
+      call check_close(curve%beta, log(2.0_wp)/quartile, 1.0e-12_wp, 'beta')
+      call check_close(curve%covariance(1, 1), variance*curve%beta**2, 1.0e-10_wp, 'variance of ln theta')
+      call check_close(curve%covariance(1, 2), variance*curve%beta**2/quartile, 1.0e-10_wp, 'covariance')
    end subroutine test_two_stripes
 
    !> Two public data sets with their standard errors

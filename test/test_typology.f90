@@ -570,6 +570,9 @@ contains
       call check_close(members%weight(1), 0.6_wp, 1.0e-15_wp, 'counts as often as it can occur')
       call choose_members(members, population, 'all', 1)
       call check(all(members%column == [6, 7]), 'a group')
+      walls(2)%fraction = reshape([0.25_wp, 0.5_wp], [2, 1])
+      p = walls(2)%probabilities([1.0_wp, 2.0_wp], [0.5_wp, 1.5_wp, 2.5_wp])
+      call check(all(abs(p(:, 1) - [0.125_wp, 0.375_wp, 0.5_wp]) <= 0.0_wp), 'between two fractions')
    end subroutine test_any_level
 
    !> Damage states: thresholds and who reaches them

@@ -11,8 +11,8 @@
 `dondolo.read_catalogue` reads recorded accelerograms.
 """
 
-from dondolo._fortran._binding import build_variant
-from dondolo._fortran._binding import constants as _constants
+from dondolo._fortran.library import build_variant
+from dondolo._fortran.library import constants as _constants
 from dondolo._storage.saved import load
 from dondolo.analysis.cloud import Cloud, cloud
 from dondolo.analysis.efficiency import IntensityComparison, compare_intensities

@@ -13,7 +13,7 @@ from typing import Any
 
 import dondolo as dd
 from dondolo._base.files import whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.records import catalogue_table
 from dondolo.exchange.mean_functions import taxonomy_of
 from dondolo.exchange.nrml import Curve
 from dondolo.records.catalogues import build_catalogue
@@ -119,7 +119,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _records(options: argparse.Namespace) -> None:
     """Print the table of a catalogue."""
-    print("\n".join(_binding.catalogue_table(options.catalogue)))
+    print("\n".join(catalogue_table(options.catalogue)))
 
 
 def _catalogue(options: argparse.Namespace) -> None:
@@ -172,7 +172,14 @@ def _plot(options: argparse.Namespace) -> None:
         _save(options, "wall", motion.plot_peak)
         if options.animate:
             path = f"{options.prefix}_motion.gif"
-            motion.animate(frames_per_second=20).save(path, writer="pillow")
+            with whole_file(path) as part:
+                # Pillow chooses the format by the name.
+                image = part.with_name(part.name + ".gif")
+                try:
+                    motion.animate(frames_per_second=20).save(image, writer="pillow")
+                    image.replace(part)
+                finally:
+                    image.unlink(missing_ok=True)
             print(f"drawn: {path}")
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes

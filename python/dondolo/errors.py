@@ -45,6 +45,9 @@ class DondoloWarning(UserWarning):
         super().__init__(sentence)
         self.code, self.subject, self.numbers = code, dict(subject or {}), dict(numbers or {})
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return DondoloWarning, (str(self), self.code, self.subject, self.numbers)
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, DondoloWarning) and self.as_data() == other.as_data()
 

@@ -1,5 +1,6 @@
 """A study of many walls, small but in many blocks, for tests that stop and share out runs."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,11 @@ def write(typology: dd.Typology, folder: Path) -> None:
     (folder / "flags").write_bytes(typology.flags.bits.tobytes())
     (folder / "collapses").write_bytes(typology.collapses.tobytes())
     (folder / "work").write_text(repr(typology.work))
+
+
+def nameless(path: Path) -> str:
+    """A result file without the name of its run, which nothing depends on."""
+    return re.sub(r"\b\d{8}T\d{6}Z-[0-9a-f]{16}\b", "", path.read_text())
 
 
 def contents(folder: Path) -> dict[str, bytes]:

@@ -322,6 +322,22 @@ def test_rows_are_counted_and_called_so(few, tmp_path):
         dd.typology(walls[:2], few, [0.4, 0.8], checkpoint=path, progress=False)
 
 
+@pytest.mark.parametrize("im", ["pga/a0", "p*pgv/a0"])
+def test_each_block_scales_to_its_own_walls(im, tmp_path):
+    """Levels in terms of the wall are the same in any block, and for the wall alone."""
+    people = study.arguments()["population"].walls[:9]
+    given = study.arguments(im=im, levels=[0.8, 1.3, 2.5], population=dd.Population(people))
+    together = dd.typology(**given, block=9)
+    for block in (1, 4):
+        apart = dd.typology(**given, block=block)
+        assert of(apart, tmp_path / str(block)) == of(together, tmp_path / "together")
+    assert len(np.unique(together.collapses, axis=-1)) > 1
+    for i, wall in enumerate(people):
+        options = {name: given[name] for name in ("levels", "im", "polarity", "progress")}
+        alone = dd.multiple_stripe(wall, given["records"], **options)
+        assert np.array_equal(together.collapses[..., i], alone.collapses)
+
+
 def test_blocks_change_nothing(whole, tmp_path):
     for block in (1, 59, 1000):
         assert of(dd.typology(**study.arguments(block=block)), tmp_path / str(block)) == whole

@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import study
-from dondolo._fortran import _binding
 from dondolo.populations import blocks, crew
 
 import dondolo as dd
@@ -196,7 +195,7 @@ def test_errors(pool, monkeypatch):
         dd.typology(**study.arguments(executor="dask"))
     # Workers whose results would differ
     build = crew._build()
-    monkeypatch.setattr(_binding, "build_variant", lambda: "z80")
+    monkeypatch.setattr(crew, "build_variant", lambda: "z80")
     with pytest.raises(dd.InputError, match=rf"worker \S+: has {build} and not dondolo .*, z80; .*DONDOLO_VARIANT"):
         dd.typology(**study.arguments(executor=pool))
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dondolo._base.files import whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.library import build_variant
 from dondolo._storage import tables
 
 import dondolo as dd
@@ -150,7 +150,7 @@ def damaged(executable, root, tmp_path_factory):
         ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "no JSON: .*line"),
         ("history", "run.json", r'"impacts": ', '"impacts": 1.5, "i": ', "impacts = 1.5: must be of type int"),
         ("history", "run.json", r'^  "history": {$', '"none": {', "no 'history'"),
-        ("parapet", "run.json", r"dondolo run 1", "dondolo run 0", "not a run file: format must be 'dondolo run 1'"),
+        ("parapet", "run.json", r"dondolo run 2", "dondolo run 0", "not a run file: format must be 'dondolo run 2'"),
         (
             "parapet",
             "run.json",
@@ -263,7 +263,7 @@ def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path)
     case = root / "data/cases/population.nml"
     assert run("--quiet", case).returncode == 0
     # The same build variant, so that digits agree
-    assert _binding.build_variant() in run("--version").stdout
+    assert build_variant() in run("--version").stdout
     dd.run_case(case, progress=False).typology.write_results(tmp_path / "mine")
     for table in ("walls", "stripes", "fragility", "typology"):
         rows = [

@@ -197,7 +197,7 @@ def test_what_the_curve_cannot_do(stripes):
         curve.bootstrap()
     # The same records make both curves
     assert dd.compare(curve, stripes.fit()).pairing == "paired"
-    with pytest.raises(dd.InputError, match="list are no stripes"):
+    with pytest.raises(dd.InputError, match="list is no Stripes"):
         dd.incremental([])
 
 

@@ -7,13 +7,13 @@ import re
 import typing
 
 import pytest
-from dondolo._fortran import _binding
+from dondolo._fortran.library import properties
 from dondolo.walls.wall import MECHANISMS
 
 import dondolo as dd
 
-WALL = _binding.properties("wall")
-(GRAVITY,) = (row for row in _binding.properties("solver") if row.name == "gravity")
+WALL = properties("wall")
+(GRAVITY,) = (row for row in properties("solver") if row.name == "gravity")
 
 
 def entries(kind):
@@ -84,7 +84,7 @@ def test_defaults_of_walls(kind):
 
 def test_solver():
     """`dd.Solver` has what the table of the solver has, but for what analyses and walls have themselves."""
-    rows = {row.name: row for row in _binding.properties("solver")}
+    rows = {row.name: row for row in properties("solver")}
     fields = {field.name: field for field in dataclasses.fields(dd.Solver)}
     assert set(fields) | {"estimate_error", "gravity"} == set(rows)
     assert "estimate_error" in inspect.signature(dd.multiple_stripe).parameters
@@ -119,7 +119,7 @@ def test_template_has_every_property(run, tmp_path):
     }.items():
         text = run("--template", task).stdout
         for group in groups:
-            for row in _binding.properties(group):
+            for row in properties(group):
                 if {"history", "stripes", "typology"} & set(row.owners) and task not in row.owners:
                     continue
                 assert re.search(rf"^[ !]*{row.name}\b.*! ", text, re.M), (task, row.name)

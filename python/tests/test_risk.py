@@ -587,7 +587,7 @@ def test_hazard_that_is_no_utf8(tmp_path):
     with pytest.raises(dd.InputError, match=r"line 1: byte 7 \(E0\) is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"):
         dd.HazardCurve.from_csv(path)
     path.write_text(table, encoding="utf-16")
-    assert dd.HazardCurve.from_csv(path).im_levels[1] == 0.2
+    assert dd.HazardCurve.from_csv(path).levels[1] == 0.2
 
 
 def test_shown(hazard, curve):

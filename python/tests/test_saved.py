@@ -10,6 +10,7 @@ import zipfile
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import study
 from dondolo._storage import saved
 
 import dondolo as dd
@@ -174,7 +175,7 @@ def test_a_loaded_typology_goes_on(results, tmp_path):
     results["one mechanism"].write_results(tmp_path / "a")
     dd.load(tmp_path / "one.npz").write_results(tmp_path / "b")
     for name in ("run.json", "typology.csv", "fragility.csv", "stripes.csv", "walls.csv"):
-        assert (tmp_path / f"a_{name}").read_bytes() == (tmp_path / f"b_{name}").read_bytes(), name
+        assert study.nameless(tmp_path / f"a_{name}") == study.nameless(tmp_path / f"b_{name}"), name
     # What was read back from tables has no flags
     stored = dd.read_results(tmp_path / "a").typology
     stored.save(tmp_path / "stored.npz")

@@ -94,7 +94,10 @@ def test_html_is_escaped():
         ),
         (lambda: dd.OneSidedWall("3", 0.25), "height = '3': must be a number"),
         (lambda: dd.OneSidedWall(3.0, None), "thickness: must be given"),
-        (lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"), "name: must be one line without control characters"),
+        (
+            lambda: dd.OneSidedWall(3.0, 0.25, name="a\nb"),
+            r"name = 'a\nb': must be one line without control characters and marks of direction",
+        ),
     ],
 )
 def test_errors(make, sentence):

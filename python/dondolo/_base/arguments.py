@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import unicodedata
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from dondolo.errors import InputError
 
 FloatArray = NDArray[np.float64]
+_T = TypeVar("_T")
 
 # Control characters (Cc) and what ends a line in Unicode could forge lines of a result file; marks, embeddings,
 # overrides and isolates of the bidirectional algorithm a name that looks like another (src/dondolo/base/text/plain.f90)
@@ -73,6 +74,13 @@ def increasing(name: str, values: ArrayLike) -> FloatArray:
         raise InputError(f"{name} = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly")
     levels.flags.writeable = False
     return levels
+
+
+def instance_of(name: str, value: Any, kind: type[_T], what: str) -> _T:
+    """Check that what a user gives is of a class; `what` says what else it is, such as 'no wall'."""
+    if not isinstance(value, kind):
+        raise InputError(f"{name}: {type(value).__name__} is {what}")
+    return value
 
 
 def one_of(name: str, value: Any, allowed: Iterable[str]) -> None:

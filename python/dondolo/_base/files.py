@@ -9,6 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+from dondolo._base.transactions import create, new_run, staged, synchronize
 from dondolo.errors import DondoloError, InputError, MissingFileError
 
 
@@ -55,6 +56,8 @@ def read_text(path: str | os.PathLike[str]) -> str:
 def whole_file(path: Any) -> Iterator[Path]:
     """A file that appears whole or not at all: gives the part to write, which then takes the file's place.
 
+    The part has a name that no other process gives a file; of two that write one file, the later one stays.
+
     Parameters
     ----------
     path : path
@@ -63,7 +66,7 @@ def whole_file(path: Any) -> Iterator[Path]:
     Yields
     ------
     Path
-        Beside the file, gone at the end whatever happens.
+        An empty file beside the file, gone at the end whatever happens.
 
     Raises
     ------
@@ -73,9 +76,11 @@ def whole_file(path: Any) -> Iterator[Path]:
         The file cannot be written.
     """
     target = as_file("path", path)
-    part = target.with_name(target.name + ".part")
+    part = staged(target, new_run())
     try:
+        create(part)
         yield part
+        synchronize(part)
         part.replace(target)
     except OSError as error:
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
@@ -107,22 +112,3 @@ def check_replaced(path: Any, mark: str, kind: str) -> None:
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
     if mark not in start:
         raise InputError(f"{target}: exists, and is no {kind} of dondolo")
-
-
-def remove_old(path: Path, mark: str) -> None:
-    """Remove a result of an earlier run that a new one does not replace; what begins otherwise stays.
-
-    Parameters
-    ----------
-    path : Path
-        The file; nothing happens where there is none.
-    mark : str
-        What every file of the kind begins with.
-    """
-    with suppress(OSError):
-        if not path.is_file():
-            return
-        with path.open("rb") as file:
-            begin = file.read(len(mark))
-        if begin == mark.encode():
-            path.unlink()

@@ -1,4 +1,4 @@
-"""Modules of the Fortran extension, which f2py makes from their sources; _binding gives their results types."""
+"""Modules of the Fortran extension, which f2py makes of their sources; those beside it give their results types."""
 
 from typing import Any
 

@@ -2,7 +2,6 @@
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_interrupt, only : look_for_interrupt
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_memory => check_room
    use dondolo_record, only : largest_acceleration
@@ -13,7 +12,7 @@ module dondolo_boundary
    implicit none
    private
 
-   public :: report, check_room, check_interrupt, check_scale, next_line, split_lines, as_solver, unpack_response
+   public :: report, check_room, check_scale, next_line, split_lines, as_solver, unpack_response
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
@@ -55,17 +54,6 @@ contains
       if (present(reals)) bytes = bytes + real(storage_size(reals)/8, c_double)*reals
       call check_memory(bytes, error)
    end subroutine check_room
-
-   !> Check that Ctrl-C did not break off what was computed
-   subroutine check_interrupt(error)
-      !> It did
-      type(error_type), allocatable, intent(out) :: error
-
-      integer(c_int) :: interrupted
-
-      call look_for_interrupt(interrupted)
-      if (interrupted == 1) call raise_failure(error, 'interrupted')
-   end subroutine check_interrupt
 
    !> Check the scale of a record
    subroutine check_scale(suite, number, scale, error)

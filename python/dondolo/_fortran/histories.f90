@@ -1,10 +1,11 @@
 !> Time histories of one wall.
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, check_scale, report, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_suite, find_walls
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_memory, only : check_memory => check_room, raise_shortage
    use dondolo_parcel, only : parcel_type, send
    use dondolo_plausibility, only : wall_warning_type

@@ -2,11 +2,12 @@
 module stores
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_boundary, only : check_interrupt, check_room, report
+   use dondolo_boundary, only : check_room, report
    use dondolo_error, only : error_type, raise_failure
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_handles, only : find_store, find_study, find_walls, hold, release
    use dondolo_identity, only : add_wall, study_identity
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population, only : member_type
    use dondolo_row_result, only : row_result_type, shape_type

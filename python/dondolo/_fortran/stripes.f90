@@ -1,10 +1,11 @@
 !> Studies, and the multiple stripes of walls under them.
 module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_interrupt, check_room, report, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, report, unpack_response
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : add_place, error_type
    use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_parcel, only : parcel_type, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_scaling, only : new_scaling, scaling_type, unscaled

@@ -10,10 +10,11 @@ from datetime import datetime
 from typing import Any
 
 from dondolo._base.files import read_text
-from dondolo._fortran import _binding
+from dondolo._base.transactions import Written
+from dondolo._fortran.library import unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
-FORMAT = "dondolo run 1"
+FORMAT = "dondolo run 2"
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,12 @@ class RunFile:
         When the file was written.
     path : str
         The file, for messages.
+    run : str
+        Name of the run, which every table of the set gives.
+    shape : mapping
+        Numbers of walls (rows of the population), levels, damage states and records; Python does not write the last.
+    files : tuple of Written
+        The tables of the set.
     """
 
     version: str
@@ -84,6 +91,9 @@ class RunFile:
     warnings: tuple[DondoloWarning, ...] = ()
     written: datetime | None = None
     path: str = ""
+    run: str = ""
+    shape: Mapping[str, int] = field(default_factory=dict)
+    files: tuple[Written, ...] = ()
 
     def setting(self, group: str, name: str, default: Any) -> Any:
         """A variable of a group; `default`, which has the type it must have, if it is not there."""
@@ -94,9 +104,10 @@ class RunFile:
 
     def to_json(self) -> str:
         """The text of the file."""
-        content: dict[str, Any] = {"format": FORMAT, "version": self.version}
+        content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
-        content |= {"settings": self.settings, "inputs": self.inputs, "records": self.records}
+        content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape, "records": self.records}
+        content["files"] = [file._asdict() for file in self.files]
         if self.work:
             content["work"] = self.work
         content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
@@ -132,6 +143,7 @@ def read_run_file(path: str) -> RunFile:
         raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")
     try:
         work, history = _member(content, "work", dict, {}), _member(content, "history", dict, {})
+        shape = _member(content, "shape", dict)
         return RunFile(
             _member(content, "version", str),
             _member(content, "compiler", str, ""),
@@ -146,12 +158,20 @@ def read_run_file(path: str) -> RunFile:
             {name: _member(work, name, int) for name in work},
             _history(history) if history else None,
             tuple(_all(content, "notes", str)),
-            tuple(_binding.unpack_warning(one) for one in _all(content, "warnings", dict)),
+            tuple(unpack_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
+            _member(content, "run", str),
+            {name: _member(shape, name, int) for name in shape},
+            tuple(_written(one) for one in _all(content, "files", dict)),
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error
+
+
+def _written(content: Mapping[str, Any]) -> Written:
+    """A table of the set."""
+    return Written(_member(content, "name", str), _member(content, "bytes", int), _member(content, "crc32", str))
 
 
 def _history(content: Mapping[str, Any]) -> HistoryResult:

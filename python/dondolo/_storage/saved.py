@@ -38,7 +38,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from dondolo._base.files import as_file, check_replaced, whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 
 _VERSION = 1
@@ -72,7 +72,7 @@ class Saved:
     def __post_init__(self) -> None:
         # Nobody changes a result.
         for value in vars(self).values():
-            if isinstance(value, np.ndarray):
+            if type(value) is np.ndarray:
                 value.flags.writeable = False
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -96,7 +96,7 @@ class Saved:
             raise InputError(f"path = {os.fspath(path)!r}: must end in {_SUFFIX}")
         arrays: list[_Array] = []
         tree = _encode(self, type(self).__name__, arrays, {})
-        content = {"format": "dondolo result", "format_version": _VERSION, "dondolo": _binding.constants().version}
+        content = {"format": "dondolo result", "format_version": _VERSION, "dondolo": constants().version}
         check_replaced(target, _MARK, "result")
         with whole_file(target) as part, zipfile.ZipFile(part, "w") as archive:
             # A ZipInfo has a date of its own, not today's.
@@ -174,7 +174,7 @@ def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
     if version > _VERSION:
         raise InputError(
             f"{source}: was saved by dondolo {origin} in format {version};"
-            f" this is {_binding.constants().version}, which reads formats up to {_VERSION}"
+            f" this is {constants().version}, which reads formats up to {_VERSION}"
         )
     return result, origin, arrays
 
@@ -232,7 +232,7 @@ def _decode(tree: Any, arrays: Mapping[str, _Array]) -> Any:
     if what in plain:
         return plain[what]()
     if what not in _TYPES:
-        raise InputError(f"{what}: is no kind of result of this version, {_binding.constants().version}")
+        raise InputError(f"{what}: is no kind of result of this version, {constants().version}")
     kind = _TYPES[what]
     if issubclass(kind, Enum):
         return kind(inner)

@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import one_of
 from dondolo._base.files import whole_file
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
 from dondolo.errors import DondoloError
 
 # Columns of equal length, arrays or lists
@@ -59,7 +59,12 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
     comments : iterable of str
         Lines for the head of the file.
     """
-    write_lines(path, csv_lines(table, [f"dondolo {_binding.constants().version}", *comments]))
+    write_lines(path, result_lines(table, comments))
+
+
+def result_lines(table: Table, comments: Iterable[str]) -> list[str]:
+    """Lines of a table of results; the first names dondolo."""
+    return csv_lines(table, [f"dondolo {constants().version}", *comments])
 
 
 def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], str] = digits) -> list[str]:

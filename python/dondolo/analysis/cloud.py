@@ -53,12 +53,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_number, instance_of, shaped
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Polarity, Request, check_threads, new_request
+from dondolo.analysis.request import Polarity, Request, check_threads, new_request, polarity_names
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
@@ -272,7 +273,7 @@ class Cloud(Shown, Saved):
             "wall": [self.wall.name] * len(self.edp),
             "mechanism": [self.wall.mechanism] * len(self.edp),
             "record": [self.records[i].name for i in self.record_index],
-            "polarity": ["reversed" if sign < 0 else "as_recorded" for sign in self.polarity],
+            "polarity": polarity_names(self.polarity),
             "im": [self.im] * len(self.edp),
             "intensity": self.intensity,
             "scale": [self.scale] * len(self.edp),
@@ -287,7 +288,7 @@ class Cloud(Shown, Saved):
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the points, with the fitted models in the head of the file."""
         comments = [repr(self.wall), *(f"{what}: {text}" for what, text in self._facts()[1:])]
-        tables.write_csv(path, self._table(), [*comments, f"unit of intensity: {_binding.unit_of(self.im) or '1'}"])
+        tables.write_csv(path, self._table(), [*comments, f"unit of intensity: {unit_of(self.im) or '1'}"])
 
     def _facts(self) -> list[tuple[str, str]]:
         line = self.regression
@@ -356,8 +357,7 @@ def cloud(
     -----
     Jalayer and others (2017). The docstring of the module dondolo.cloud has the formulas.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     several = as_records(records)
     factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:
@@ -377,7 +377,7 @@ def cloud(
         check_threads(threads),
     )
     plan = request.plan()
-    _binding.warn(plan.warnings)
+    warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if interrupted:
         raise Interrupted(f"interrupted: {outcome.done} of {len(plan.record)} histories are complete")
@@ -410,7 +410,7 @@ def _intensities(
     scale = request.plan().scale[0]
     if not scale.all():
         raise InputError(f"records: '{records[int(np.argmin(scale))].name}' is without motion")
-    return _SMALL_LEVEL * (factor / scale) ** _binding.describe_measure(request.im).power, request.im
+    return _SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
 
 
 def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray) -> dict[str, Any]:

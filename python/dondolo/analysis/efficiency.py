@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, new_request
@@ -93,7 +93,7 @@ class IntensityComparison(Saved):
     def _table(self) -> tables.Table:
         return {
             "im": self.ims,
-            "unit": [_binding.describe_measure(im).unit or "-" for im in self.ims],
+            "unit": [describe_measure(im).unit or "-" for im in self.ims],
             "theta": [curve.theta for curve in self.curves],
             "beta": [curve.beta for curve in self.curves],
             "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
@@ -118,7 +118,7 @@ class IntensityComparison(Saved):
         ]
         for i in np.argsort(self.ratio):
             curve, (low, high) = self.curves[i], self.ratio_interval[i]
-            unit = _binding.describe_measure(curve.im).unit or "-"
+            unit = describe_measure(curve.im).unit or "-"
             lines.append(
                 f"{curve.im:<14}{unit:<5}{curve.theta:>9.4g}{curve.se_ln_theta:>8.4f}{curve.beta:>8.4f}"
                 f"{curve.se_beta:>8.4f}{self.dispersion[i]:>12.4f}{self.se_dispersion[i]:>8.4f}"
@@ -181,7 +181,7 @@ def compare_intensities(
         A measure without a curve: too few records, say.
     """
     several = as_records(records)
-    names = [_binding.describe_measure(im).name for im in as_measures(ims)]
+    names = [describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
     count = as_count("n_levels", n_levels, 2)
@@ -194,7 +194,7 @@ def compare_intensities(
         curves.append(analyses[-1].fit(events=events))
         if not curves[-1].has_fit:
             raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
-    power = np.array([_binding.describe_measure(im).power for im in names], dtype=np.float64)
+    power = np.array([describe_measure(im).power for im in names], dtype=np.float64)
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
@@ -231,7 +231,7 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
     moving = plan.scale[0] > 0.0
     if not moving.any():
         raise InputError("records: all are without motion")
-    power = _binding.describe_measure(im).power
+    power = describe_measure(im).power
     peaks = (plan.scale[0] * pga[plan.record])[moving]
     start = _SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)

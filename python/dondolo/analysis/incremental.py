@@ -42,15 +42,17 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
+from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import FEWEST, Clusters, errors_of_parts, no_errors
 from dondolo.curves.fragility import Fragility, extrapolation, with_errors
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -186,10 +188,10 @@ class Incremental(Shown, Saved):
             naive_covariance=covariance,
         )
         if status == "extrapolated":
-            _binding.warn([extrapolation(curve)])
+            warn([extrapolation(curve)])
         elif status != "ok":
             sentence = f"no curve of first collapses is fitted (status '{status}')"
-            _binding.warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
+            warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
         return curve if errors is None else with_errors(curve, errors)
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -219,7 +221,7 @@ class Incremental(Shown, Saved):
             "records": lambda: {
                 "wall": [stripes.wall.name] * len(self.first_collapse),
                 "record": stripes.record_names,
-                "polarity": ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity],
+                "polarity": polarity_names(stripes.polarity),
                 "im": [stripes.im] * len(self.first_collapse),
                 "first_collapse": np.where(np.isfinite(self.first_collapse), self.first_collapse, np.nan),
                 "last_survival": np.where(self.last_survival > 0.0, self.last_survival, np.nan),
@@ -243,11 +245,11 @@ class Incremental(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
-        comments = [repr(self.stripes.wall), f"unit of the levels: {_binding.unit_of(self.stripes.im) or '1'}"]
+        comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.stripes.im)}".rstrip()
+        unit = blank_unit(self.stripes.im)
         none = f"above {self.levels[-1]:g}"
         fractiles = (f"{level:g}" if np.isfinite(level) else none for level in self.level_fractiles)
         return [
@@ -280,8 +282,7 @@ def incremental(stripes: Stripes) -> Incremental:
     -----
     Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
     """
-    if not isinstance(stripes, Stripes):
-        raise InputError(f"stripes: {type(stripes).__name__} are no stripes")
+    instance_of("stripes", stripes, Stripes, "no Stripes")
     levels, collapsed = stripes.levels, stripes.collapsed
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])

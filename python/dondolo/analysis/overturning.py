@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, instance_of, one_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import check, stoppable
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
@@ -281,8 +282,7 @@ def overturning_spectrum(
     overturning are counted to the end, also after the pulse; a wall that survives always falls back on its base, and
     its impacts are those while the pulse lasts. docs/processing.md compares with published values.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     one_of("polarity", polarity, ("as_recorded", "reversed"))
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):
@@ -410,7 +410,7 @@ class _Runner(NamedTuple):
             * self.wall.gravity
             / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
         )
-        with _binding.stoppable():
+        with stoppable():
             edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,
@@ -420,7 +420,7 @@ class _Runner(NamedTuple):
                 self.settings,
                 self.threads,
             )
-        _binding.check(stat, message)
+        check(stat, message)
         return edp, collapsed == 1, impacts, time
 
 

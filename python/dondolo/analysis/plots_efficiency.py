@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure
 from dondolo.analysis.efficiency import IntensityComparison
 from dondolo.figures import style
 from dondolo.figures.curves import POINTS
@@ -26,7 +26,7 @@ def draw_comparison(comparison: IntensityComparison, ax: Iterable[Axes] | None) 
     grid = np.geomspace(0.2, 5.0, POINTS)
     for row, (i, color) in enumerate(zip(order, colors, strict=True)):
         curve = comparison.curves[i]
-        power = _binding.describe_measure(curve.im).power
+        power = describe_measure(curve.im).power
         left.plot(
             grid,
             curve(grid**power * curve.theta),

@@ -17,8 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_text
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check, properties, receive, stoppable, unpack_warnings
+from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import DondoloWarning
@@ -35,6 +37,11 @@ _FIRST_SAMPLES = 10_000_000
 
 #: Polarities of the records in an analysis
 Polarity = Literal["as_recorded", "reversed", "both"]
+
+
+def polarity_names(signs: IntArray) -> list[str]:
+    """The polarities of histories as tables have them, of +1 and -1."""
+    return ["reversed" if sign < 0 else "as_recorded" for sign in signs]
 
 
 class Plan(NamedTuple):
@@ -93,11 +100,11 @@ class Request:
         suite = upload_records(self.records)
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
-            _binding.check(*_core.records.measure_suite(suite.number, words[0], self.threads))
+            check(*_core.records.measure_suite(suite.number, words[0], self.threads))
         number, stat, message = _core.stripes.new_study(
             suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
         )
-        _binding.check(stat, message)
+        check(stat, message)
         return Handle(number, suite)
 
     @functools.cached_property
@@ -118,11 +125,11 @@ class Request:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
         histories, *sent = _core.stripes.plan(study, people, walls)
-        found = _binding.unpack_warnings(_binding.receive(*sent).lines)
+        found = unpack_warnings(receive(*sent).lines)
         record, polarity, scale, stat, message = _core.stripes.scales(
             study, people, walls, histories[-1], len(self.levels)
         )
-        _binding.check(stat, message)
+        check(stat, message)
         return Plan(histories, record - 1, polarity, scale.T, found)
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
@@ -146,11 +153,11 @@ class Request:
             first = done - (int(ends[one - 1]) if one else 0)
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
-            with _binding.stoppable():
+            with stoppable():
                 counts, stat, message = _core.stripes.run_block(
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
-            _binding.check(stat, message)
+            check(stat, message)
             works.append(Work.of(counts))
 
         done, interrupted = in_blocks(total, pace, block, report)
@@ -216,13 +223,13 @@ def new_request(
     levels.flags.writeable = False
     how = as_solver(solver)
     settings = how._settings(estimate_error, collapses_only)
-    name = _binding.describe_measure(im).name
+    name = describe_measure(im).name
     return Request(tuple(walls), tuple(records), levels, name, polarity, how.engine, settings, team)
 
 
 def check_threads(threads: int) -> int:
     """A number of threads; 0 stands for all."""
-    (row,) = (row for row in _binding.properties("job") if row.name == "threads")
+    (row,) = (row for row in properties("job") if row.name == "threads")
     return as_count("threads", threads, 0, int(row.largest))
 
 

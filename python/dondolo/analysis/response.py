@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_number, as_text, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
+from dondolo._fortran.library import check, receive, stoppable, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
@@ -243,14 +245,12 @@ def simulate(
     -----
     Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
-    if not isinstance(record, Record):
-        raise InputError(f"record: {type(record).__name__} is no record")
+    instance_of("wall", wall, Wall, "no wall")
+    instance_of("record", record, Record, "no record")
     factor = as_number("scale", scale)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
-    with _binding.stoppable():
+    with stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
             upload((wall,)).number,
             *place_of(record),
@@ -259,15 +259,15 @@ def simulate(
             settings,
             int(history),
         )
-    _binding.check(stat, message)
+    check(stat, message)
     if sentences := _warnings(wall, record.name, record.peak_acceleration):
-        _binding.warn(sentences)
+        warn(sentences)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
     if estimate_error:
-        _binding.warn(_binding.warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
+        warn(warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
     if history:
-        parcel = _binding.receive(sent, stat, message)
+        parcel = receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
         names = ("time", "ground_acceleration", "rotation", "velocity")
         motion = dict(zip(names, parcel.reals.reshape(4, -1), strict=True))
@@ -289,7 +289,7 @@ def simulate(
 @functools.lru_cache
 def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return _binding.warnings_of_motion(upload((wall,)), record, pga)
+    return warnings_of_motion(upload((wall,)), record, pga)
 
 
 def history_table(response: Response) -> tables.Table:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
-from dondolo.errors import InputError
+from dondolo._base.arguments import FloatArray, instance_of
+from dondolo._fortran.histories import settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +43,7 @@ class Solver:
     ) -> FloatArray:
         """Its numbers as Fortran takes them; edp_limit is the analysis's own, where none is given."""
         limit = edp_limit if self.edp_limit is None else self.edp_limit
-        return _binding.settings(self.rtol, self.atol, limit, estimate_error, collapses_only)
+        return settings(self.rtol, self.atol, limit, estimate_error, collapses_only)
 
 
 _DEFAULT = Solver()
@@ -54,6 +53,5 @@ def as_solver(solver: Solver | None) -> Solver:
     """The solver of an analysis; the default where none is given."""
     if solver is None:
         return _DEFAULT
-    if not isinstance(solver, Solver):
-        raise InputError(f"solver: {type(solver).__name__} is no Solver")
+    instance_of("solver", solver, Solver, "no Solver")
     return solver

@@ -11,12 +11,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_number, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import CurveData, warnings_of_curve
+from dondolo._fortran.histories import warnings_of_errors
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request
+from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request, polarity_names
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
@@ -172,10 +175,10 @@ class Stripes(Shown, Saved):
         low, high = curve.bracket
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
-        data = _binding.CurveData(curve.status, numbers)
-        sentences = _binding.warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
+        data = CurveData(curve.status, numbers)
+        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
         where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
-        _binding.warn(sentence.placed(where) for sentence in sentences)
+        warn(sentence.placed(where) for sentence in sentences)
         return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -264,15 +267,14 @@ class Stripes(Shown, Saved):
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
-            f"unit of im_level: {_binding.unit_of(self.im) or '1'}",
+            f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = _binding.unit_of(self.im)
         return [
             ("wall", self.wall.name),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
             ("histories of a stripe", str(self.edp.shape[1])),
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
@@ -337,19 +339,18 @@ def multiple_stripe(
     -----
     Section 3.3 of Nale et al.
     """
-    if not isinstance(wall, Wall):
-        raise InputError(f"wall: {type(wall).__name__} is no wall")
+    instance_of("wall", wall, Wall, "no wall")
     several = as_records(records)
     request = new_request((wall,), several, levels, im, polarity, solver, threads, estimate_error)
     try:
         plan = request.plan()
     except KeyboardInterrupt:
         raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
-    _binding.warn(plan.warnings)
+    warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
         stripes = _stripes(request, several, plan, outcome, len(request.levels))
-        _binding.warn(_warnings(stripes))
+        warn(_warnings(stripes))
         return stripes
     complete = outcome.done // len(plan.record)
     partial = _stripes(request, several, plan, outcome, complete) if complete else None
@@ -360,17 +361,12 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
     """The stripes up to a level."""
     shape = (complete, len(plan.record))
     size = complete * len(plan.record)
-    flat: tuple[Any, ...] = outcome[:5]
-    edp, collapsed, impacts, time_of_peak, error = (values[:size].reshape(shape) for values in flat)
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=request.levels[:complete],
-        edp=edp,
-        collapsed=collapsed,
-        impacts=impacts,
-        time_of_peak=time_of_peak,
         scale=plan.scale[:complete],
         record_names=tuple(records[i].name for i in plan.record),
         polarity=plan.polarity,
@@ -379,9 +375,9 @@ def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome:
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
-        edp_error=error if estimated else None,
         events=tuple(record.event for record in records),
         checksums=tuple(record.checksum for record in records),
+        **{name: getattr(outcome, name)[:size].reshape(shape) for name in names},
     )
 
 
@@ -390,7 +386,7 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     if stripes.edp_error is None:
         return []
     level, history = np.unravel_index(stripes.edp_error.argmax(), stripes.edp_error.shape)
-    return _binding.warnings_of_errors(
+    return warnings_of_errors(
         stripes.edp,
         stripes.edp_error,
         stripes.edp_limit,
@@ -402,7 +398,7 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
 def histories_table(stripes: Stripes) -> tables.Table:
     """Columns of ``_histories.csv``."""
     levels, histories = stripes.edp.shape
-    polarity = ["reversed" if sign < 0 else "as_recorded" for sign in stripes.polarity]
+    polarity = polarity_names(stripes.polarity)
     table: tables.Table = {
         "wall": [stripes.wall.name] * stripes.edp.size,
         "mechanism": [stripes.wall.mechanism] * stripes.edp.size,

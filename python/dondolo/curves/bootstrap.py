@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import fit_curves
 from dondolo._storage.saved import Saved
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloError, InputError
@@ -137,7 +137,7 @@ def fit_samples(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray
 ) -> tuple[FloatArray, FloatArray, np.ndarray[Any, Any]]:
     """Curves of many samples: theta and beta, NaN where a sample has no fit, and the status of each."""
-    curves, statuses = _binding.fit_curves(levels, collapses, histories)
+    curves, statuses = fit_curves(levels, collapses, histories)
     status = np.array(statuses)
     fitted = np.isin(status, ("ok", "extrapolated"))
     return np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status

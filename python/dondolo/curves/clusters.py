@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import cluster_changes
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import Sample
 
@@ -93,7 +93,7 @@ def errors_of_counts(
     at: tuple[float, float],
 ) -> Errors:
     """Standard errors of a curve with parameters (theta, beta), from counts (clusters, levels) of each cluster."""
-    changes, errors = _binding.cluster_changes(levels, collapses, histories, *at)
+    changes, errors = cluster_changes(levels, collapses, histories, *at)
     if errors != "clustered":
         return no_errors(errors, len(labels))
     changes.flags.writeable = False

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, tails
+from dondolo._base.arguments import FloatArray, instance_of, tails
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
@@ -85,8 +85,7 @@ def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) ->
         A curve without a fit or without standard errors.
     """
     for curve in (first, second):
-        if not isinstance(curve, Fragility):
-            raise InputError(f"curves: {type(curve).__name__} is no fragility curve")
+        instance_of("curves", curve, Fragility, "no fragility curve")
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):

@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import CurveData, fit_curves, probability
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
@@ -138,7 +140,7 @@ class Fragility(Shown, Saved):
         """
         self._need_fit()
         values = as_levels(x)
-        return shaped(self.saturation * _binding.probability(self.theta, self.beta, values.ravel()), values)
+        return shaped(self.saturation * probability(self.theta, self.beta, values.ravel()), values)
 
     def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
@@ -291,7 +293,7 @@ class Fragility(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as the executable's ``_fragility.csv``."""
-        comments = [f"unit of theta: {_binding.unit_of(self.im) or '1'}"] if self.im else []
+        comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
         tables.write_csv(path, fragility_table([self.wall], [self]), comments)
 
     def _need_fit(self) -> None:
@@ -312,7 +314,7 @@ class Fragility(Shown, Saved):
         return float(stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper))
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.im)}".rstrip()
+        unit = blank_unit(self.im)
         if not self.has_fit:
             low, high = self.bracket
             return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
@@ -375,7 +377,7 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     """
     curve = fit(*_counts(levels, collapses, histories), im=im)
     if curve.status == "extrapolated":
-        _binding.warn([extrapolation(curve)])
+        warn([extrapolation(curve)])
     return curve
 
 
@@ -391,8 +393,8 @@ def extrapolation(curve: Fragility) -> DondoloWarning:
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
     """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
-    curves, statuses = _binding.fit_curves(levels, collapses[None, :], histories[None, :])
-    curve = curve_of(_binding.CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
+    curve = curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
     if curve.has_fit and curve.sample is not None:
         return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))
     return curve
@@ -405,7 +407,7 @@ def with_errors(curve: _Curve, errors: Errors) -> _Curve:
 
 
 def curve_of(
-    data: _binding.CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
+    data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
 ) -> Fragility:
     """A curve as Fortran has fitted it."""
     theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dondolo._base.arguments import tails
-from dondolo._fortran import _binding
+from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 
@@ -50,7 +50,7 @@ def draw_fragility(
         band = np.asarray(fragility.interval(grid, confidence=confidence))
         text = f"{100.0 * confidence:.4g} % band" if label is None else None
         ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
-        unit = f" {_binding.unit_of(fragility.im)}".rstrip()
+        unit = blank_unit(fragility.im)
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
         ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
     else:
@@ -77,6 +77,6 @@ def parameters(fit: Fragility) -> str:
     """Median and dispersion for a legend."""
     if not fit.has_fit:
         return f"no fit ({fit.status.replace('_', ' ')})"
-    unit = f" {_binding.unit_of(fit.im)}".rstrip()
+    unit = blank_unit(fit.im)
     times = f", times {fit.saturation:.2g}" if fit.saturation < 1.0 else ""
     return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}{times}"

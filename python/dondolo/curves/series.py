@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import rows_in_series
 
 
 def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatArray:
@@ -25,5 +25,5 @@ def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatAr
     ndarray, shape (walls, ...)
     """
     number = np.diff(first, append=len(probabilities))
-    whole = _binding.in_series(probabilities.reshape(len(probabilities), -1), number)
+    whole = rows_in_series(probabilities.reshape(len(probabilities), -1), number)
     return whole.reshape(len(first), *probabilities.shape[1:])

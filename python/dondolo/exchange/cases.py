@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from dondolo._base.arguments import FloatArray, as_path
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import receive, warn_of_notes
+from dondolo._fortran.records import records_end, unpack_records
+from dondolo._fortran.walls import unpack_walls, walls_end
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
@@ -134,17 +137,17 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
-    parcel = _binding.receive(*_core.cases.read_case(as_path(path)))
+    parcel = receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine = parcel.lines[:6]
     places = [5 + levels + thresholds, 6, 6]
-    people = [wall_from(data) for data in _binding.unpack_walls(parcel, walls, *places)]
-    reals, integers, lines = (place + more for place, more in zip(places, _binding.walls_end(walls), strict=True))
+    people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
+    reals, integers, lines = (place + more for place, more in zip(places, walls_end(walls), strict=True))
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
     groups = parcel.lines[lines : lines + walls]
-    motions = _binding.unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
-    _binding.warn_of_notes(parcel.lines[_binding.records_end(parcel, records, integers, lines + walls) :])
+    motions = unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
+    warn_of_notes(parcel.lines[records_end(parcel, records, integers, lines + walls) :])
     return Case(
         task=task,
         title=title,

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
-from dondolo.errors import InputError, silent
+from dondolo._base.arguments import FloatArray, instance_of
+from dondolo._fortran.records import blank_unit
+from dondolo.errors import silent
 from dondolo.exchange.nrml import DiscreteFragility
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
@@ -72,8 +72,7 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
     ['population/one_sided']
     >>> dd.write_nrml("centre.xml", functions)
     """
-    if not isinstance(typology, Typology):
-        raise InputError(f"typology: {type(typology).__name__} is no typology")
+    instance_of("typology", typology, Typology, "no typology")
     damages = [float(edp) for edp in typology.edp_thresholds[:-1]]
     with silent():
         # What has no fit takes part with its fractions.
@@ -98,7 +97,7 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
         functions[name] = {
             state: DiscreteFragility(levels, p, im=typology.im) for state, p in zip(states, rising, strict=True)
         }
-        unit = f" {_binding.unit_of(typology.im)}".rstrip()
+        unit = blank_unit(typology.im)
         for state, before, inside, after in zip(states, raw, ordered, rising, strict=True):
             for lift, reason in (
                 (inside - before, "where a more severe state is more probable"),

@@ -59,7 +59,8 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
 from dondolo._base.files import check_replaced
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
+from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
@@ -115,11 +116,11 @@ class DiscreteFragility(Shown, Saved):
             i = int(np.argmax(np.diff(p) < 0.0))
             raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
         p.flags.writeable = False
-        for what, value in (("levels", x), ("probability", p), ("im", _binding.describe_measure(im).name)):
+        for what, value in (("levels", x), ("probability", p), ("im", describe_measure(im).name)):
             object.__setattr__(self, what, value)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.im)}".rstrip()
+        unit = blank_unit(self.im)
         ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
         chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
         return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]
@@ -201,7 +202,7 @@ def write_nrml(
         else:
             _discrete(model, taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
     ElementTree.indent(root)
-    head = ["<?xml version='1.0' encoding='utf-8'?>", f"{_MARK}{_binding.constants().version} -->"]
+    head = ["<?xml version='1.0' encoding='utf-8'?>", f"{_MARK}{constants().version} -->"]
     tables.write_lines(path, [*head, ElementTree.tostring(root, encoding="unicode")])
 
 

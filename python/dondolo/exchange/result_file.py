@@ -5,14 +5,36 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
-from dondolo.errors import InputError
+from dondolo._base.transactions import described, run_of, staged
+from dondolo._storage.run_file import RunFile
+from dondolo.errors import InputError, MissingFileError
+
+
+class MixedError(InputError):
+    """Files of two runs: another run may have replaced them meanwhile."""
+
+
+def _text_of(path: str, run: RunFile) -> str:
+    """Text of a table, which a run that was killed may have left under its name before it was published."""
+    other = ""
+    # A run that is ending may rename it after the first look.
+    for place in (path, staged(Path(path), run.run), path):
+        with suppress(MissingFileError):
+            text = read_text(place).replace("\r\n", "\n")
+            other = run_of(text)[0] or "unknown"
+            if other == run.run:
+                return text
+    if other:
+        raise MixedError(f"{path}: is of run {other}, {run.path} of run {run.run}: they are not of one set")
+    raise MissingFileError(f"{path}: cannot be read: no such file")
 
 
 class ResultFile:
@@ -24,21 +46,33 @@ class ResultFile:
     ----------
     path : str
         The file.
+    run : RunFile
+        The file of the run, which names its tables.
 
     Raises
     ------
     InputError
         It cannot be read, or is no table.
+    MixedError
+        It is of another run.
     """
 
-    def __init__(self, path: str) -> None:
+    def __init__(self, path: str, run: RunFile) -> None:
         self.path = path
-        lines = read_text(path).replace("\r\n", "\n").split("\n")
+        self._text = _text_of(path, run)
+        lines = self._text.split("\n")
         # Comments stand at the head: a # or a line end in a cell begins none.
         head = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
         self._lines: list[int] = []
         with self.reading():
             self._columns = self._read(lines[head:], head)
+
+    def check(self, run: RunFile) -> None:
+        """Check that the file is as its run has written it; what has a worse place is said first by the others."""
+        for written in run.files:
+            if self.path.endswith(written.name) and (found := described(written.name, self._text)) != written:
+                why = f"{found.bytes} bytes, {written.bytes} written" if found.bytes != written.bytes else "its CRC-32"
+                raise InputError(f"{self.path}: is not as its run has written it ({why})")
 
     def _read(self, lines: list[str], head: int) -> dict[str, list[str]]:
         rows = csv.reader(line + "\n" for line in lines)

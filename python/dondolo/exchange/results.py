@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
-from dondolo._fortran import _binding
+from dondolo._base.transactions import RUN_FILE, TABLES, published_run
+from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
-from dondolo.exchange.result_file import ResultFile
+from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
@@ -25,7 +27,7 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall
 
 # Columns of _walls.csv and the numbers of a wall
-_WALL_COLUMNS = {row.column: row.name for row in _binding.WALL_PROPERTIES if row.column and row.kind != "text"}
+_WALL_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column and row.kind != "text"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,14 +78,33 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     Raises
     ------
     InputError
-        They are not result files of dondolo; the file and the line are named.
+        They are not result files of dondolo, are not all of one run, or not as their run has written them; the file is
+        named, and the line if there is one.
     MissingFileError
         There are no such files.
     """
-    as_file("prefix", prefix)
+    name = as_file("prefix", prefix).name
     prefix = os.fspath(prefix)
+    while True:
+        try:
+            run = read_run_file(prefix + RUN_FILE)
+        except MissingFileError:
+            for end in (*TABLES, RUN_FILE):
+                if name.endswith(end):
+                    start = prefix.removesuffix(end)
+                    raise InputError(f"prefix = {prefix!r}: must be what the names begin with, {start!r}") from None
+            raise
+        try:
+            return _read(prefix, run)
+        except (MissingFileError, MixedError):
+            # Unless another run has published its results meanwhile
+            if published_run(Path(prefix)) == run.run:
+                raise
+
+
+def _read(prefix: str, run: RunFile) -> StoredResults:
+    """The results of a run."""
     # The tables of another task may lie there from a run before: the file of the run names the task of the last.
-    run = read_run_file(prefix + "_run.json")
     task = run.setting("job", "task", "")
     names = {"history": "history", "stripes": "histories", "typology": "stripes"}
     if task not in names:
@@ -99,21 +120,25 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     limit = run.setting("solver", "edp_limit", 1.0)
     tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
     engine = run.setting("solver", "engine", "auto")
-    walls = ResultFile(prefix + "_walls.csv")
+    walls = ResultFile(prefix + "_walls.csv", run)
     with walls.reading():
         population = _population(walls, gravity)
     stored = StoredResults(population=population, run=run)
-    table = ResultFile(f"{prefix}_{names[task]}.csv")
+    table = ResultFile(f"{prefix}_{names[task]}.csv", run)
     with table.reading():
         if result is not None:
-            return replace(stored, response=_response(table, population.walls[0], result, limit))
-        if task == "stripes":
+            stored = replace(stored, response=_response(table, population.walls[0], result, limit))
+        elif task == "stripes":
             stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
             if len(run.records) == stripes.n_records:
                 events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
                 stripes = replace(stripes, events=events, checksums=checksums)
-            return replace(stored, stripes=stripes, fragility=stripes.fit())
-        return replace(stored, typology=_typology(table, population, work, run.warnings))
+            stored = replace(stored, stripes=stripes, fragility=stripes.fit())
+        else:
+            stored = replace(stored, typology=_typology(table, population, work, run.warnings))
+    walls.check(run)
+    table.check(run)
+    return stored
 
 
 def _population(table: ResultFile, gravity: float) -> Population:
@@ -138,6 +163,8 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
     time, acceleration = table.numbers("time_s"), table.numbers("ground_acceleration_m_s2")
     rotation, velocity = table.numbers("rotation_rad"), table.numbers("velocity_rad_s")
     scale = result.scale
+    if result.collapsed != (result.edp >= edp_limit):
+        raise ValueError(f"collapsed = {result.collapsed}: edp = {result.edp:g} and edp_limit = {edp_limit:g} differ")
     # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
     with np.errstate(over="ignore"):
         steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ RC: dict[Any, Any] = {
 def im_label(im: str) -> str:
     """Axis label of an intensity measure: words and unit of those that dondolo knows."""
     try:
-        measure = _binding.describe_measure(im)
+        measure = describe_measure(im)
     except InputError:
         return im if im else "intensity measure"
     return f"{measure.title} [{measure.unit or '-'}]"

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import receive, stoppable
 from dondolo.analysis.request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.store import Contents, Store
@@ -70,9 +71,9 @@ class Shared(NamedTuple):
         """Run consecutive rows of the population, the first of which has a number, from 0."""
         start = time.perf_counter()
         study, people = self.request._study, upload_walls(walls)
-        with _binding.stoppable():
+        with stoppable():
             sent = _core.stores.run_rows(study.number, people.number, len(walls), self.states, first + 1)
-        return Part(_binding.receive(*sent).integers, time.perf_counter() - start)
+        return Part(receive(*sent).integers, time.perf_counter() - start)
 
 
 def run_walls(

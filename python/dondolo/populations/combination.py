@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_text
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import fit_walls
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.curves.series import in_series
@@ -59,7 +59,7 @@ def combine_rows(
     """The curves of the last state."""
     origin = {"im": im, "edp_threshold": float(edp_thresholds[-1])}
     names = b"".join(as_text("name", wall.name) + b"\n" for wall in people.walls)
-    data = _binding.fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
+    data = fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
     own = curves_of_rows(people, levels, exceedances[-1], histories, data.rows, **origin)
     first = people.first_rows
     occurrences, least = in_series(people.p_occ, first), np.minimum.reduceat(histories, first)
@@ -71,26 +71,14 @@ def combine_rows(
         others.append(curve_of(data.walls[k], levels, n * conditional, n, **origin, saturation=occurrence))
     together = []
     for group in data.groups:
-        n = np.full(len(levels), group.histories)
-        share = group.mean_fraction / group.saturation if group.saturation > 0.0 else group.mean_fraction
-        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=group.saturation)
-        betas = (group.beta_walls, group.beta_records) if group.fitted > 0.0 else (math.nan, math.nan)
-        together.append(
-            Group(
-                group=group.group,
-                mechanism=group.mechanism,
-                n_walls=group.walls,
-                weight=group.weight,
-                mean_fraction=group.mean_fraction,
-                mean_curve=group.mean_curve,
-                level_fractiles=group.fractiles,
-                beta_walls=betas[0],
-                beta_records=betas[1],
-                fitted=group.fitted,
-                saturation=group.saturation,
-                fit=fit,
-            )
-        )
+        n, values = np.full(len(levels), group.histories), group.values
+        share, saturation = values["mean_fraction"], values["saturation"]
+        if saturation > 0.0:
+            share = share / saturation
+        if not values["fitted"] > 0.0:
+            values |= {"beta_walls": math.nan, "beta_records": math.nan}
+        fit = curve_of(group.curve, levels, n * np.minimum(share, 1.0), n, **origin, saturation=saturation)
+        together.append(Group(**values, fit=fit))
     return Typology(
         population=people,
         im=im,

@@ -19,7 +19,7 @@ from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from types import TracebackType
 from typing import Any, NamedTuple
 
-from dondolo._fortran import _binding
+from dondolo._fortran.library import build_variant, constants
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.blocks import Blocks, Part, Shared
 from dondolo.walls.wall import Wall
@@ -202,4 +202,4 @@ class Crew:
 
 def _build() -> str:
     """What results depend on besides the study."""
-    return f"dondolo {_binding.constants().version}, {_binding.build_variant()}"
+    return f"dondolo {constants().version}, {build_variant()}"

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_text
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import FlatPopulation, curve_of_population
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
@@ -32,16 +32,14 @@ if TYPE_CHECKING:
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 
-def flat_population(
-    people: Population, levels: FloatArray, counts: IntArray, histories: IntArray
-) -> _binding.FlatPopulation:
+def flat_population(people: Population, levels: FloatArray, counts: IntArray, histories: IntArray) -> FlatPopulation:
     """A population as Fortran takes it; counts are those of a damage state (rows, levels)."""
     words = (
         as_text("group", word)
         for wall, group in zip(people.walls, people.groups, strict=True)
         for word in (wall.mechanism, group)
     )
-    return _binding.FlatPopulation(
+    return FlatPopulation(
         b"".join(word + b"\n" for word in words),
         levels,
         np.ascontiguousarray(counts).T,
@@ -168,7 +166,7 @@ class PopulationCurve(Group, MeanCurve):
         source = self._source
         population = flat_population(source.population, source.levels, source.exceedances[-1].T, source.histories)
         curves = [(curve.status, curve.theta, curve.beta) for curve in source.curves]
-        return _binding.curve_of_population(population, curves, (self.mechanism, self.group), x, q, members)
+        return curve_of_population(population, curves, (self.mechanism, self.group), x, q, members)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curves of the walls, thin, with their weighted mean and fractiles.

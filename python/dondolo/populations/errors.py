@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.curves import cluster_curves
 from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
 from dondolo.curves.fragility import Fragility, with_errors
 from dondolo.curves.series import in_series
@@ -85,7 +85,7 @@ def _chunks(first: Any, ends: Any, size: int) -> Iterator[slice]:
 def _clustered(levels: FloatArray, curves: list[Fragility], counts: FloatArray, part: FloatArray) -> list[Fragility]:
     """Curves with clustered errors; only the ratio of counts and histories matters, so that a stripe counts for one."""
     data = [(curve.status, curve.theta, curve.beta) for curve in curves]
-    covariances, errors, clusters = _binding.cluster_curves(levels, counts, part, data)
+    covariances, errors, clusters = cluster_curves(levels, counts, part, data)
     covariances[[kind != "clustered" for kind in errors]] = np.nan
     return [
         with_errors(curve, Errors(covariance, kind, int(number), number - 1.0 if kind == "clustered" else np.nan))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran._binding import CurveData
+from dondolo._fortran.curves import CurveData
 from dondolo.curves.fragility import Fragility, curve_of
 from dondolo.walls.population import Population
 

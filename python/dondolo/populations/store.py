@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import as_file
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import check, receive
 from dondolo.analysis.request import Request
 from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
@@ -68,7 +69,7 @@ class Store:
         file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
         study, people = request._study.number, request._people.number
         handle, stat, message = _core.stores.open_store(file, study, people, states)
-        _binding.check(stat, message)
+        check(stat, message)
         self._handle = handle
         self._close = weakref.finalize(self, _core.stores.close_store, handle)
 
@@ -78,18 +79,18 @@ class Store:
 
     def claim(self) -> None:
         """Make the file this process's; a `DondoloError` tells that it cannot be written, or that another run does."""
-        _binding.check(*_core.stores.claim_store(self._handle))
+        check(*_core.stores.claim_store(self._handle))
 
     def put(self, block: IntArray, rows: int) -> None:
         """Put in the rows of a block; a `DondoloError` tells that they cannot be written."""
-        _binding.check(*_core.stores.put_block(self._handle, block, rows))
+        check(*_core.stores.put_block(self._handle, block, rows))
 
     def read(self) -> Contents:
         """Everything that is there."""
         request, rows = self._request, len(self._request.walls)
         complete, counts = self._state()
         states, levels = len(self._states), len(request.levels)
-        numbers = _binding.receive(*_core.stores.read_store(self._handle)).integers
+        numbers = receive(*_core.stores.read_store(self._handle)).integers
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
@@ -100,7 +101,7 @@ class Store:
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
         there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))
-        _binding.check(stat, message)
+        check(stat, message)
         return there.astype(bool), counts
 
     def __enter__(self) -> Store:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
 from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import Interrupted
@@ -105,5 +105,5 @@ def typology(
     result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told), flags)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
-    _binding.warn(result.warnings)
+    warn(result.warnings)
     return result

@@ -5,16 +5,17 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterable, Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
-from dondolo._base.files import as_file, remove_old, whole_file
+from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._base.transactions import publishing
+from dondolo._fortran.library import constants, warn
+from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
@@ -171,7 +172,7 @@ class Typology(Shown, Saved):
                 flags = self.flags.at(int(place[0]))
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             self._states[value] = state
-            _binding.warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
+            warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
     def plot(self, ax: Axes | None = None) -> Axes:
@@ -298,14 +299,16 @@ class Typology(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
+        tables.write_csv(path, tables.choose(self._tables(), table), self._comments())
+
+    def _comments(self) -> list[str]:
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
-        comments = [
+        return [
             *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
-            f"unit of im_level and theta: {_binding.unit_of(self.im) or '1'}",
+            f"unit of im_level and theta: {unit_of(self.im) or '1'}",
             f"work: {counts}",
             *(f"warning: {sentence}" for sentence in self.warnings),
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
@@ -325,9 +328,9 @@ class Typology(Shown, Saved):
     def write_results(self, prefix: str | os.PathLike[str]) -> None:
         """Write all tables into files of the names that the executable gives them.
 
-        They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. Files of
-        these names are replaced when all are written; what an earlier run has left with this prefix beside them, such
-        as ``out/centre_histories.csv``, is removed.
+        They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. They are
+        published at once, in place of those of an earlier run; what that run has left with this prefix beside them,
+        such as ``out/centre_histories.csv``, is removed.
 
         Parameters
         ----------
@@ -337,7 +340,7 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            Walls of different gravity, for which the files have no place.
+            Walls of different gravity, for which the files have no place; or another run is writing them.
         DondoloError
             A file cannot be written.
         """
@@ -347,29 +350,32 @@ class Typology(Shown, Saved):
                 f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
             )
         start = as_file("prefix", prefix)
-        with ExitStack() as files:
-            # The last to get its name, which makes the others a run
-            part = files.enter_context(whole_file(start.with_name(f"{start.name}_run.json")))
-            part.write_text(self._run_file(pulls.pop()).to_json() + "\n", encoding="utf-8")
-            for table in self._tables():
-                part = files.enter_context(whole_file(start.with_name(f"{start.name}_{table}.csv")))
-                self.to_csv(part, table)
-        for other in ("histories", "history"):
-            remove_old(start.with_name(f"{start.name}_{other}.csv"), "# dondolo ")
+        shape = self._shape()
+        comments = [f"shape: {', '.join(f'{name} = {count}' for name, count in shape.items())}", *self._comments()]
+        with publishing(start) as files:
+            for name, table in self._tables().items():
+                files.write(f"_{name}.csv", tables.result_lines(table(), [f"run: {files.run}", *comments]))
+            run = self._run_file(pulls.pop())
+            run = dataclasses.replace(run, run=files.run, shape=shape, files=tuple(files.written))
+            files.write("_run.json", [run.to_json()])
+            files.publish()
+
+    def _shape(self) -> dict[str, int]:
+        return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}
 
     def _run_file(self, gravity: float) -> RunFile:
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
         solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
         settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
-        version, work = _binding.constants().version, dataclasses.asdict(self.work)
+        version, work = constants().version, dataclasses.asdict(self.work)
         return RunFile(version, settings=settings, work=work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
-        unit, whole = _binding.unit_of(self.im), self["all"]
+        whole = self["all"]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
-            ("levels", f"{len(self.levels)} of {self.im}, {self.levels[0]:g} to {self.levels[-1]:g} {unit}".strip()),
+            ("levels", levels_in_words(self.levels, self.im)),
         ]
         if len(self.edp_thresholds) > 1:
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from dondolo._base.arguments import as_measures
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo.records.record import Record, as_records
 from dondolo.records.suite import intensities
@@ -43,6 +43,6 @@ def intensity_table(
     several = as_records(records)
     table: dict[str, Any] = {"record": [record.name for record in several]}
     for im in as_measures(ims):
-        measure = _binding.describe_measure(im, of_record=True)
+        measure = describe_measure(im, of_record=True)
         table[f"{measure.name} [{measure.unit}]"] = intensities(several, im, gravity)
     return tables.frame(table)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 
-from dondolo._fortran import _binding
+from dondolo._fortran.records import RecordData, records_of_file
 from dondolo.records.record import Record
 
 
@@ -41,7 +41,7 @@ def read_record(
         The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
     """
     name = str(channel) if isinstance(channel, int) else channel
-    (data,) = _binding.read_records(path, 0, dt, units, name, format)
+    (data,) = records_of_file(path, 0, dt, units, name, format)
     return _as_record(data)
 
 
@@ -69,7 +69,7 @@ def read_records(
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [_as_record(data) for data in _binding.read_records(path, 2, dt, units, layout=format)]
+    return [_as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)]
 
 
 def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
@@ -89,8 +89,8 @@ def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
     InputError
         The catalogue or one of its records is wrong.
     """
-    return [_as_record(data) for data in _binding.read_records(path, 1)]
+    return [_as_record(data) for data in records_of_file(path, 1)]
 
 
-def _as_record(data: _binding.RecordData) -> Record:
+def _as_record(data: RecordData) -> Record:
     return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)

@@ -13,9 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text, instance_of
 from dondolo._base.shown import html_of
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import check
+from dondolo._fortran.records import describe_measure
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records import processing as process
@@ -85,7 +87,7 @@ class Record:
         for text in steps:
             as_text("processing", text)
         peak, stat, message = _core.records.check_record(values, step)
-        _binding.check(stat, message)
+        check(stat, message)
         values.flags.writeable = False
         if not isinstance(metadata, Mapping):
             raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
@@ -411,7 +413,7 @@ class Record:
         count = as_count("n_angles", n_angles, 1, 36000)
         directions = 180.0 * np.arange(count) / count
         if isinstance(measure, str):
-            measure = partial(Record.intensity, im=_binding.describe_measure(measure, of_record=True).name)
+            measure = partial(Record.intensity, im=describe_measure(measure, of_record=True).name)
         if not callable(measure):
             raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
         values = np.empty(count)
@@ -463,12 +465,9 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     if not several:
         raise InputError("records: must be given")
     for record in several:
-        if not isinstance(record, Record):
-            raise InputError(f"records: {type(record).__name__} is no record")
+        instance_of("records", record, Record, "no record")
     return several
 
 
 def _as_record(record: Any) -> Record:
-    if not isinstance(record, Record):
-        raise InputError(f"record: {type(record).__name__} is no record")
-    return record
+    return instance_of("record", record, Record, "no record")

@@ -8,8 +8,9 @@ from typing import Protocol
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, as_text
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check, constants
 from dondolo.errors import InputError
 
 
@@ -50,7 +51,7 @@ def upload(records: tuple[Motion, ...]) -> Handle:
         np.array([record.dt for record in records]),
         np.concatenate([record.acceleration for record in records]),
     )
-    _binding.check(stat, message)
+    check(stat, message)
     suite = Handle(handle)
     for i, record in enumerate(records):
         object.__setattr__(record, "_home", (suite, i, len(records)))
@@ -67,32 +68,32 @@ def place_of(record: Motion) -> tuple[int, int]:
 
 def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = None) -> FloatArray:
     """An intensity measure of several records, in the unit of its levels."""
-    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
     values, stat, message = _core.records.intensities(upload(records).number, as_text("im", im), len(records), pull, 0)
-    _binding.check(stat, message)
+    check(stat, message)
     return np.asarray(values)
 
 
 def spectral_displacements(record: Motion, periods: FloatArray, damping: float) -> FloatArray:
     """Largest displacements of oscillators relative to the ground [m]."""
     values, stat, message = _core.records.spectrum(*place_of(record), periods, damping)
-    _binding.check(stat, message)
+    check(stat, message)
     return np.asarray(values)
 
 
 def velocity(record: Motion) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
     values, stat, message = _core.records.ground_velocity(*place_of(record), len(record))
-    _binding.check(stat, message)
+    check(stat, message)
     return np.asarray(values)
 
 
 def significant_times(record: Motion, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
     (first, last), stat, message = _core.records.significant_times(*place_of(record), low, high)
-    _binding.check(stat, message)
+    check(stat, message)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")
     return float(first), float(last)

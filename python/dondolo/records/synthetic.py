@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any, Literal
 
 from dondolo._base.arguments import as_count, as_number, as_text
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
+from dondolo._fortran.library import receive
+from dondolo._fortran.records import unpack_records
 from dondolo.errors import InputError
 from dondolo.records.record import Record
 
@@ -71,8 +73,8 @@ def synthetic_records(
 
 
 def _realisation(*arguments: Any) -> Record:
-    parcel = _binding.receive(*_core.records.synthetic_record(*arguments))
-    (data,) = _binding.unpack_records(parcel, 1)
+    parcel = receive(*_core.records.synthetic_record(*arguments))
+    (data,) = unpack_records(parcel, 1)
     magnitude, distance, site, seed, realisation, deviations = arguments
     metadata = {
         "event": "synthetic",

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
-from dondolo._fortran import _binding
+from dondolo._fortran.records import blank_unit, unit_of
 from dondolo.reporting.numerals import Numeral, number
 
 # Rows of a table that are written; what is left out is said
@@ -128,17 +128,12 @@ def state_name(edp: float, limit: float) -> str:
 
 def level_unit(im: str) -> str:
     """Unit of a measure for the head of a column."""
-    return _binding.unit_of(im) or "-"
+    return unit_of(im) or "-"
 
 
 def level_head(im: str) -> str:
     """Head of a column of levels."""
     return f"{im} [{level_unit(im)}]"
-
-
-def blank_unit(im: str) -> str:
-    """Unit of a measure with its blank, for the end of a number; empty where it has none."""
-    return f" {_binding.unit_of(im)}".rstrip()
 
 
 def level(value: float, im: str) -> Numeral:

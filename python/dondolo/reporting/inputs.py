@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._fortran import _binding
+from dondolo._fortran.library import build_variant, constants
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -243,7 +243,7 @@ def software(run: Run) -> Facts:
 
     pairs: Facts = []
     if run.file is None:
-        pairs.append(("build variant of this machine", _binding.build_variant()))
+        pairs.append(("build variant of this machine", build_variant()))
     else:
         pairs.append(("run by", f"dondolo {run.file.version}"))
         known = {
@@ -253,5 +253,5 @@ def software(run: Run) -> Facts:
         pairs += [(name, text) for name, text in known.items() if text]
         if run.file.written is not None:
             pairs.append(("result files written", date_in_words(run.file.written)))
-    pairs += [("report by", f"dondolo {_binding.constants().version}"), ("Python", platform.python_version())]
+    pairs += [("report by", f"dondolo {constants().version}"), ("Python", platform.python_version())]
     return pairs + [(name, version(name.lower())) for name in ("NumPy", "SciPy", "Matplotlib")]

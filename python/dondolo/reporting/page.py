@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import as_text
 from dondolo._base.files import check_replaced
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
+from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -22,7 +23,7 @@ from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.reporting import inputs, typology, wall
-from dondolo.reporting.content import BETA, THETA, Symbol, blank_unit, date_in_words
+from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
@@ -96,7 +97,7 @@ def report(
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
-    version, template = _binding.constants().version, _environment().get_template("page.html.j2")
+    version, template = constants().version, _environment().get_template("page.html.j2")
     text = template.render(
         title=run.title,
         generator=f"{_GENERATOR} {version}",

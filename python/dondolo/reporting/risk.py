@@ -6,9 +6,10 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
+from dondolo._fortran.records import blank_unit
 from dondolo.errors import DondoloWarning
 from dondolo.populations.typology import Typology
-from dondolo.reporting.content import Piece, Table, blank_unit, figure, level_unit, state_name
+from dondolo.reporting.content import Piece, Table, figure, level_unit, state_name
 from dondolo.reporting.numerals import number, percent
 from dondolo.reporting.typology import combined
 from dondolo.risk.frequency import between

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._fortran.records import blank_unit
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
@@ -18,7 +19,6 @@ from dondolo.reporting.content import (
     Piece,
     Symbol,
     Table,
-    blank_unit,
     figure,
     level,
     level_head,

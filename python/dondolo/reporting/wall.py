@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._fortran.records import blank_unit
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
@@ -15,7 +16,6 @@ from dondolo.reporting.content import (
     THETA,
     Piece,
     Table,
-    blank_unit,
     figure,
     level,
     level_head,

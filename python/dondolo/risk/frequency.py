@@ -54,9 +54,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing, instance_of, shaped
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.library import warn
+from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
@@ -192,7 +193,7 @@ class Risk(Shown, Saved):
                 "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
                 " typology[mechanism, group].risk(hazard)"
             )
-            _binding.warn([DondoloWarning(sentence, "function_of_one_wall")])
+            warn([DondoloWarning(sentence, "function_of_one_wall")])
         return self._walls.probability(time)
 
     @functools.cached_property
@@ -334,8 +335,7 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     >>> round(risk.return_period, 3)
     186.44
     """
-    if not isinstance(hazard, HazardCurve):
-        raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
+    instance_of("hazard", hazard, HazardCurve, "no hazard curve")
     if not callable(fragility) and not isinstance(fragility, MeanCurve):
         raise InputError(f"fragility: {type(fragility).__name__} is no curve")
     # A function does not know its measure.
@@ -362,14 +362,14 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
     risk = Risk(fragility=fragility, hazard=hazard, inside=inside, below=ends[0], above=ends[1], error=error)
     low, high = risk.bounds
     if low < (1.0 - _WIDE) * high:
-        unit = f" {_binding.unit_of(hazard.im)}".rstrip()
+        unit = blank_unit(hazard.im)
         first, last = hazard.levels[[0, -1]]
         sentence = (
             f"the hazard curve, {first:g} to {last:g}{unit}, is too short: the mean annual frequency of collapse"
             f" lies between {low:.3g} and {high:.3g}"
         )
         numbers = {"first_level": float(first), "last_level": float(last), "lower_bound": low, "upper_bound": high}
-        _binding.warn([DondoloWarning(sentence, "hazard_too_short", {"im": hazard.im}, numbers)])
+        warn([DondoloWarning(sentence, "hazard_too_short", {"im": hazard.im}, numbers)])
     return risk
 
 

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, increasing, shaped
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
-from dondolo._fortran import _binding
+from dondolo._fortran.records import describe_measure, levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
@@ -84,7 +84,7 @@ class HazardCurve(Shown, Saved):
         for what, value in (
             ("levels", x),
             ("annual_frequency", h),
-            ("im", _binding.describe_measure(im).name),
+            ("im", describe_measure(im).name),
             ("endless", False),
         ):
             object.__setattr__(self, what, value)
@@ -206,16 +206,14 @@ class HazardCurve(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the curve as `from_csv` reads it."""
-        comments = [f"unit of {self.im}: {_binding.unit_of(self.im) or '1'}, of annual_frequency: 1/year"]
+        comments = [f"unit of {self.im}: {unit_of(self.im) or '1'}, of annual_frequency: 1/year"]
         tables.write_csv(path, {self.im: self.levels, "annual_frequency": self.annual_frequency}, comments)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = f" {_binding.unit_of(self.im)}".rstrip()
         if self.endless:
             k = float(self._slopes()[0])
             return [("power law", f"{self(1.0):.4g} {self.im}^-{k:.4g} a year")]
-        first, last = self.levels[[0, -1]]
         return [
-            ("levels", f"{len(self.levels)} of {self.im}, {first:g} to {last:g}{unit}"),
+            ("levels", levels_in_words(self.levels, self.im)),
             ("exceeded", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g} times a year"),
         ]

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants, warn
+from dondolo._fortran.records import describe_measure, read_number_table
 from dondolo.errors import DondoloWarning, InputError
 
 #: Columns that say how often a level is exceeded.
@@ -26,7 +27,7 @@ _YEARS = ("year", "years", "yr", "anno", "anni")
 
 def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray]:
     """Intensity measure, levels and annual frequencies of a table."""
-    titles, values = _binding.read_number_table(path)
+    titles, values = read_number_table(path)
     try:
         im, levels, frequency, unused = _understand(titles, values)
     except InputError as error:
@@ -34,9 +35,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
     if unused:
         names = ", ".join(unused)
         subject = {"file": os.fspath(path), "columns": names}
-        _binding.warn(
-            [DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)]
-        )
+        warn([DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)])
     return im, levels, frequency
 
 
@@ -75,7 +74,7 @@ def _name_and_unit(title: str) -> tuple[str, str]:
 
 def _levels(title: str, name: str, unit: str, column: FloatArray) -> tuple[str, FloatArray]:
     """Measure and levels of a column, in the unit of dondolo."""
-    gravity = _binding.constants().gravity
+    gravity = constants().gravity
     sizes = {"g": 1.0, "g/10": 0.1, "m/s2": 1.0 / gravity, "cm/s2": 0.01 / gravity, "gal": 0.01 / gravity}
     if name == "ag" and not unit:
         raise InputError(
@@ -87,7 +86,7 @@ def _levels(title: str, name: str, unit: str, column: FloatArray) -> tuple[str, 
             raise InputError(f"column {title!r}: the unit must be one of {', '.join(map(repr, sizes))}")
         return "pga", column * sizes[unit]
     try:
-        return _binding.describe_measure(title.strip()).name, column
+        return describe_measure(title.strip()).name, column
     except InputError as error:
         raise InputError(
             f"column {title!r}: must be an intensity measure, ag, {', '.join(_FREQUENCIES)} or investigation_time"

@@ -10,10 +10,12 @@ Lognormal
         B(u) = H(u) phi(z) (M(-a) - M(-z)),    T(u) = H(u) (Phi(z) + phi(z) M(a)).
 
     Below a = 0 the part of a step is a difference of B, above it one of T: there they are small where the part is, so
-    that the digits of the tails are kept; and phi H and M are at hand where H alone would overflow.
+    that the digits of the tails are kept; and phi H and M are at hand where H alone would overflow. By hand, since
+    `scipy.integrate.quad_vec` takes ten times as long for 1000 curves.
 Other curves
     Gauss's rule in panels, which are halved until the integral of each changes by less than its share of 10^-8 of the
-    whole. Several curves are integrated together.
+    whole. Several curves are integrated together. By hand, since `quad_vec` asks for one intensity at a time, and
+    curves of populations, and functions of users, are quick for many at once alone.
 """
 
 from __future__ import annotations

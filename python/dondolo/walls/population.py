@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_text, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_text, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
-from dondolo._fortran import _binding
+from dondolo._fortran.walls import WALL_PROPERTIES, describe_walls, read_walls
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
@@ -92,8 +92,7 @@ class Population(Shown):
         if not walls:
             raise InputError("walls: must be given")
         for wall in walls:
-            if not isinstance(wall, Wall):
-                raise InputError(f"walls: {type(wall).__name__} is no wall")
+            instance_of("walls", wall, Wall, "no wall")
         if len(walls) > 1:
             walls = _named(walls)
         weights = _shares("weight", self.weights, walls, math.inf)
@@ -117,7 +116,7 @@ class Population(Shown):
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: the properties of its walls as columns."""
-        columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in _binding.WALL_PROPERTIES}
+        columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in WALL_PROPERTIES}
         return {
             "properties": {name: column if None in column else np.array(column) for name, column in columns.items()},
             "gravity": np.array([wall.gravity for wall in self.walls]),
@@ -126,7 +125,7 @@ class Population(Shown):
 
     @classmethod
     def _restored(cls, properties: dict[str, Any], gravity: FloatArray, **more: Any) -> Population:
-        return cls(tuple(map(wall_from, _binding.describe_walls(len(gravity), properties, gravity))), **more)
+        return cls(tuple(map(wall_from, describe_walls(len(gravity), properties, gravity))), **more)
 
     @functools.cached_property
     def first_rows(self) -> NDArray[np.intp]:
@@ -344,7 +343,7 @@ def read_population(path: str | os.PathLike[str], *, gravity: float | None = Non
     InputError
         The table or one of its walls is wrong.
     """
-    walls, weights, groups, p_occ = _binding.read_walls(path, gravity)
+    walls, weights, groups, p_occ = read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)
     return Population(
         tuple(wall_from(data) for data in walls), weights, groups=tuple(groups), p_occ=p_occ, origin=origin
@@ -413,6 +412,6 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
-    names = [row.name for row in _binding.WALL_PROPERTIES if row.column]
+    names = [row.name for row in WALL_PROPERTIES if row.column]
     table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_number, as_text, one_of
-from dondolo._fortran import _binding
+from dondolo._fortran.library import constants
+from dondolo._fortran.walls import WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution
 from dondolo.walls.population import Population
@@ -23,8 +24,8 @@ from dondolo.walls.wall import MECHANISMS, Wall, wall_from
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
 
-_TEXTS = tuple(what for what in _binding.WALL_TEXTS if what not in ("name", "mechanism"))
-_PROPERTIES = (*_binding.WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
+_TEXTS = tuple(what for what in WALL_TEXTS if what not in ("name", "mechanism"))
+_PROPERTIES = (*WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
 # After so many the order hardly changes any more
 _PASSES = 5
 
@@ -342,10 +343,10 @@ def _evaluate(
 
 def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
     """Walls of one mechanism."""
-    pull = _binding.constants().gravity if gravity is None else as_number("gravity", gravity)
+    pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
     said = {what: [value] * n if what in _TEXTS else value for what, value in values.items()}
-    data = _binding.describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
+    data = describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
     return [wall_from(one) for one in data]
 
 

@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import html_of
-from dondolo._fortran import _binding, _core
+from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check
+from dondolo._fortran.walls import WALL_PROPERTIES, FlatWall, WallData, describe_wall, flat_wall, join_walls, wall_terms
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
@@ -81,18 +83,18 @@ class Wall:
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
         properties = self._properties() | more
-        for row in _binding.WALL_PROPERTIES:
+        for row in WALL_PROPERTIES:
             word = properties[row.name]
             # The library reads words in any case, as its files may have them; those of a program are exact.
             if row.choices and isinstance(word, str) and word != word.lower():
                 one_of(row.name, word, row.choices)
-        self._fill(_binding.describe_wall(properties, self.gravity))
+        self._fill(describe_wall(properties, self.gravity))
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
-        return {row.name: getattr(self, row.name, None) for row in _binding.WALL_PROPERTIES}
+        return {row.name: getattr(self, row.name, None) for row in WALL_PROPERTIES}
 
-    def _fill(self, data: _binding.WallData) -> None:
+    def _fill(self, data: WallData) -> None:
         """Take over what Fortran has understood."""
         own = {field.name for field in dataclasses.fields(self)}
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
@@ -114,9 +116,9 @@ class Wall:
         self.__dict__.update(state)
 
     @property
-    def _flat(self) -> _binding.FlatWall:
+    def _flat(self) -> FlatWall:
         """The wall as Fortran takes it; made when it is needed, for it takes more memory than the wall."""
-        return _binding.flat_wall(self._properties(), self.gravity)
+        return flat_wall(self._properties(), self.gravity)
 
     def _static(self, place: int) -> float:
         """One of the static quantities, in the order of Fortran."""
@@ -188,7 +190,7 @@ class Wall:
         >>> terms.excitation_lever.round(3).tolist()
         [1215.0, 1221.916]
         """
-        return Terms(*_binding.wall_terms(upload((self,)), rotation)[:5])
+        return Terms(*wall_terms(upload((self,)), rotation)[:5])
 
     def potential(self, rotation: ArrayLike) -> FloatArray:
         """Potential energy of gravity and of carried loads at given rotations.
@@ -212,7 +214,7 @@ class Wall:
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
         """
-        energy: FloatArray = _binding.wall_terms(upload((self,)), rotation)[5]
+        energy: FloatArray = wall_terms(upload((self,)), rotation)[5]
         return energy
 
     def plot(self, ax: Axes | None = None, *, rotation: float | None = None) -> Axes:
@@ -377,7 +379,7 @@ class TwoBlockWall(Wall):
 MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
 
 
-def wall_from(data: _binding.WallData) -> Wall:
+def wall_from(data: WallData) -> Wall:
     """A wall that Fortran has understood already."""
     wall = object.__new__(MECHANISMS[data.properties["mechanism"]])
     wall._fill(data)
@@ -389,8 +391,8 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     alone = walls[0].__dict__ if len(walls) == 1 else {}
     if "_handle" in alone:
         return alone["_handle"]  # type: ignore[no-any-return]
-    number, stat, message = _core.walls.new_walls(*_binding.join_walls([wall._flat for wall in walls]))
-    _binding.check(stat, message)
+    number, stat, message = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
+    check(stat, message)
     alone["_handle"] = handle = Handle(number)
     return handle
 
@@ -407,7 +409,7 @@ def walls_table(
         return [getattr(wall, what, None) for wall in walls]
 
     return {
-        **{row.column: column(row.name) for row in _binding.WALL_PROPERTIES if row.column},
+        **{row.column: column(row.name) for row in WALL_PROPERTIES if row.column},
         "alpha_rad": column("slenderness_angle"),
         "p_rad_s": column("frequency_parameter"),
         "trigger_acceleration_m_s2": column("trigger_acceleration"),

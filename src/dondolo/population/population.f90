@@ -11,7 +11,7 @@ module dondolo_population
    use dondolo_limits, only : most_walls
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_property, only : is_text, property_type
+   use dondolo_property, only : find_property, is_text, property_type
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_type
@@ -55,6 +55,8 @@ module dondolo_population
       integer :: row = 0
       !> The table
       type(csv_reader_type) :: table
+      !> Its columns of the properties of walls and of members; 0 where it has none
+      integer :: wall_columns(size(wall_properties)) = 0, member_columns(size(member_properties)) = 0
       !> Gravity [m/s2]
       real(wp), allocatable :: gravity
       !> Are names looked up, to find those that stand twice, and is a weight asked for? A table that was read before
@@ -154,20 +156,10 @@ contains
          call self%close()
          return
       end do
-      call self%table%find_decimal_mark([number_columns(wall_properties), number_columns(member_properties)], error)
-
-   contains
-
-      !> Columns of numbers, 0 where the table has none of the name
-      function number_columns(properties) result(columns)
-         type(property_type), intent(in) :: properties(:)
-         !> Their columns
-         integer, allocatable :: columns(:)
-
-         columns = [(self%table%column(trim(properties(i)%name)), i=1, size(properties))]
-         columns = pack(columns, properties%kind /= is_text)
-      end function number_columns
-
+      self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
+      self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
+         & pack(self%member_columns, member_properties%kind /= is_text)], error)
    end subroutine open_population
 
    !> Read the next row; after an error the rows behind it can be read
@@ -253,14 +245,14 @@ contains
       type(problems_type) :: problems
 
       call input%set('name', 'wall '//to_text(self%row))
-      member%has_name = given(self, 'name') > 0
-      call read_cells(self, input, problems)
+      member%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
+      call read_cells(self, self%wall_columns, input, problems)
       call member%wall%input%set('name', trim(input%word('name')))
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       call problems%take(error)
       call new_settings(own, member_properties)
-      call read_cells(self, own, problems)
+      call read_cells(self, self%member_columns, own, problems)
       call own%fill()
       call own%check(problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
@@ -270,21 +262,22 @@ contains
       call problems%raise(error)
    end subroutine read_row
 
-   !> Number of a column in which the row has something, else 0; blanks alone are nothing
-   integer function given(reader, name)
+   !> Has the row something in a column? Blanks alone are nothing
+   logical function is_given(reader, column)
       !> The reader, with a row
       type(population_reader_type), intent(in) :: reader
-      !> Name of the column
-      character(len=*), intent(in) :: name
+      !> Its number, or 0
+      integer, intent(in) :: column
 
-      given = reader%table%column(name)
-      if (len_trim(reader%table%get_text(given)) == 0) given = 0
-   end function given
+      is_given = len_trim(reader%table%get_text(column)) > 0
+   end function is_given
 
    !> Read the cells of a row that give properties
-   subroutine read_cells(reader, settings, problems)
+   subroutine read_cells(reader, columns, settings, problems)
       !> The reader, with a row
       type(population_reader_type), intent(in) :: reader
+      !> Columns of the properties
+      integer, intent(in) :: columns(:)
       !> What is said in the row
       class(settings_type), intent(inout) :: settings
       !> Takes every cell that should be a number and is none
@@ -293,17 +286,16 @@ contains
       type(property_type), pointer :: table(:)
       type(error_type), allocatable :: error
       real(wp) :: number
-      integer :: i, column
+      integer :: i
 
       call settings%get_table(table)
       do i = 1, size(table)
-         column = given(reader, trim(table(i)%name))
-         if (column == 0) cycle
+         if (.not. is_given(reader, columns(i))) cycle
          if (table(i)%kind == is_text) then
-            call settings%set(table(i)%name, reader%table%get_text(column))
+            call settings%set(table(i)%name, reader%table%get_text(columns(i)))
             cycle
          end if
-         call reader%table%get_real(column, number, error)
+         call reader%table%get_real(columns(i), number, error)
          if (.not. allocated(error)) call settings%set(table(i)%name, number)
          call problems%take(error)
       end do

@@ -2,6 +2,7 @@
 !> store lacks are read, run, and put into it.
 module dondolo_run_population
    use dondolo_error, only : error_type, raise_failure
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_queue, only : progress_interface
@@ -9,6 +10,7 @@ module dondolo_run_population
    use dondolo_run_rows, only : run_rows
    use dondolo_store, only : store_type
    use dondolo_study, only : study_type
+   use dondolo_text, only : to_text
    use dondolo_threads, only : team_of
    implicit none
    private
@@ -53,6 +55,13 @@ contains
          if (allocated(error) .or. size(members) == 0) exit
          call run_rows(study, members, rows, error, int(store%work%histories), histories, progress)
          if (allocated(error)) exit
+         call check_interrupt(error)
+         if (allocated(error)) then
+            error%message = error%message//': '//to_text(store%done)//' of '// &
+               & to_text(store%identity%last - store%identity%first + 1)//' rows are kept in '//store%path// &
+               & '; the same command goes on from there'
+            exit
+         end if
          rows%row = numbers
          call store%put(rows, error)
       end do
@@ -78,13 +87,16 @@ contains
       integer :: i, row
       logical :: found
 
-      numbers = [integer ::]
-      row = max(reader%row, store%identity%first - 1)
-      do while (size(numbers) < most .and. row < store%identity%last)
-         row = row + 1
-         if (.not. store%has(row)) numbers = [numbers, row]
+      allocate (numbers(min(most, store%identity%last)))
+      i = 0
+      do row = max(reader%row, store%identity%first - 1) + 1, store%identity%last
+         if (i == size(numbers)) exit
+         if (store%has(row)) cycle
+         i = i + 1
+         numbers(i) = row
       end do
-      allocate (members(size(numbers)))
+      numbers = numbers(:i)
+      allocate (members(i))
       do i = 1, size(numbers)
          call reader%skip(numbers(i) - 1 - reader%row, error)
          if (allocated(error)) return

@@ -7,6 +7,7 @@ module dondolo_store
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_lock, only : lock_type
    use dondolo_memory, only : check_room
    use dondolo_row_result, only : row_result_type
    use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
@@ -39,6 +40,7 @@ module dondolo_store
       integer, private :: unit = 0
       !> The file while rows are put in
       type(writer_type), private :: writer
+      type(lock_type), private :: lock
       logical, private :: is_writing = .false.
    contains
       !> Is a row there?
@@ -189,23 +191,21 @@ contains
    !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off
    subroutine claim(self, error)
       class(store_type), intent(inout) :: self
-      !> The file cannot be written, or another run is writing it
+      !> Another run is writing it, or it cannot be written
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: head
       type(store_type) :: now
       integer(int64) :: size
-      logical :: ok, is_taken
+      logical :: ok
 
       if (len(self%path) == 0) return
-      call self%writer%open(self%path, ok, append=.true.)
-      if (.not. ok) then
-         call raise_failure(error, self%path//': cannot be written')
-         return
-      end if
+      call self%lock%take(self%path, error)
+      if (allocated(error)) return
       self%is_writing = .true.
-      call self%writer%lock(is_taken)
-      if (is_taken) call raise_failure(error, self%path//': is being written by another run')
+      if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
+      call self%writer%append_to(self%path, ok)
+      if (.not. ok) call raise_failure(error, self%path//': cannot be written')
       inquire (file=self%path, size=size)
       if (.not. allocated(error) .and. size /= self%size) then
          ! Another run has put rows in between, and has ended.
@@ -228,8 +228,20 @@ contains
             if (.not. allocated(error)) self%bytes = len(head, int64)
          end if
       end if
+      if (.not. allocated(error)) call self%lock%sign(error, self%done)
       if (allocated(error)) call self%close()
    end subroutine claim
+
+   !> Path of the file while its rows are brought into their order
+   pure function ordered_path(store, run) result(path)
+      type(store_type), intent(in) :: store
+      !> Name of the run that does so
+      character(len=*), intent(in) :: run
+      !> Path
+      character(len=len(store%path) + len(run) + 6) :: path
+
+      path = store%path//'.'//run//'.part'
+   end function ordered_path
 
    !> Put rows in; those that are there already stay as they are
    subroutine put(self, rows, error)
@@ -339,6 +351,7 @@ contains
          if (any(self%place(lbound(self%place, 1) + 1:) < self%place(:ubound(self%place, 1) - 1))) call bring_into_order(self)
       end if
       call self%writer%close(ok)
+      call self%lock%release()
    end subroutine close_store
 
    !> Write the rows anew in their order; if there is no room for that the file stays as it is
@@ -355,8 +368,8 @@ contains
       integer :: i
       logical :: ok
 
-      path = store%path//'.part'
-      call writer%open(path, ok)
+      path = ordered_path(store, store%lock%run)
+      call writer%create(path, ok)
       if (.not. ok) return
       call make_head(store%identity, bytes)
       call writer%write(bytes, ok)
@@ -372,6 +385,7 @@ contains
          place(i) = at + 1
          at = at + len(bytes, int64)
       end do
+      call writer%synchronize(ok)
       call writer%close(ok)
       if (store%unit /= 0) close (store%unit)
       store%unit = 0

@@ -5,7 +5,7 @@ module dondolo_record_table
    use dondolo_lines, only : lines_type
    use dondolo_plain, only : visible
    use dondolo_record, only : record_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : left, rounded, to_text
    implicit none
    private
 
@@ -180,17 +180,5 @@ contains
 
       titled = '  '//text
    end function titled
-
-   !> A text padded or cut to a width
-   pure function left(text, width)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Width
-      integer, intent(in) :: width
-      !> The text and blanks, or its beginning
-      character(len=width) :: left
-
-      left = text
-   end function left
 
 end module dondolo_record_table

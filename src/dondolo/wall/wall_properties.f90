@@ -11,7 +11,7 @@ module dondolo_wall_properties
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: mechanism_names, standard_gravity, wall_texts, wall_numbers
+   public :: mechanism_names, standard_gravity, wall_numbers
 
    !> Names of the mechanisms
    character(len=choices_length), parameter :: mechanism_names(*) = &
@@ -69,8 +69,8 @@ module dondolo_wall_properties
       & default=standard_gravity, positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
       & meaning='acceleration of gravity')
 
-   !> How many of them are texts and how many numbers
-   integer, parameter :: wall_texts = count(rows%kind == is_text), wall_numbers = count(rows%kind /= is_text)
+   !> How many of them are numbers
+   integer, parameter :: wall_numbers = count(rows%kind /= is_text)
 
    !> What a user says of a wall
    type, extends(settings_type) :: wall_input_type

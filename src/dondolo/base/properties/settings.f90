@@ -63,7 +63,7 @@ module dondolo_settings
       procedure :: fill
       !> Check what is there against the table
       procedure :: check
-      procedure, private :: place, prepare
+      procedure, private :: place, prepare, make_room
    end type settings_type
 
    abstract interface
@@ -228,21 +228,27 @@ contains
       !> Its place, 0 if there is none
       integer, intent(out) :: at
 
-      type(property_type), pointer :: table(:)
-
       at = self%find(name)
       if (at == 0) then
          if (.not. allocated(self%unknown)) self%unknown = name
          return
       end if
-      if (.not. allocated(self%known)) then
-         call self%get_table(table)
-         allocate (self%known(size(table)), source=.false.)
-         allocate (self%numbers(size(self%known)), source=0.0_wp)
-         allocate (self%words(size(self%known)))
-      end if
+      call self%make_room()
       self%known(at) = .true.
    end subroutine prepare
+
+   !> Make room for the values of all properties, where that was not done
+   subroutine make_room(self)
+      class(settings_type), intent(inout) :: self
+
+      type(property_type), pointer :: table(:)
+
+      if (allocated(self%known)) return
+      call self%get_table(table)
+      allocate (self%known(size(table)), source=.false.)
+      allocate (self%numbers(size(table)), source=0.0_wp)
+      allocate (self%words(size(table)))
+   end subroutine make_room
 
    !> Set a number
    subroutine set_number(self, name, value)
@@ -341,23 +347,22 @@ contains
       integer :: i
 
       call self%get_table(table)
+      call self%make_room()
       do i = 1, size(table)
          associate (property => table(i))
-            if (property%required .or. property%optional) cycle
-            if (allocated(self%known)) then
-               if (self%known(i)) cycle
-            end if
+            if (property%required .or. property%optional .or. self%known(i)) cycle
             if (present(owner)) then
                if (.not. has_owner(property, owner)) cycle
             end if
             select case (property%kind)
             case (is_text)
-               call self%set(property%name, trim(property%word))
+               self%words(i)%text = trim(property%word)
             case (is_list)
                call self%set(property%name, [real(wp) ::])
             case default
-               call self%set(property%name, property%default)
+               self%numbers(i) = property%default
             end select
+            self%known(i) = .true.
          end associate
       end do
    end subroutine fill

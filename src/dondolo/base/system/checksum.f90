@@ -23,7 +23,7 @@ module dondolo_checksum
 contains
 
    !> Checksum of a file
-   subroutine crc32_of_file(path, checksum, bytes, ok)
+   subroutine crc32_of_file(path, checksum, bytes, ok, behind)
       !> Path
       character(len=*), intent(in) :: path
       !> Checksum, hexadecimal in lower case
@@ -32,6 +32,8 @@ contains
       integer(int64), intent(out) :: bytes
       !> The file could be read
       logical, intent(out) :: ok
+      !> Bytes at its beginning that are left out; none unless given
+      integer, intent(in), optional :: behind
 
       integer(int32) :: table(0:255, 8), crc, words(chunk/4)
       character(len=8) :: tail
@@ -46,6 +48,10 @@ contains
       call make_tables(table)
       crc = not(0_int32)
       left = bytes
+      if (present(behind)) then
+         left = bytes - behind
+         read (unit, pos=behind + 1, iostat=stat)
+      end if
       do while (left >= 8 .and. stat == 0)
          count = 2*int(min(left, int(chunk, int64))/8)
          read (unit, iostat=stat) words(:count)

@@ -1,4 +1,4 @@
-/* Ctrl-C while histories run: a handler that takes note of the signal and passes it on. Fortran knows no signals. */
+/* Signals while histories run: handlers that take note of them. Fortran knows no signals. */
 #include <signal.h>
 #include <stddef.h>
 
@@ -7,7 +7,7 @@ static struct sigaction before;
 
 static void note(int number, siginfo_t *info, void *context)
 {
-   noted = 1;
+   noted = number;
    if (before.sa_flags & SA_SIGINFO)
       before.sa_sigaction(number, info, context);
    else
@@ -39,8 +39,37 @@ void dondolo_end_listening(void)
    noted = 0;
 }
 
+static void remember(int number)
+{
+   noted = number;
+}
+
+/* A program of its own ends in order when it is interrupted (SIGINT), terminated (SIGTERM) or its terminal is gone
+   (SIGHUP), and at once at the second signal. What it was started to ignore, as nohup does, it ignores. */
+void dondolo_end_in_order(void)
+{
+   static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+   struct sigaction ours, theirs;
+
+   ours.sa_handler = remember;
+   ours.sa_flags = SA_RESTART | SA_RESETHAND;
+   sigemptyset(&ours.sa_mask);
+   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+      if (sigaction(numbers[i], NULL, &theirs) == 0 && theirs.sa_handler == SIG_DFL)
+         sigaction(numbers[i], &ours, NULL);
+}
+
+/* Die of the signal that was noted, so that whoever started the program sees it */
+void dondolo_die_of_signal(void)
+{
+   if (noted == 0)
+      return;
+   signal(noted, SIG_DFL);
+   raise(noted);
+}
+
 /* 1: the signal has come since listening began */
 void dondolo_look_for_interrupt(int *is_noted)
 {
-   *is_noted = noted;
+   *is_noted = noted != 0;
 }

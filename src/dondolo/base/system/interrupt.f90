@@ -1,17 +1,19 @@
-!> Ctrl-C while histories run: what takes long looks now and then whether it is to end early.
+!> Signals while histories run: what takes long looks now and then whether it is to end early.
 !>
-!> Only a program that listens is told, and what it gets then are no results: it must look too, and drop them. One that
-!> does not listen, such as the executable, dies of the signal.
+!> Only a program that listens is told, and what it gets then are no results: it must look too, and drop them. Python
+!> listens to Ctrl-C while a call runs, and the executable to what ends it from its first history on; who does not
+!> listen dies of the signal.
 module dondolo_interrupt
    use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_error, only : error_type, raise_failure
    implicit none
    private
 
-   public :: listen, end_listening, look_for_interrupt
+   public :: listen, end_listening, end_in_order, die_of_signal, look_for_interrupt, check_interrupt
 
    interface
 
-      !> Begin to listen; the handler that was there before gets the signal too. One thread at a time listens
+      !> Begin to listen to SIGINT; the handler that was there before gets it too. One thread at a time listens
       subroutine listen() bind(c, name='dondolo_listen')
       end subroutine listen
 
@@ -19,7 +21,15 @@ module dondolo_interrupt
       subroutine end_listening() bind(c, name='dondolo_end_listening')
       end subroutine end_listening
 
-      !> Look whether the signal has come
+      !> Listen to SIGINT, SIGTERM and SIGHUP until the program ends; a second one kills it
+      subroutine end_in_order() bind(c, name='dondolo_end_in_order')
+      end subroutine end_in_order
+
+      !> Die of the signal that has come; nothing happens if none has
+      subroutine die_of_signal() bind(c, name='dondolo_die_of_signal')
+      end subroutine die_of_signal
+
+      !> Look whether a signal has come
       pure subroutine look_for_interrupt(noted) bind(c, name='dondolo_look_for_interrupt')
          import :: c_int
          !> 1: it has, since listening began
@@ -27,5 +37,18 @@ module dondolo_interrupt
       end subroutine look_for_interrupt
 
    end interface
+
+contains
+
+   !> Report a signal that has come
+   subroutine check_interrupt(error)
+      !> It has: what was computed since listening began is not whole
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(c_int) :: interrupted
+
+      call look_for_interrupt(interrupted)
+      if (interrupted == 1) call raise_failure(error, 'interrupted')
+   end subroutine check_interrupt
 
 end module dondolo_interrupt

@@ -1,5 +1,5 @@
 !> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
-!> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions.
+!> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions, or in files.c.
 module dondolo_system
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_intptr_t, c_null_char, c_long, &
       & c_null_ptr, c_ptr, c_size_t
@@ -7,7 +7,7 @@ module dondolo_system
    implicit none
    private
 
-   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file
+   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file, synchronize_folder
    public :: writer_type, stderr_is_terminal, output_arrives, outlive_file_limit
 
    !> A file being written
@@ -15,14 +15,16 @@ module dondolo_system
       !> Handle of the C library
       type(c_ptr) :: handle = c_null_ptr
    contains
-      !> Open a file
-      procedure :: open => open_writer
+      !> Make a file that is not there yet
+      procedure :: create
+      !> Open a file to write behind what is there
+      procedure :: append_to
       !> Write a text
       procedure :: write => write_text
       !> Give what was written to the system
       procedure :: flush => flush_writer
-      !> Keep the file for this writer
-      procedure :: lock
+      !> Bring what was written to the disk
+      procedure :: synchronize
       !> Close the file
       procedure :: close => close_writer
    end type writer_type
@@ -105,9 +107,16 @@ module dondolo_system
          import :: c_char, c_ptr
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> 'w' to write, 'a' to write behind what is there
+         !> 'a' to write behind what is there
          character(kind=c_char), intent(in) :: mode(*)
       end function c_fopen
+
+      !> Make a file and open it to write; it must not be there yet, and no link is followed
+      type(c_ptr) function c_create(path) bind(c, name='dondolo_create')
+         import :: c_char, c_ptr
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_create
 
       !> Write bytes
       integer(c_size_t) function c_fwrite(bytes, size, count, handle) bind(c, name='fwrite')
@@ -129,21 +138,19 @@ module dondolo_system
          type(c_ptr), value :: handle
       end function c_fflush
 
-      !> Descriptor of a file
-      integer(c_int) function c_fileno(handle) bind(c, name='fileno')
+      !> Bring what was written to the disk; 1: it is there
+      integer(c_int) function c_synchronize(handle) bind(c, name='dondolo_synchronize')
          import :: c_int, c_ptr
          !> File
          type(c_ptr), value :: handle
-      end function c_fileno
+      end function c_synchronize
 
-      !> Take or give back the lock of a file
-      integer(c_int) function c_flock(descriptor, operation) bind(c, name='flock')
-         import :: c_int
-         !> Descriptor
-         integer(c_int), value :: descriptor
-         !> What to do
-         integer(c_int), value :: operation
-      end function c_flock
+      !> Bring the names of the files of a folder to the disk; 1: they are there
+      integer(c_int) function c_synchronize_folder(path) bind(c, name='dondolo_synchronize_folder')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_synchronize_folder
 
       !> Close a file
       integer(c_int) function c_fclose(handle) bind(c, name='fclose')
@@ -212,6 +219,17 @@ contains
       ok = c_truncate(path//c_null_char, int(bytes, c_long)) == 0
    end subroutine cut_file
 
+   !> Bring the names of the files of a folder to the disk
+   subroutine synchronize_folder(path, ok)
+      !> Path of one of its files
+      character(len=*), intent(in) :: path
+      !> Set to false when that failed; left alone otherwise
+      logical, intent(inout) :: ok
+
+      if (c_synchronize_folder('./'(:merge(0, 2, path(1:1) == '/'))//path(:index(path, '/', back=.true.))//c_null_char) &
+         & /= 1) ok = .false.
+   end subroutine synchronize_folder
+
    !> Is a path a folder that exists?
    function is_folder(path)
       !> Path
@@ -278,23 +296,29 @@ contains
       before = c_signal(file_limit, ignore)
    end subroutine outlive_file_limit
 
-   !> Open a file
-   subroutine open_writer(self, path, ok, append)
+   !> Make a file that is not there yet; nothing is replaced, and no link followed
+   subroutine create(self, path, ok)
       class(writer_type), intent(inout) :: self
       !> Path
       character(len=*), intent(in) :: path
       !> It can be written
       logical, intent(out) :: ok
-      !> Is to be written behind what is there? Otherwise a file that exists is emptied
-      logical, intent(in), optional :: append
 
-      character(len=1) :: mode
-
-      mode = 'w'
-      if (present(append)) mode = merge('a', 'w', append)
-      self%handle = c_fopen(path//c_null_char, mode//c_null_char)
+      self%handle = c_create(path//c_null_char)
       ok = c_associated(self%handle)
-   end subroutine open_writer
+   end subroutine create
+
+   !> Open a file to write behind what is there; it is made if it is not
+   subroutine append_to(self, path, ok)
+      class(writer_type), intent(inout) :: self
+      !> Path
+      character(len=*), intent(in) :: path
+      !> It can be written
+      logical, intent(out) :: ok
+
+      self%handle = c_fopen(path//c_null_char, 'a'//c_null_char)
+      ok = c_associated(self%handle)
+   end subroutine append_to
 
    !> Write a text
    subroutine write_text(self, text, ok)
@@ -319,18 +343,14 @@ contains
       if (c_fflush(self%handle) /= 0) ok = .false.
    end subroutine flush_writer
 
-   !> Keep the file for this writer until it is closed or the process ends
-   subroutine lock(self, is_taken)
+   !> Bring what was written to the disk: it then outlives a loss of power
+   subroutine synchronize(self, ok)
       class(writer_type), intent(inout) :: self
-      !> Another writer has it. A file system without locks refuses none
-      logical, intent(out) :: is_taken
+      !> Set to false when it could not be written; left alone otherwise
+      logical, intent(inout) :: ok
 
-      ! LOCK_EX and LOCK_NB, and EWOULDBLOCK of Linux and macOS, which mean nothing else there
-      integer(c_int), parameter :: exclusive = 2_c_int, at_once = 4_c_int, would_block(2) = [11_c_int, 35_c_int]
-
-      is_taken = .false.
-      if (c_flock(c_fileno(self%handle), ior(exclusive, at_once)) /= 0) is_taken = any(gnu_errno() == would_block)
-   end subroutine lock
+      if (c_synchronize(self%handle) /= 1) ok = .false.
+   end subroutine synchronize
 
    !> Close the file; nothing happens if it is not open
    subroutine close_writer(self, ok)
@@ -338,12 +358,7 @@ contains
       !> Set to false when what was written last did not reach the disk; left alone otherwise
       logical, intent(inout) :: ok
 
-      integer(c_int), parameter :: give_back = 8_c_int
-      integer(c_int) :: stat
-
       if (.not. c_associated(self%handle)) return
-      ! A process that was forked meanwhile would hold the lock.
-      stat = c_flock(c_fileno(self%handle), give_back)
       if (c_fclose(self%handle) /= 0) ok = .false.
       self%handle = c_null_ptr
    end subroutine close_writer

@@ -45,11 +45,7 @@ contains
       ok = .false.
       call inner(text, first, last)
       i = first
-      minus = .false.
-      if (i <= last) then
-         minus = text(i:i) == '-'
-         if (minus .or. text(i:i) == '+') i = i + 1
-      end if
+      call take_sign(text(:last), i, minus)
       units = 0
       exact = .true.
       digits = 0
@@ -71,7 +67,7 @@ contains
          case default
             return
          end select
-         call take_exponent(text(i + 1:last), exponent, ok)
+         call take_whole(text(i + 1:last), largest_exponent, exponent, ok)
          if (.not. ok) return
       end if
       ok = .true.
@@ -100,25 +96,10 @@ contains
       !> The text is one integer that fits
       logical, intent(out) :: ok
 
-      integer(int64) :: units
-      integer :: first, last, i, digits
-      logical :: exact, minus
+      integer :: first, last
 
-      value = 0
-      ok = .false.
       call inner(text, first, last)
-      i = first
-      minus = .false.
-      if (i <= last) then
-         minus = text(i:i) == '-'
-         if (minus .or. text(i:i) == '+') i = i + 1
-      end if
-      units = 0
-      exact = .true.
-      digits = 0
-      call take_digits(text(:last), i, units, exact, digits)
-      ok = digits > 0 .and. i > last .and. exact .and. units <= huge(value)
-      if (ok) value = int(merge(-units, units, minus))
+      call take_whole(text(first:last), huge(value), value, ok)
    end subroutine parse_integer
 
    !> Bounds of a text without the blanks and tabs around it; last < first if nothing is left
@@ -170,32 +151,45 @@ contains
       end do
    end subroutine take_digits
 
-   !> Read what follows the letter of an exponent
-   pure subroutine take_exponent(text, exponent, ok)
-      !> Text after the letter
+   !> Take [sign] digits and nothing else
+   pure subroutine take_whole(text, largest, value, ok)
+      !> Text
       character(len=*), intent(in) :: text
-      !> Exponent of ten
-      integer, intent(out) :: exponent
-      !> It is [sign] digits, and not beyond all precisions
+      !> Largest absolute value
+      integer, intent(in) :: largest
+      !> Its number, 0 unless ok
+      integer, intent(out) :: value
+      !> The text is one integer that is not too large
       logical, intent(out) :: ok
 
       integer(int64) :: units
       integer :: i, digits
       logical :: exact, minus
 
-      exponent = 0
+      value = 0
       i = 1
-      minus = .false.
-      if (len(text) > 0) then
-         minus = text(1:1) == '-'
-         if (minus .or. text(1:1) == '+') i = 2
-      end if
+      call take_sign(text, i, minus)
       units = 0
       exact = .true.
       digits = 0
       call take_digits(text, i, units, exact, digits)
-      ok = digits > 0 .and. i > len(text) .and. exact .and. units <= largest_exponent
-      if (ok) exponent = int(merge(-units, units, minus))
-   end subroutine take_exponent
+      ok = digits > 0 .and. i > len(text) .and. exact .and. units <= largest
+      if (ok) value = int(merge(-units, units, minus))
+   end subroutine take_whole
+
+   !> Take a sign, if there is one
+   pure subroutine take_sign(text, i, minus)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position: where a sign may stand, then what follows it
+      integer, intent(inout) :: i
+      !> It is a minus
+      logical, intent(out) :: minus
+
+      minus = .false.
+      if (i > len(text)) return
+      minus = text(i:i) == '-'
+      if (minus .or. text(i:i) == '+') i = i + 1
+   end subroutine take_sign
 
 end module dondolo_numbers

@@ -8,7 +8,7 @@ module dondolo_text
    implicit none
    private
 
-   public :: to_text, to_table, rounded, counted, lower, join, first_word, stripped, occurrences, replaced
+   public :: to_text, to_table, rounded, counted, lower, join, first_word, stripped, occurrences, replaced, left, right
    public :: blanks
 
    !> Blank and tab
@@ -332,5 +332,29 @@ contains
          replaced = replaced(:at - 1)//by//replaced(at + len(part):)
       end do
    end function replaced
+
+   !> A text at the left of a column
+   pure function left(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width
+      integer, intent(in) :: width
+      !> The text and blanks, or its beginning
+      character(len=width) :: left
+
+      left = text
+   end function left
+
+   !> A text at the right of a column
+   pure function right(text, width)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Width
+      integer, intent(in) :: width
+      !> Blanks and the text
+      character(len=width) :: right
+
+      right = repeat(' ', max(0, width - len(text)))//text
+   end function right
 
 end module dondolo_text

@@ -106,37 +106,35 @@ contains
       !> Text outside groups, a group that is not closed or is a duplicate
       type(error_type), allocatable, intent(out) :: error
 
-      type(group_type) :: next
       type(name_index_type) :: names
-      integer :: at, count, before
+      integer :: at, i, before
 
-      allocate (namelist%groups(8))
-      count = 0
+      allocate (namelist%groups(number_before(tokens, 1, [group_begin], [end_of_file])))
       at = 1
+      i = 0
       do while (tokens(at)%kind /= end_of_file)
          if (tokens(at)%kind /= group_begin) then
             call raise_input(error, text%place(tokens(at)%line)//': '//tokens(at)%typed// &
                & ' is outside a group: must be &name ... /')
             return
          end if
-         next%file = text%file
-         next%name = tokens(at)%text
-         next%line = tokens(at)%line
-         call names%note(next%name, next%line, before)
-         if (before > 0) then
-            call raise_input(error, next%place()//': given twice, in lines '//to_text(before)//' and '// &
-               & to_text(next%line))
-            return
-         end if
-         at = at + 1
-         call take_variables(tokens, at, next, error)
+         i = i + 1
+         associate (group => namelist%groups(i))
+            group%file = text%file
+            group%name = tokens(at)%text
+            group%line = tokens(at)%line
+            call names%note(group%name, group%line, before)
+            if (before > 0) then
+               call raise_input(error, group%place()//': given twice, in lines '//to_text(before)//' and '// &
+                  & to_text(group%line))
+               return
+            end if
+            at = at + 1
+            call take_variables(tokens, at, group, error)
+         end associate
          if (allocated(error)) return
-         if (count == size(namelist%groups)) call widen_groups(namelist%groups)
-         count = count + 1
-         call move_group(next, namelist%groups(count))
       end do
-      namelist%groups = namelist%groups(:count)
-      if (count == 0) call raise_input(error, text%file//': no group: a case is made of groups, &name ... /')
+      if (i == 0) call raise_input(error, text%file//': no group: a case is made of groups, &name ... /')
    end subroutine take_groups
 
    !> Put tokens together to the variables of a group
@@ -148,43 +146,43 @@ contains
       !> What does not fit
       type(error_type), allocatable, intent(out) :: error
 
-      type(variable_type) :: variable
       type(name_index_type) :: names
-      integer :: count, before
+      integer :: i, before
 
-      if (allocated(group%variables)) deallocate (group%variables)
-      allocate (group%variables(8))
-      count = 0
+      ! One more: a word without = is refused only when it is taken
+      allocate (group%variables(number_before(tokens, at, [equals], [group_begin, group_end, end_of_file]) + 1))
+      i = 0
       do
          select case (tokens(at)%kind)
          case (group_end)
             at = at + 1
-            group%variables = group%variables(:count)
+            group%variables = group%variables(:i)
             return
          case (group_begin)
             call raise_input(error, group%place()//': not closed: a / is missing before '//tokens(at)%typed// &
                & ' in line '//to_text(tokens(at)%line))
             return
          case (end_of_file)
+            group%variables = group%variables(:i)
             call raise_input(error, group%place()//': not closed: a / is missing at its end'//group%in_line(''))
             return
          case (word)
-            call take_variable(tokens, at, group, variable, error)
+            i = i + 1
+            call take_variable(tokens, at, group%place()//': ', group%variables(i), error)
             if (allocated(error)) return
          case default
             call raise_input(error, group%place()//': '//tokens(at)%typed//' (line '//to_text(tokens(at)%line)// &
                & '): must be the name of a variable and =')
             return
          end select
-         call names%note(variable%name, variable%line, before)
-         if (before > 0) then
-            call raise_input(error, group%place()//': '//variable%name//': given twice, in lines '// &
-               & to_text(before)//' and '//to_text(variable%line))
-            return
-         end if
-         if (count == size(group%variables)) call widen_variables(group%variables)
-         count = count + 1
-         call move_variable(variable, group%variables(count))
+         associate (variable => group%variables(i))
+            call names%note(variable%name, variable%line, before)
+            if (before > 0) then
+               call raise_input(error, group%place()//': '//variable%name//': given twice, in lines '// &
+                  & to_text(before)//' and '//to_text(variable%line))
+               return
+            end if
+         end associate
       end do
    end subroutine take_variables
 
@@ -193,8 +191,8 @@ contains
       type(token_type), intent(in) :: tokens(:)
       !> The name, then the token after the last value
       integer, intent(inout) :: at
-      !> The group, for messages
-      type(group_type), intent(in) :: group
+      !> Where the group is, for messages
+      character(len=*), intent(in) :: group
       type(variable_type), intent(out) :: variable
       !> What does not fit
       type(error_type), allocatable, intent(out) :: error
@@ -205,8 +203,8 @@ contains
 
       variable%name = lower(tokens(at)%text)
       variable%line = tokens(at)%line
-      place = group%place()//': '//variable%name//' (line '//to_text(variable%line)//'): '
-      allocate (variable%values(8))
+      place = group//variable%name//' (line '//to_text(variable%line)//'): '
+      allocate (variable%values(number_before(tokens, at + 2, [word, quoted], [equals, group_begin, group_end, end_of_file])))
       count = 0
       if (index(variable%name, '(') > 0) then
          call raise_input(error, place//'subscripts are not allowed: give the whole list, name = value, value, ...')
@@ -229,7 +227,6 @@ contains
                   return
                end if
             end if
-            if (count == size(variable%values)) call widen_values(variable%values)
             count = count + 1
             associate (value => variable%values(count), token => tokens(at))
                value%typed = token%typed
@@ -264,77 +261,21 @@ contains
       is_name = lower(text(1:1)) >= 'a' .and. lower(text(1:1)) <= 'z'
    end function is_name
 
-   !> Double the room for values
-   subroutine widen_values(values)
-      !> Values
-      type(value_type), allocatable, intent(inout) :: values(:)
+   !> How many tokens of some kinds stand before the next that ends a part of the file
+   pure integer function number_before(tokens, at, kinds, ends) result(number)
+      type(token_type), intent(in) :: tokens(:)
+      !> Place of the first token that counts
+      integer, intent(in) :: at
+      !> Kinds to count, and kinds that end the part
+      integer, intent(in) :: kinds(:), ends(:)
 
-      type(value_type), allocatable :: more(:)
       integer :: i
 
-      allocate (more(2*size(values)))
-      do i = 1, size(values)
-         call move_alloc(values(i)%typed, more(i)%typed)
-         call move_alloc(values(i)%text, more(i)%text)
-         more(i)%quoted = values(i)%quoted
-         more(i)%line = values(i)%line
+      number = 0
+      do i = at, size(tokens)
+         if (any(tokens(i)%kind == ends)) exit
+         if (any(tokens(i)%kind == kinds)) number = number + 1
       end do
-      call move_alloc(more, values)
-   end subroutine widen_values
-
-   !> Double the room for variables
-   subroutine widen_variables(variables)
-      !> Variables
-      type(variable_type), allocatable, intent(inout) :: variables(:)
-
-      type(variable_type), allocatable :: more(:)
-      integer :: i
-
-      allocate (more(2*size(variables)))
-      do i = 1, size(variables)
-         call move_variable(variables(i), more(i))
-      end do
-      call move_alloc(more, variables)
-   end subroutine widen_variables
-
-   !> Double the room for groups
-   subroutine widen_groups(groups)
-      !> Groups
-      type(group_type), allocatable, intent(inout) :: groups(:)
-
-      type(group_type), allocatable :: more(:)
-      integer :: i
-
-      allocate (more(2*size(groups)))
-      do i = 1, size(groups)
-         call move_group(groups(i), more(i))
-      end do
-      call move_alloc(more, groups)
-   end subroutine widen_groups
-
-   !> Move a variable, since a copy would copy all its values
-   subroutine move_variable(from, to)
-      !> The variable; empty afterwards
-      type(variable_type), intent(inout) :: from
-      !> Its new place
-      type(variable_type), intent(inout) :: to
-
-      call move_alloc(from%name, to%name)
-      call move_alloc(from%values, to%values)
-      to%line = from%line
-   end subroutine move_variable
-
-   !> Move a group, since a copy would copy all its variables
-   subroutine move_group(from, to)
-      !> The group; empty afterwards
-      type(group_type), intent(inout) :: from
-      !> Its new place
-      type(group_type), intent(inout) :: to
-
-      call move_alloc(from%file, to%file)
-      call move_alloc(from%name, to%name)
-      call move_alloc(from%variables, to%variables)
-      to%line = from%line
-   end subroutine move_group
+   end function number_before
 
 end module dondolo_namelist

@@ -1,32 +1,24 @@
 !> The result files of a case: CSV tables with a head of comment lines, and the run as JSON; whole or not at all.
 module dondolo_reports
-   use, intrinsic :: iso_fortran_env, only : compiler_version
+   use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
    use dondolo_error, only : add_place, error_type
    use dondolo_job_group, only : job_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_report_rows, only : make_typology_row, typology_head
-   use dondolo_result_files, only : check_output, result_files_type
+   use dondolo_result_files, only : check_output, result_files_type, run_suffix
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
-   use dondolo_run_file, only : write_run
+   use dondolo_run_file, only : shape_names, shape_of, write_run
    use dondolo_echo, only : echo_type
    use dondolo_text, only : to_table, to_text
-   use dondolo_version, only : dondolo_version_text
    use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_work, only : work_names, work_type
+   use dondolo_work, only : work_names
    implicit none
    private
 
    public :: check_reports, write_reports
-
-   !> What the names of result files can end with, of any task
-   character(len=15), parameter :: all_suffixes(6) = [character(len=15) :: '_walls.csv', '_histories.csv', &
-      & '_stripes.csv', '_fragility.csv', '_typology.csv', '_history.csv']
-
-   !> What every result file begins with
-   character(len=*), parameter :: mark = '# dondolo '
 
 contains
 
@@ -53,56 +45,45 @@ contains
 
       select case (job%task)
       case ('history')
-         names = [character(len=15) :: '_walls.csv', '_history.csv', '_run.json']
+         names = [character(len=15) :: '_walls.csv', '_history.csv', run_suffix]
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
-            & '_run.json']
+            & run_suffix]
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
-            & '_run.json']
+            & run_suffix]
          if (job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
       end select
    end function suffixes
 
    !> Write the reports of a case; those of an earlier run that they do not replace are removed
-   subroutine write_reports(case, results, paths, error)
+   subroutine write_reports(case, results, files, error)
       type(case_type), intent(in) :: case
       type(results_type), intent(inout) :: results
-      !> The files that were written
-      type(lines_type), intent(out) :: paths
+      !> The files, claimed
+      type(result_files_type), intent(inout) :: files
       !> They could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      type(result_files_type) :: files
       type(lines_type) :: inputs
       character(len=15), allocatable :: names(:)
       integer :: i
 
-      files%prefix = case%job%output
       names = suffixes(case%job)
       do i = 1, size(names)
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
-         if (names(i) == '_run.json') then
+         if (names(i) == run_suffix) then
             call write_run(case, results, files)
          else
             call write_head(case, results, files)
             call write_table(case, results, trim(names(i)), files, error)
          end if
-         if (allocated(error)) then
-            call files%abandon()
-            return
-         end if
-         call files%finish(error)
+         if (.not. allocated(error)) call files%finish(error)
          if (allocated(error)) return
       end do
-      call files%commit(error)
-      if (allocated(error)) return
       call case%inputs(inputs)
-      do i = 1, size(all_suffixes)
-         if (all(names /= all_suffixes(i))) call files%remove_old(trim(all_suffixes(i)), mark, inputs)
-      end do
-      paths = files%paths
+      call files%publish(inputs, error)
    end subroutine write_reports
 
    !> Write one table
@@ -137,7 +118,8 @@ contains
       character(len=:), allocatable :: engines, unit, counts
       integer :: i
 
-      call files%line(mark//dondolo_version_text)
+      call list_counts(shape_names, int(shape_of(case), int64), counts)
+      call files%line('# shape: '//counts)
       call files%line('# compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)))
       call results%name_engines(engines)
       call files%line('# engine and build variant: '//engines)
@@ -150,7 +132,7 @@ contains
          unit = case%stripes%scaling%unit()
          if (len(unit) == 0) unit = '1'
          call files%line('# unit of im_level and theta: '//unit)
-         call list_counts(results%work, counts)
+         call list_counts(work_names, results%work%counts(), counts)
          call files%line('# work: '//counts)
       end if
       do i = 1, case%notes%count
@@ -162,21 +144,20 @@ contains
       end do
    end subroutine write_head
 
-   !> List the counts of what was computed, for the head of a file
-   pure subroutine list_counts(work, text)
-      !> What was computed
-      type(work_type), intent(in) :: work
+   !> List counts, for the head of a file
+   pure subroutine list_counts(names, counts, text)
+      !> Their names
+      character(len=*), intent(in) :: names(:)
+      integer(int64), intent(in) :: counts(:)
       !> Names and counts
       character(len=:), allocatable, intent(out) :: text
 
       integer :: i
 
-      associate (counts => work%counts())
-         text = trim(work_names(1))//' = '//to_text(counts(1))
-         do i = 2, size(counts)
-            text = text//', '//trim(work_names(i))//' = '//to_text(counts(i))
-         end do
-      end associate
+      text = trim(names(1))//' = '//to_text(counts(1))
+      do i = 2, size(counts)
+         text = text//', '//trim(names(i))//' = '//to_text(counts(i))
+      end do
    end subroutine list_counts
 
    !> Curves of the population

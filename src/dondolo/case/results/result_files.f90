@@ -1,42 +1,83 @@
-!> The result files of a run: all of them appear whole, or none does.
+!> The result files of a run, published at once: whoever reads them finds the whole set of one run, whatever moment a run
+!> was killed at, and whatever other run is under way.
 !>
-!> Every file is first written as `<file>.part`; when all are written they get their names. That the place can be
-!> written to is tried before the computation begins, and leaves nothing behind.
+!> 1. One run at a time writes an output: it has the lock of the prefix (dondolo_lock).
+!> 2. Every file is written as PREFIX_table.csv.RUN.part, where RUN names the run. The name is new, and the file made
+!>    by this run alone: nothing of anybody else is opened, followed or replaced. It is synchronized to the disk.
+!> 3. The set is published by one rename, that of PREFIX_run.json, which names RUN. Before it the old set is in force, since
+!>    its files have not been touched; after it the new one, each file of which stands under its own name or still under its
+!>    name of 2. A rename is atomic, so that it is one or the other at any moment, and readers look for both.
+!> 4. The tables are renamed. A run that was killed before that leaves its lock file, from which the next run learns RUN: it
+!>    renames what was published, and removes what was not.
+!>
+!> The folder is synchronized between 3 and 4, so that a loss of power does not keep 4 without 3, and after 4, before a
+!> checkpoint is removed. Tables begin with a line that names RUN, so that files that were brought together by other
+!> means are found out. Python publishes by the same steps (_base/transactions.py).
 module dondolo_result_files
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_checksum, only : crc32_length, crc32_of_file
+   use dondolo_error, only : error_type, raise_failure, raise_input, status_failure
    use dondolo_lines, only : lines_type
-   use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, writer_type
+   use dondolo_lock, only : lock_type, new_run, run_length
+   use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
+      & synchronize_folder, writer_type
+   use dondolo_version, only : dondolo_version_text
    implicit none
    private
 
-   public :: result_files_type, check_output, make_folders
+   public :: result_files_type, written_type, check_output, make_folders, published_run, run_suffix
+
+   !> What the name of the file ends with that publishes the set
+   character(len=*), parameter :: run_suffix = '_run.json'
+
+   !> What the names of tables can end with, of any task
+   character(len=15), parameter :: all_suffixes(6) = [character(len=15) :: '_walls.csv', '_histories.csv', &
+      & '_stripes.csv', '_fragility.csv', '_typology.csv', '_history.csv']
+
+   !> What every table begins with
+   character(len=*), parameter :: mark = '# dondolo '
+
+   !> How often a file is made, while another run that ends removes the folder that it has made
+   integer, parameter :: tries = 3
+
+   !> A file that was written
+   type :: written_type
+      !> What its name ends with
+      character(len=15) :: suffix = ''
+      !> Its length
+      integer(int64) :: bytes = 0
+      !> CRC-32 of what follows the line that names the run: the same for the same results
+      character(len=crc32_length) :: checksum = ''
+   end type written_type
 
    !> The files of a run
    type :: result_files_type
       !> What all their names begin with
       character(len=:), allocatable :: prefix
-      !> Paths of the files, in the order in which they were begun
-      type(lines_type) :: paths
+      !> The lock of the prefix, with the name of the run
+      type(lock_type) :: lock
+      !> The files, in the order in which they were begun
+      type(written_type), allocatable :: written(:)
       !> Folders that were made for them
-      type(lines_type) :: made
-      !> The file that is being written
-      type(writer_type) :: writer
+      type(lines_type), private :: made
+      !> The file that is being written, and where in it the lines begin that are the same for the same results
+      type(writer_type), private :: writer
+      integer, private :: body = 0
       !> Has everything been written so far?
-      logical :: ok = .true.
+      logical, private :: ok = .true.
    contains
+      !> Take the lock of a prefix, and end what a killed run has left
+      procedure :: claim
       !> Begin a file
       procedure :: begin
       !> Write a line to it
       procedure :: line
       !> Finish it
       procedure :: finish
-      !> Give all files their names
-      procedure :: commit
-      !> Remove a file of an earlier run
-      procedure :: remove_old
-      !> Leave nothing of the run
-      procedure :: abandon
+      !> Publish the set
+      procedure :: publish
+      !> Give the lock back; what was not published is removed
+      procedure :: close => close_files
    end type result_files_type
 
 contains
@@ -55,6 +96,7 @@ contains
       type(lines_type) :: made
       type(writer_type) :: writer
       character(len=:), allocatable :: path
+      character(len=run_length) :: run
       logical :: ok
       integer :: i, j
 
@@ -70,39 +112,37 @@ contains
             return
          end do
       end do
-      call make_folders(prefix, made, ok)
-      if (ok) then
+      call new_run(run)
+      do i = 1, tries
+         call make_folders(prefix, made, ok)
+         if (.not. ok) cycle
          ! No name of a result file is longer than this one
-         path = prefix//'_histories.csv.part'
-         call try(writer, path, ok)
-         if (.not. ok) call raise_input(error, 'the file '//path//' cannot be written')
+         path = prefix//'_histories.csv'
+         call writer%create(staged(path, run), ok)
+         if (ok) exit
+      end do
+      if (ok) then
+         call writer%close(ok)
+         call remove_file(staged(path, run))
+      else if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
+         call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
       else
          call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
       end if
       call remove_folders(made)
    end subroutine check_output
 
-   !> Try to write one file; a file that is there already is left alone
-   subroutine try(writer, path, ok)
-      type(writer_type), intent(inout) :: writer
-      !> Path
+   !> Path of a file before it is published
+   pure function staged(path, run)
+      !> Path of the file
       character(len=*), intent(in) :: path
-      !> It can be written
-      logical, intent(out) :: ok
+      !> Name of the run
+      character(len=*), intent(in) :: run
+      !> Path
+      character(len=len(path) + len(run) + 6) :: staged
 
-      logical :: there
-
-      inquire (file=path, exist=there)
-      if (there) then
-         ! Left behind by a run that was killed: it will be replaced
-         ok = .not. is_folder(path)
-         return
-      end if
-      call writer%open(path, ok)
-      if (.not. ok) return
-      call writer%close(ok)
-      call remove_file(path)
-   end subroutine try
+      staged = path//'.'//run//'.part'
+   end function staged
 
    !> Make the folders of a prefix that do not exist yet
    subroutine make_folders(prefix, made, ok)
@@ -120,8 +160,13 @@ contains
          if (prefix(i:i) /= '/') cycle
          if (is_folder(prefix(:i - 1))) cycle
          call make_folder(prefix(:i - 1), ok)
-         if (.not. ok) return
-         call made%add(prefix(:i - 1))
+         if (ok) then
+            call made%add(prefix(:i - 1))
+         else
+            ! Another run may have made it meanwhile.
+            ok = is_folder(prefix(:i - 1))
+            if (.not. ok) return
+         end if
       end do
    end subroutine make_folders
 
@@ -144,7 +189,83 @@ contains
       folder_end = index(prefix, '/', back=.true.)
    end function folder_end
 
-   !> Begin a file
+   !> Take the lock of a prefix, and end what a killed run has left
+   subroutine claim(self, prefix, error)
+      class(result_files_type), intent(inout) :: self
+      !> What the names of the files begin with
+      character(len=*), intent(in) :: prefix
+      !> Another run writes them, or they cannot be written
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: ok
+      integer :: i
+
+      self%prefix = prefix
+      allocate (self%written(0))
+      do i = 1, tries
+         call make_folders(prefix, self%made, ok)
+         if (ok) then
+            call self%lock%take(prefix, error)
+         else
+            call raise_failure(error, prefix//': its folder cannot be made')
+         end if
+         if (.not. allocated(error)) exit
+         if (error%stat /= status_failure) exit
+      end do
+      if (.not. allocated(error)) then
+         call end_publishing(prefix, self%lock%killed)
+         call self%lock%sign(error)
+      end if
+      if (allocated(error)) call remove_folders(self%made)
+   end subroutine claim
+
+   !> Rename tables of the published set that have not their names yet, and remove those that a killed run has not published
+   subroutine end_publishing(prefix, killed)
+      !> What the names of the files begin with
+      character(len=*), intent(in) :: prefix
+      !> Name of a run that was killed; blank if there was none
+      character(len=run_length), intent(in) :: killed
+
+      character(len=run_length) :: published
+      character(len=:), allocatable :: path
+      integer :: i
+      logical :: ok
+
+      published = published_run(prefix)
+      do i = 1, size(all_suffixes)
+         path = prefix//trim(all_suffixes(i))
+         if (len_trim(published) > 0) call rename_file(staged(path, published), path, ok)
+         if (len_trim(killed) > 0 .and. killed /= published) call remove_file(staged(path, killed))
+      end do
+      if (len_trim(killed) > 0) call remove_file(staged(prefix//run_suffix, killed))
+   end subroutine end_publishing
+
+   !> Name of the run whose results are published
+   function published_run(prefix) result(run)
+      !> What their names begin with
+      character(len=*), intent(in) :: prefix
+      !> Name of the run; blank if there is none
+      character(len=run_length) :: run
+
+      character(len=*), parameter :: key = '"run": "'
+      character(len=200) :: start
+      integer(int64) :: bytes
+      integer :: unit, stat, at
+
+      run = ''
+      ! A pipe has no size, and would be waited for.
+      inquire (file=prefix//run_suffix, size=bytes)
+      if (bytes < len(start)) return
+      open (newunit=unit, file=prefix//run_suffix, access='stream', form='unformatted', action='read', status='old', &
+         & iostat=stat)
+      if (stat /= 0) return
+      read (unit, iostat=stat) start
+      close (unit)
+      at = index(start, key)
+      if (stat == 0 .and. at > 0 .and. at + len(key) + run_length <= len(start)) run = start(at + len(key):)
+   end function published_run
+
+   !> Begin a file; a table begins with the line that names the run
    subroutine begin(self, suffix, error)
       !> The files of the run
       class(result_files_type), intent(inout) :: self
@@ -153,14 +274,18 @@ contains
       !> It cannot be written
       type(error_type), allocatable, intent(out) :: error
 
-      if (self%paths%count == 0) call make_folders(self%prefix, self%made, self%ok)
-      if (self%ok) call self%writer%open(self%prefix//suffix//'.part', self%ok)
-      if (self%ok) then
-         call self%paths%add(self%prefix//suffix)
-      else
-         call self%abandon()
-         call raise_failure(error, self%prefix//suffix//'.part: cannot be written')
+      character(len=:), allocatable :: lines
+
+      call self%writer%create(staged(self%prefix//suffix, self%lock%run), self%ok)
+      if (.not. self%ok) then
+         call raise_failure(error, self%prefix//suffix//': cannot be written')
+         return
       end if
+      self%written = [self%written, written_type(suffix=suffix)]
+      if (suffix == run_suffix) return
+      lines = mark//dondolo_version_text//new_line('a')//'# run: '//self%lock%run//new_line('a')
+      self%body = len(lines)
+      call self%writer%write(lines, self%ok)
    end subroutine begin
 
    !> Write a line
@@ -177,50 +302,82 @@ contains
    subroutine finish(self, error)
       !> The files of the run
       class(result_files_type), intent(inout) :: self
-      !> It could not be written whole; nothing of the run is left
+      !> It could not be written whole
       type(error_type), allocatable, intent(out) :: error
 
+      logical :: ok
+
+      if (self%ok) call self%writer%synchronize(self%ok)
       call self%writer%close(self%ok)
-      if (self%ok) return
-      call raise_failure(error, self%paths%line(self%paths%count)%text//': cannot be written whole: is the disk full?')
-      call self%abandon()
+      associate (file => self%written(size(self%written)))
+         if (self%ok .and. file%suffix /= run_suffix) call crc32_of_file(staged(self%prefix//trim(file%suffix), &
+            & self%lock%run), file%checksum, file%bytes, ok, behind=self%body)
+         if (.not. self%ok) call raise_failure(error, self%prefix//trim(file%suffix)// &
+            & ': cannot be written whole: is the disk full?')
+      end associate
    end subroutine finish
 
-   !> Give all files their names
-   subroutine commit(self, error)
-      !> The files of the run
+   !> Publish the set, and remove the tables of an earlier run that it does not replace
+   subroutine publish(self, inputs, error)
+      !> The files of the run, all of them written
       class(result_files_type), intent(inout) :: self
-      !> One of them could not have its name
+      !> Paths of the files of the case, which are not removed
+      type(lines_type), intent(in) :: inputs
+      !> A file cannot have its name
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
+      logical :: ok
 
-      do i = 1, self%paths%count
-         call rename_file(self%paths%line(i)%text//'.part', self%paths%line(i)%text, self%ok)
-         if (self%ok) cycle
-         call raise_failure(error, self%paths%line(i)%text//': cannot be replaced')
-         call self%abandon()
+      do i = 1, size(self%written)
+         if (.not. is_folder(self%prefix//trim(self%written(i)%suffix))) cycle
+         call raise_failure(error, self%prefix//trim(self%written(i)%suffix)//': is a folder, and cannot be replaced')
          return
       end do
-   end subroutine commit
+      call rename_file(staged(self%prefix//run_suffix, self%lock%run), self%prefix//run_suffix, ok)
+      if (.not. ok) then
+         call raise_failure(error, self%prefix//run_suffix//': cannot be replaced')
+         return
+      end if
+      ! The new set is in force.
+      call synchronize_folder(self%prefix, ok)
+      do i = 1, size(self%written)
+         associate (path => self%prefix//trim(self%written(i)%suffix))
+            if (self%written(i)%suffix /= run_suffix .and. ok) call rename_file(staged(path, self%lock%run), path, ok)
+            if (ok) cycle
+            call raise_failure(error, path//': cannot be replaced; it is '//staged(path, self%lock%run)// &
+               & ', where dondolo finds it')
+            return
+         end associate
+      end do
+      call synchronize_folder(self%prefix, ok)
+      do i = 1, size(all_suffixes)
+         if (.not. is_written(self, all_suffixes(i))) call remove_old(self%prefix//trim(all_suffixes(i)), inputs)
+      end do
+   end subroutine publish
 
-   !> Remove a file that an earlier run has left; only what begins as a result file does, and is no input, is removed
-   subroutine remove_old(self, suffix, mark, inputs)
-      !> The files of the run
-      class(result_files_type), intent(in) :: self
+   !> Does a table belong to the set?
+   pure logical function is_written(files, suffix)
+      type(result_files_type), intent(in) :: files
       !> What its name ends with
       character(len=*), intent(in) :: suffix
-      !> What result files begin with
-      character(len=*), intent(in) :: mark
+
+      integer :: i
+
+      is_written = any([(files%written(i)%suffix == suffix, i=1, size(files%written))])
+   end function is_written
+
+   !> Remove a table that an earlier run has left; only what begins as one, and is no input, is removed
+   subroutine remove_old(path, inputs)
+      !> Path
+      character(len=*), intent(in) :: path
       !> Paths of the files of the case
       type(lines_type), intent(in) :: inputs
 
-      character(len=:), allocatable :: path
       character(len=len(mark)) :: begin
       integer(int64) :: bytes
       integer :: unit, stat, i
 
-      path = self%prefix//suffix
       ! A pipe has no size, and would be waited for.
       inquire (file=path, size=bytes)
       if (bytes < len(mark)) return
@@ -234,19 +391,38 @@ contains
       if (stat == 0 .and. begin == mark) call remove_file(path)
    end subroutine remove_old
 
-   !> Remove what has been written; folders that are not empty stay
-   subroutine abandon(self)
-      !> The files of the run; the one that is being written is closed
+   !> Give the lock back; what was not published is removed, with folders that were made for it
+   subroutine close_files(self)
+      !> The files of the run; nothing happens if they were not claimed
       class(result_files_type), intent(inout) :: self
 
       integer :: i
-      logical :: ok
+      logical :: is_published, ok
 
+      if (len_trim(self%lock%run) == 0) return
+      ok = .true.
       call self%writer%close(ok)
-      do i = 1, self%paths%count
-         call remove_file(self%paths%line(i)%text//'.part')
+      is_published = published_run(self%prefix) == self%lock%run
+      do i = 1, size(self%written)
+         if (.not. is_published) call remove_file(staged(self%prefix//trim(self%written(i)%suffix), self%lock%run))
       end do
-      call remove_folders(self%made)
-   end subroutine abandon
+      ! A table that could not be renamed stays for the next run to rename.
+      call self%lock%release(keep_file=is_published .and. is_staged(self))
+      if (.not. is_published) call remove_folders(self%made)
+   end subroutine close_files
+
+   !> Has a table not its own name yet?
+   logical function is_staged(files)
+      type(result_files_type), intent(in) :: files
+
+      integer :: i
+      logical :: exists
+
+      is_staged = .false.
+      do i = 1, size(files%written)
+         inquire (file=staged(files%prefix//trim(files%written(i)%suffix), files%lock%run), exist=exists)
+         is_staged = is_staged .or. exists
+      end do
+   end function is_staged
 
 end module dondolo_result_files

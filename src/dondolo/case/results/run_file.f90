@@ -18,10 +18,13 @@ module dondolo_run_file
    implicit none
    private
 
-   public :: write_run
+   public :: write_run, shape_of, shape_names
+
+   !> What a shape counts
+   character(len=*), parameter :: shape_names(*) = [character(len=7) :: 'walls', 'levels', 'states', 'records']
 
    !> Name and version of the format, the first member of the file
-   character(len=*), parameter :: format = 'dondolo run 1'
+   character(len=*), parameter :: format = 'dondolo run 2'
 
 contains
 
@@ -38,6 +41,7 @@ contains
 
       call json%open_object()
       call json%put('format', format)
+      call json%put('run', files%lock%run)
       call json%put('version', dondolo_version_text)
       call json%put('compiler', compiler_version())
       call json%put('real_bits', storage_size(1.0_wp))
@@ -46,6 +50,8 @@ contains
       call case%echo(echo)
       call echo%to_json(json)
       call put_inputs(case, json)
+      call put_shape(case, json)
+      call put_files(files, json)
       if (case%job%task == 'history') then
          call put_history(case, results, json)
       else
@@ -130,6 +136,53 @@ contains
       call json%put('fewest_clusters', fewest_clusters)
       call json%close_object()
    end subroutine put_records
+
+   !> Numbers of walls (rows of the population), levels, damage states and records of a run
+   pure function shape_of(case) result(shape)
+      type(case_type), intent(in) :: case
+      integer :: shape(size(shape_names))
+
+      if (case%job%task == 'history') then
+         shape = [1, 0, 0, 1]
+      else
+         shape = [1, size(case%stripes%levels), size(case%stripes%thresholds), size(case%suite%records)]
+         if (case%job%task == 'typology') shape(1) = case%survey%rows
+      end if
+   end function shape_of
+
+   !> Put the shape of the results
+   subroutine put_shape(case, json)
+      type(case_type), intent(in) :: case
+      type(json_type), intent(inout) :: json
+
+      integer :: shape(size(shape_names)), i
+
+      shape = shape_of(case)
+      call json%open_object('shape')
+      do i = 1, size(shape)
+         call json%put(trim(shape_names(i)), shape(i))
+      end do
+      call json%close_object()
+   end subroutine put_shape
+
+   !> Put the tables of the set
+   subroutine put_files(files, json)
+      !> The files; all but this one are finished
+      type(result_files_type), intent(in) :: files
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_array('files')
+      do i = 1, size(files%written) - 1
+         call json%open_object()
+         call json%put('name', trim(files%written(i)%suffix))
+         call json%put('bytes', files%written(i)%bytes)
+         call json%put('crc32', files%written(i)%checksum)
+         call json%close_object()
+      end do
+      call json%close_array()
+   end subroutine put_files
 
    !> Put the result of a time history
    subroutine put_history(case, results, json)

@@ -3,6 +3,7 @@
 module dondolo_run_case
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type, raise_failure
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
    use dondolo_memory, only : raise_shortage
    use dondolo_plausibility, only : wall_warning_type
@@ -55,6 +56,8 @@ contains
          end associate
          call simulate(case%wall%mechanism, case%suite%records(case%history%record), case%history_scale(), &
             & case%solver%solver, results%response, results%trace)
+         call check_interrupt(error)
+         if (allocated(error)) return
          if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
          if (allocated(error)) return
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
@@ -133,6 +136,7 @@ contains
 
       call case%make_study(study, team)
       call multiple_stripe(stripes, case%wall, study, error, progress)
+      if (.not. allocated(error)) call check_interrupt(error)
       if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, study%suite%clusters, error)
       if (allocated(error)) return
       results%work = stripes%work

@@ -1,0 +1,275 @@
+"""Sets of files that are published at once, under the lock of their prefix, as the executable does it.
+
+``case/results/result_files.f90`` states the steps and why they are safe; names, lock file and order are the same here.
+"""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import os
+import re
+import secrets
+import socket
+import stat
+import time
+import zlib
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import NamedTuple
+
+from dondolo.errors import DondoloError, InputError
+
+# What the names of the files of a set end with
+TABLES = tuple(f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history"))
+RUN_FILE = "_run.json"
+_LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
+# How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment
+_TRIES, _PAUSE = 5, 0.02
+
+
+class Written(NamedTuple):
+    """A table of a set.
+
+    Attributes
+    ----------
+    name : str
+        What its file name ends with, such as ``_walls.csv``.
+    bytes : int
+        Its length.
+    crc32 : str
+        CRC-32 of what follows the line that names the run: the same for the same results.
+    """
+
+    name: str
+    bytes: int
+    crc32: str
+
+
+def new_run() -> str:
+    """A name for a run that no other has: time (UTC) and 64 random bits."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(8)}"
+
+
+def staged(path: Path, run: str) -> Path:
+    """Where a file stands before it is published."""
+    return path.with_name(f"{path.name}.{run}.part")
+
+
+def create(path: Path) -> None:
+    """Make an empty file; one that exists is not touched, and no link followed."""
+    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))
+
+
+def synchronize(path: Path) -> None:
+    """Bring a file, or the names of the files of a folder, to the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    except OSError as error:
+        # Some file systems have nothing to synchronize, and say so.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
+    finally:
+        os.close(descriptor)
+
+
+def run_of(table: str) -> tuple[str, str]:
+    """The run that a table names, empty if it names none, and what follows that line."""
+    lines = table.split("\n", 2)
+    if len(lines) < 3 or not lines[0].startswith(_TABLE_MARK) or not lines[1].startswith("# run: "):
+        return "", table
+    return lines[1].removeprefix("# run: "), lines[2]
+
+
+def described(name: str, table: str) -> Written:
+    """A table as the file of its run lists it."""
+    return Written(name, len(table.encode()), f"{zlib.crc32(run_of(table)[1].encode()):08x}")
+
+
+class Publication:
+    """A set of files in the making.
+
+    Parameters
+    ----------
+    prefix : Path
+        What their names begin with.
+    run : str
+        Name of the run.
+    """
+
+    def __init__(self, prefix: Path, run: str) -> None:
+        self.run = run
+        self.written: list[Written] = []
+        self._prefix = prefix
+
+    def write(self, name: str, lines: Iterable[str]) -> None:
+        """Write a file under its name before it is published; `name` is what its name ends with."""
+        path = _end(self._prefix, name)
+        text = "".join(f"{line}\n" for line in lines)
+        try:
+            create(staged(path, self.run))
+            staged(path, self.run).write_text(text, encoding="utf-8")
+            synchronize(staged(path, self.run))
+        except OSError as error:
+            raise DondoloError(f"{path}: cannot be written: {error.strerror}") from error
+        self.written.append(described(name, text))
+
+    def publish(self) -> None:
+        """Publish what was written, the file of the run among it."""
+        paths = [_end(self._prefix, file.name) for file in self.written]
+        paths.sort(key=lambda path: not path.name.endswith(RUN_FILE))
+        for path in paths:
+            if path.is_dir():
+                raise DondoloError(f"{path}: cannot be written: is a folder")
+        for path in paths:
+            try:
+                staged(path, self.run).replace(path)
+                if path in (paths[0], paths[-1]):
+                    synchronize(path.parent)
+            except OSError as error:
+                raise DondoloError(f"{path}: cannot be replaced: {error.strerror}") from error
+        for name in TABLES:
+            if _end(self._prefix, name) not in paths:
+                _remove_old(_end(self._prefix, name))
+
+    def close(self) -> bool:
+        """Remove what was not published; is everything in its place?"""
+        parts = [staged(_end(self._prefix, name), self.run) for name in (*TABLES, RUN_FILE)]
+        if published_run(self._prefix) == self.run:
+            return not any(part.exists() for part in parts)
+        for part in parts:
+            part.unlink(missing_ok=True)
+        return True
+
+
+@contextmanager
+def publishing(prefix: Path) -> Iterator[Publication]:
+    """Write a set of files that is then published at once, under the lock of its prefix.
+
+    Parameters
+    ----------
+    prefix : Path
+        What their names begin with; the folder must exist.
+
+    Yields
+    ------
+    Publication
+        What is not published at the end is removed.
+
+    Raises
+    ------
+    InputError
+        Another run has the lock, or its file is something else.
+    DondoloError
+        The files cannot be written.
+    """
+    lock = _end(prefix, ".lock")
+    try:
+        descriptor, said = _take(lock)
+    except BlockingIOError as error:
+        raise InputError(f"{prefix}: is being written by another run{_holder(str(error))}") from None
+    except OSError as error:
+        raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
+    try:
+        if said and not said.startswith(_LOCK_MARK):
+            raise InputError(f"{lock}: exists, and is no lock of dondolo")
+        publication = Publication(prefix, new_run())
+        _end_publishing(prefix, _said(said, "run"))
+        _sign(descriptor, publication.run)
+        try:
+            yield publication
+        finally:
+            # Removed while it is held: who waits for it sees that the file is gone, and makes another. A table that
+            # could not be renamed stays for the next run to rename.
+            if publication.close():
+                lock.unlink(missing_ok=True)
+    finally:
+        # A process that was forked meanwhile does not keep it.
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
+        os.close(descriptor)
+
+
+def published_run(prefix: Path) -> str:
+    """Name of the run whose results are published; empty if there is none."""
+    try:
+        with _end(prefix, RUN_FILE).open("rb") as file:
+            found = re.search(rb'"run": "([0-9a-fTZ-]+)"', file.read(200))
+    except OSError:
+        return ""
+    return found[1].decode() if found else ""
+
+
+def _end_publishing(prefix: Path, killed: str) -> None:
+    """Rename tables of the published set that have not their names yet; remove what a killed run has not published."""
+    published = published_run(prefix)
+    for name in (*TABLES, RUN_FILE):
+        path = _end(prefix, name)
+        with suppress(OSError):
+            if published:
+                staged(path, published).replace(path)
+        if killed and killed != published:
+            staged(path, killed).unlink(missing_ok=True)
+
+
+def _end(prefix: Path, name: str) -> Path:
+    return prefix.with_name(prefix.name + name)
+
+
+def _take(lock: Path) -> tuple[int, str]:
+    """Descriptor of a lock file that this process has now, and what the file says, which else is a BlockingIOError."""
+    flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+    tries, said = 0, ""
+    while tries < _TRIES:
+        descriptor = os.open(lock, flags, 0o666)
+        try:
+            said = os.pread(descriptor, 500, 0).decode(errors="replace")
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(descriptor)
+            time.sleep(_PAUSE)
+            tries += 1
+            continue
+        except OSError:
+            # A file system without locks refuses none.
+            pass
+        ours = os.fstat(descriptor)
+        # Who had it before has removed the file, unless it is still the one of this name.
+        with suppress(FileNotFoundError):
+            if stat.S_ISREG(ours.st_mode) and os.path.samestat(ours, os.lstat(lock)):
+                return descriptor, os.pread(descriptor, 500, 0).decode(errors="replace")
+        os.close(descriptor)
+        if not stat.S_ISREG(ours.st_mode):
+            raise OSError(0, "is no file")
+    raise BlockingIOError(said)
+
+
+def _sign(descriptor: int, run: str) -> None:
+    """Say in a lock file who has it."""
+    since = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
+    text = f"{_LOCK_MARK}\nrun {run}\npid {os.getpid()}\nhost {socket.gethostname()}\nsince {since}\n".encode()
+    os.pwrite(descriptor, text, 0)
+    os.ftruncate(descriptor, len(text))
+
+
+def _said(text: str, name: str) -> str:
+    """What a lock file says."""
+    found = re.search(rf"^{name} ([\w.:-]+)$", text, re.MULTILINE)
+    return found[1] if found else ""
+
+
+def _holder(text: str) -> str:
+    """Who has a lock, in parentheses."""
+    if not _said(text, "pid"):
+        return ""
+    return f" (process {_said(text, 'pid')} on {_said(text, 'host')} since {_said(text, 'since')})"
+
+
+def _remove_old(path: Path) -> None:
+    """Remove a table that an earlier run has left and the set does not replace; what begins otherwise stays."""
+    with suppress(OSError):
+        if path.is_file() and path.read_bytes()[: len(_TABLE_MARK)] == _TABLE_MARK.encode():
+            path.unlink()

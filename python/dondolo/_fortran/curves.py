@@ -1,0 +1,174 @@
+"""Curves that Fortran fits and evaluates: of walls, and of populations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray, as_text
+from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check, constants, receive, unpack_warnings
+from dondolo.errors import DondoloWarning
+
+
+class CurveData(NamedTuple):
+    """A fitted curve, or why there is none."""
+
+    status: str
+    numbers: FloatArray
+
+
+class FlatPopulation(NamedTuple):
+    """A population as Fortran takes it, with the counts of one damage state.
+
+    Attributes
+    ----------
+    texts : bytes
+        Mechanism and group of each row, a line each.
+    levels : ndarray, shape (levels,)
+    counts : ndarray of int, shape (levels, rows)
+    histories : ndarray of int, shape (rows,)
+    shares : ndarray, shape (2, rows)
+        Weight of the wall and probability of occurrence.
+    rows : ndarray of int, shape (walls,)
+        How many each wall has.
+    """
+
+    texts: bytes
+    levels: FloatArray
+    counts: NDArray[np.int32]
+    histories: NDArray[np.int32]
+    shares: FloatArray
+    rows: NDArray[np.int32]
+
+
+class GroupData(NamedTuple):
+    """A curve of a population, or of one of its groups: the values of a `Group`, and its curve with its histories."""
+
+    values: dict[str, Any]
+    histories: float
+    curve: CurveData
+
+
+class PopulationData(NamedTuple):
+    """Curves of mechanisms, of walls and of their population; fractions are those of the walls (walls, levels)."""
+
+    rows: list[CurveData]
+    walls: list[CurveData]
+    fractions: FloatArray
+    groups: list[GroupData]
+    warnings: list[DondoloWarning]
+
+
+def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
+    """Fit many curves in one call: collapses and histories are (curves, levels)."""
+    z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
+    curves, codes, stat, message = _core.curves.fit_curves(levels, z.T, n.T)
+    check(stat, message)
+    names = constants().statuses
+    return curves.T, [names[code - 1] for code in codes]
+
+
+def cluster_changes(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, theta: float, beta: float
+) -> tuple[FloatArray, str]:
+    """Changes (clusters, 2) of ln theta and beta if each cluster is left out, and what standard errors there are.
+
+    Collapses and histories are (clusters, levels).
+    """
+    changes, code, stat, message = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
+    check(stat, message)
+    return changes.T, constants().errors[code - 1]
+
+
+def cluster_curves(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
+) -> tuple[FloatArray, list[str], NDArray[np.int32]]:
+    """Covariances (curves, 2, 2) of many curves, what standard errors each has, and its number of clusters.
+
+    Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
+    """
+    names, known = constants().statuses, constants().errors
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
+    codes = np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], numbers.T, codes)
+    covariances, errors, clusters, stat, message = found
+    check(stat, message)
+    return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
+
+
+def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
+    """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
+
+    Names are those of the wall of each row, one a line.
+    """
+    parcel = receive(*_core.curves.fit_walls(population.texts, names, *population[1:]))
+    levels, histories, rows = population.levels, population.histories, population.rows
+    m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
+    known = ("", *constants().statuses)
+    status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
+    walls = parcel.integers[1 + r + w + number :]
+    numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
+    curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
+    together = []
+    for i, row in enumerate(groups.reshape(number, 6 + 5 * m + 8)):
+        first, mean_fraction, mean_curve, fractiles, curve = np.split(row, np.cumsum([6, m, m, 3 * m]))
+        *single, together_histories = first.tolist()
+        values = dict(zip(("weight", "beta_walls", "beta_records", "fitted", "saturation"), single, strict=True))
+        values |= {"group": parcel.lines[2 * i], "mechanism": parcel.lines[2 * i + 1], "n_walls": int(walls[i])}
+        values |= {"mean_fraction": mean_fraction, "mean_curve": mean_curve}
+        values["level_fractiles"] = np.ascontiguousarray(fractiles.reshape(m, 3).T)
+        together.append(GroupData(values, together_histories, CurveData(status[r + w + i], curve)))
+    found = unpack_warnings(parcel.lines[2 * number :])
+    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
+
+
+def curve_of_population(
+    population: FlatPopulation,
+    curves: Sequence[tuple[str, float, float]],
+    which: tuple[str, str],
+    x: FloatArray,
+    q: FloatArray,
+    members: bool = False,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
+
+    Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. The probabilities are
+    there with `members` only.
+    """
+    statuses = constants().statuses
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [curve[1:] for curve in curves]
+    codes = np.array([statuses.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+    texts = (as_text("group", text) for text in which)
+    mean, fractiles, *sent = _core.curves.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
+    check(*sent[1:])
+    found = np.zeros((0, len(x)))
+    if members:
+        parcel = receive(*sent)
+        found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
+    return mean, fractiles, found
+
+
+def rows_in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+    """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
+    whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
+    return whole
+
+
+def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
+    """What the executable would warn of, of the curve of one wall."""
+    code = constants().statuses.index(curve.status) + 1
+    parcel = receive(*_core.curves.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
+    return unpack_warnings(parcel.lines)
+
+
+def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
+    """Probabilities of collapse of a lognormal curve."""
+    found: FloatArray = _core.curves.probability(theta, beta, x)
+    return found

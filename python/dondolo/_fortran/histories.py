@@ -1,0 +1,57 @@
+"""Settings of the integration, and what is odd about histories."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_number
+from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import constants, receive, unpack_warnings
+from dondolo.errors import DondoloWarning
+
+
+def settings(
+    rtol: float | None,
+    atol: float | None,
+    edp_limit: float | None,
+    estimate_error: bool = False,
+    collapses_only: bool = False,
+) -> FloatArray:
+    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for each of the others."""
+    if rtol is None and atol is None and edp_limit is None and not estimate_error and not collapses_only:
+        return _default_settings()
+    default = constants()
+    return np.array(
+        [
+            default.rtol if rtol is None else as_number("rtol", rtol),
+            default.atol if atol is None else as_number("atol", atol),
+            default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
+            float(bool(estimate_error)),
+            float(bool(collapses_only)),
+        ]
+    )
+
+
+@functools.cache
+def _default_settings() -> FloatArray:
+    default = constants()
+    return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
+
+
+def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[DondoloWarning]:
+    """What the executable would warn of, of a wall and a record, before it runs one motion."""
+    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga)).lines)
+
+
+def warnings_of_errors(
+    edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
+) -> list[DondoloWarning]:
+    """What the executable would warn of, of estimated errors; record and level are those of the largest.
+
+    Without a record it is one history.
+    """
+    parcel = receive(*_core.histories.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    return unpack_warnings(parcel.lines)

@@ -1,0 +1,198 @@
+"""The library as a whole: its version and defaults, tables of properties, statuses, parcels, and warnings.
+
+Statuses become exceptions with the sentence of the executable, and parcels become arrays.
+"""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import sys
+import threading
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _core
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
+
+_PACKAGE = str(Path(__file__).parents[1]) + os.sep
+
+
+class Constants(NamedTuple):
+    """What Fortran says of itself."""
+
+    rtol: float
+    atol: float
+    edp_limit: float
+    gravity: float
+    version: str
+    statuses: tuple[str, ...]
+    errors: tuple[str, ...]
+
+
+class Property(NamedTuple):
+    """A property of walls, or of another group, as Fortran's table has it.
+
+    Attributes
+    ----------
+    name : str
+        As in namelists and in Python.
+    kind : str
+        'real', 'integer', 'text', 'logical', 'list' or 'either'.
+    unit : str
+        '' for a number.
+    default : str
+        As in a namelist; 'required', or 'optional' where there is none.
+    smallest, largest : float
+        Range of a number.
+    bounds : str
+        'positive' for a number greater than 0, 'less' for one less than the largest.
+    choices, owners : tuple of str
+        What a text can be; the mechanisms that have it, () for all.
+    column : str
+        Its column in the tables of results.
+    meaning : str
+        One sentence.
+    """
+
+    name: str
+    kind: str
+    unit: str
+    default: str
+    smallest: float
+    largest: float
+    bounds: str
+    choices: tuple[str, ...]
+    owners: tuple[str, ...]
+    column: str
+    meaning: str
+
+
+class Parcel(NamedTuple):
+    """Contents that came from Fortran."""
+
+    integers: NDArray[np.int32]
+    reals: FloatArray
+    lines: list[str]
+
+
+@functools.cache
+def constants() -> Constants:
+    """Ask Fortran for its version, defaults and the names of its statuses."""
+    defaults, version, statuses, errors = _core.library.constants()
+    rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
+    return Constants(
+        rtol,
+        atol,
+        edp_limit,
+        gravity,
+        version=version.decode().strip(),
+        statuses=tuple(statuses.decode().split()),
+        errors=tuple(errors.decode().split()),
+    )
+
+
+@functools.cache
+def properties(group: str) -> tuple[Property, ...]:
+    """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
+    rows = (line.split("\t") for line in receive(*_core.library.properties(group.encode())).lines)
+    return tuple(
+        Property(
+            name,
+            kind,
+            unit,
+            default,
+            float(smallest),
+            float(largest),
+            bounds,
+            tuple(choices.split()),
+            tuple(owners.split()),
+            column,
+            meaning,
+        )
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
+    )
+
+
+def build_variant() -> str:
+    """The build variant that the engine lanes runs here.
+
+    Returns
+    -------
+    str
+        "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
+        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+    Raises
+    ------
+    InputError
+        DONDOLO_VARIANT names none that this build and this processor have.
+    """
+    name, stat, message = _core.library.variant()
+    check(stat, message)
+    return str(name.decode().strip())
+
+
+def check(stat: int, message: bytes) -> None:
+    """Raise what a status says."""
+    if stat == 0:
+        return
+    sentence = message.decode("utf-8", "replace").strip()
+    raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    _core.library.listen()
+    try:
+        yield
+    finally:
+        _core.library.end_listening()
+
+
+# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
+os.register_at_fork(after_in_child=_core.library.work_alone)
+
+
+def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
+    """Take the parcel that a procedure has sent: its address and sizes."""
+    check(stat, message)
+    integers, reals, characters = _core.library.take_parcel(*sent)
+    text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
+    return Parcel(integers, reals, text.split("\n")[:-1])
+
+
+def unpack_warning(data: dict[str, Any]) -> DondoloWarning:
+    """A warning of Fortran, from its JSON object."""
+    return DondoloWarning(str(data["sentence"]), str(data["code"]), data["subject"], data["numbers"])
+
+
+def unpack_warnings(lines: Iterable[str]) -> list[DondoloWarning]:
+    """Warnings of Fortran, a JSON object on each line."""
+    return [unpack_warning(json.loads(line)) for line in lines]
+
+
+def warn_of_notes(sentences: Iterable[str]) -> None:
+    """Warn of how a table was read."""
+    warn(DondoloWarning(sentence, "note") for sentence in sentences)
+
+
+def warn(found: Iterable[DondoloWarning]) -> None:
+    """Warn of each, where the user's own line is."""
+    frame, depth = sys._getframe(), 1
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        frame, depth = frame.f_back, depth + 1
+    for one in found:
+        warnings.warn(one, stacklevel=depth)

@@ -1,0 +1,135 @@
+"""Records, tables and intensity measures that Fortran reads and describes."""
+
+from __future__ import annotations
+
+import functools
+import os
+from typing import NamedTuple
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_number, as_path, as_text
+from dondolo._fortran import _core
+from dondolo._fortran.library import Parcel, constants, receive, warn_of_notes
+from dondolo.errors import InputError
+
+
+class RecordData(NamedTuple):
+    """A record as Fortran has read it."""
+
+    name: str
+    dt: float
+    acceleration: FloatArray
+    metadata: dict[str, str]
+
+
+class MeasureData(NamedTuple):
+    """An intensity measure.
+
+    Attributes
+    ----------
+    name : str
+        As dondolo writes it.
+    unit : str
+        Of its levels; '' for a number.
+    title : str
+        What it is, in words.
+    power : int
+        Power of a record's scale that it grows by.
+    """
+
+    name: str
+    unit: str
+    title: str
+    power: int
+
+
+def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
+    """Records out of a parcel, from given places on."""
+    lengths = parcel.integers[integers : integers + count]
+    entries = parcel.integers[integers + count : integers + 2 * count]
+    ends = reals + count + np.cumsum(lengths)
+    ends_of_metadata = lines + count + 2 * np.cumsum(entries)
+    records = []
+    for i in range(count):
+        words = parcel.lines[ends_of_metadata[i] - 2 * entries[i] : ends_of_metadata[i]]
+        records.append(
+            RecordData(
+                parcel.lines[lines + i],
+                float(parcel.reals[reals + i]),
+                parcel.reals[ends[i] - lengths[i] : ends[i]],
+                dict(zip(words[::2], words[1::2], strict=True)),
+            )
+        )
+    return records
+
+
+def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:
+    """Line of a parcel after its records."""
+    return lines + count + 2 * int(parcel.integers[integers + count : integers + 2 * count].sum())
+
+
+def records_of_file(
+    path: str | os.PathLike[str],
+    what: int,
+    dt: float | None = None,
+    units: str | None = None,
+    channel: str | None = None,
+    layout: str | None = None,
+) -> list[RecordData]:
+    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2)."""
+    step = 0.0 if dt is None else as_number("dt", dt)
+    texts = (
+        b"" if text is None else as_text(name, text)
+        for name, text in (("units", units), ("channel", channel), ("format", layout))
+    )
+    parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts))
+    count = len(parcel.integers) // 2
+    warn_of_notes(parcel.lines[records_end(parcel, count) :])
+    return unpack_records(parcel, count)
+
+
+def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
+    """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
+    parcel = receive(*_core.records.read_number_table(as_path(path)))
+    columns, rows = (int(count) for count in parcel.integers)
+    warn_of_notes(parcel.lines[columns:])
+    return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
+
+
+def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
+    """The table of the records of a catalogue, as the executable prints it."""
+    parcel = receive(*_core.records.catalogue_table(as_path(path), constants().gravity))
+    lines = int(parcel.integers[0])
+    warn_of_notes(parcel.lines[lines:])
+    return parcel.lines[:lines]
+
+
+def describe_measure(im: str, of_record: bool = False) -> MeasureData:
+    """A measure that records can be scaled by, or one that they have of themselves."""
+    return _describe_measure(as_text("im", im), of_record)
+
+
+@functools.cache
+def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
+    parcel = receive(*_core.records.describe_measure(im, int(of_record)))
+    name, unit, title = parcel.lines
+    return MeasureData(name, unit, title, int(parcel.integers[0]))
+
+
+def unit_of(im: str) -> str:
+    """The unit of the levels of a measure; '' for a number, and for a name that dondolo does not know."""
+    try:
+        return describe_measure(im).unit
+    except InputError:
+        return ""
+
+
+def blank_unit(im: str) -> str:
+    """The unit with its blank, for the end of a number; '' where there is none."""
+    return f" {unit_of(im)}".rstrip()
+
+
+def levels_in_words(levels: FloatArray, im: str) -> str:
+    """How many levels of a measure, from where to where."""
+    return f"{len(levels)} of {im}, {levels[0]:g} to {levels[-1]:g}{blank_unit(im)}"

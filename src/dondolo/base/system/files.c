@@ -1,0 +1,154 @@
+/* What files need of POSIX that Fortran cannot call: functions with optional arguments, structures, clocks. */
+#define _GNU_SOURCE
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Make a file that is not there yet, and open it to write; NULL if that fails. No link is followed. */
+FILE *dondolo_create(const char *path)
+{
+   int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+
+   return descriptor < 0 ? NULL : fdopen(descriptor, "w");
+}
+
+/* 1: all that was written to a file, or to the list of files of a folder, is on the disk */
+static int synchronize(int descriptor)
+{
+   /* Some file systems have nothing to synchronize, and say so. */
+   return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
+}
+
+int dondolo_synchronize(FILE *file)
+{
+   return fflush(file) == 0 && synchronize(fileno(file));
+}
+
+int dondolo_synchronize_folder(const char *path)
+{
+   int descriptor = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+   int done = descriptor < 0 || synchronize(descriptor);
+
+   if (descriptor >= 0)
+      close(descriptor);
+   return done;
+}
+
+static void pause_briefly(void)
+{
+   const struct timespec pause = {0, 20000000L};
+
+   nanosleep(&pause, NULL);
+}
+
+static void read_text(int descriptor, char *text, size_t room)
+{
+   ssize_t length = pread(descriptor, text, room - 1, 0);
+
+   text[length > 0 ? length : 0] = '\0';
+}
+
+/* Take the lock file of a path, and read what stands in it. 0: taken; 1: another process has it; 2: it cannot be written.
+   The kernel gives the lock back when the last process that has it ends, however that ends. */
+int dondolo_take_lock(const char *path, int *descriptor, char *text, size_t room)
+{
+   struct stat ours, there;
+   int tries = 0;
+
+   while (tries < 5) {
+      *descriptor = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+      if (*descriptor < 0)
+         return 2;
+      if (flock(*descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+         /* Who only looks has it for a moment. */
+         read_text(*descriptor, text, room);
+         close(*descriptor);
+         pause_briefly();
+         tries++;
+         continue;
+      }
+      /* Who had it before has removed the file, unless it is still the one of this name. */
+      if (fstat(*descriptor, &ours) == 0 && S_ISREG(ours.st_mode) && lstat(path, &there) == 0 &&
+          ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
+         read_text(*descriptor, text, room);
+         return 0;
+      }
+      close(*descriptor);
+      if (!S_ISREG(ours.st_mode))
+         return 2;
+   }
+   return 1;
+}
+
+/* Say in the lock file who has it; 1: it is there whole */
+int dondolo_mark_lock(int descriptor, const char *text)
+{
+   size_t length = strlen(text);
+
+   return pwrite(descriptor, text, length, 0) == (ssize_t)length && ftruncate(descriptor, (off_t)length) == 0;
+}
+
+/* Give the lock back; a process that was forked meanwhile does not keep it. */
+void dondolo_give_back_lock(int descriptor)
+{
+   flock(descriptor, LOCK_UN);
+   close(descriptor);
+}
+
+/* Look at a lock file. 0: nobody has the lock; 1: a process has it; 2: there is no such file. */
+int dondolo_look_at_lock(const char *path, char *text, size_t room)
+{
+   int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), is_held;
+
+   if (descriptor < 0)
+      return 2;
+   read_text(descriptor, text, room);
+   is_held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+   close(descriptor);
+   return is_held;
+}
+
+/* Who this process is: its number, its machine, the time (UTC), and a name for the run that no other has */
+void dondolo_introduce(int *pid, char *host, size_t host_room, char *since, size_t since_room, char *run, size_t run_room)
+{
+   struct timespec now;
+   struct tm parts;
+   uint64_t random = 0;
+   FILE *source = fopen("/dev/urandom", "r");
+   char stamp[32];
+
+   *pid = (int)getpid();
+   if (gethostname(host, host_room) != 0)
+      host[0] = '\0';
+   host[host_room - 1] = '\0';
+   clock_gettime(CLOCK_REALTIME, &now);
+   gmtime_r(&now.tv_sec, &parts);
+   strftime(since, since_room, "%Y-%m-%dT%H:%M:%SZ", &parts);
+   strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", &parts);
+   if (source == NULL || fread(&random, sizeof random, 1, source) != 1) {
+      /* FNV-1a of machine, process and nanoseconds */
+      random = 14695981039346656037u ^ (uint64_t)*pid ^ ((uint64_t)now.tv_nsec << 32);
+      for (const char *letter = host; *letter != '\0'; letter++)
+         random = (random ^ (unsigned char)*letter) * 1099511628211u;
+   }
+   if (source != NULL)
+      fclose(source);
+   snprintf(run, run_room, "%s-%016llx", stamp, (unsigned long long)random);
+}
+
+/* Seconds since a time as dondolo_introduce gives it; negative if it is none */
+double dondolo_seconds_since(const char *since)
+{
+   struct tm parts;
+
+   memset(&parts, 0, sizeof parts);
+   if (strptime(since, "%Y-%m-%dT%H:%M:%SZ", &parts) == NULL)
+      return -1.0;
+   return difftime(time(NULL), timegm(&parts));
+}
