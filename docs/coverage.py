@@ -231,6 +231,11 @@ def main() -> None:
                     cells = [f"{100 * value:.1f}" for value in found.values()]
                     tests.append([name, pairing, str(number), str(size), *cells])
                     print(" | ".join(tests[-1]), flush=True)
+    write_page(rows, tests, methods)
+
+
+def write_page(rows: list[list[str]], tests: list[list[str]], methods: list[str]) -> None:
+    """Write the page with the rows of both tables."""
     head = ["wall", "polarity", "levels", "records"]
     parts = [
         TEXT,

@@ -154,7 +154,7 @@ check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
 check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
 check "stripes: summary has the median between the levels at 16 and 84 %" equal \
    "$(sed -n 's/^pga at a probability of 16, 50, 84 %: [0-9.]*, \(.*\), [0-9.]* g$/\1/p' stdout)" \
-   "$(sed -n 's/^theta = \([0-9.]*\) g .*/\1/p' stdout)"
+   "$(sed -n 's/^theta = \([0-9.]*\) g, .*/\1/p' stdout)"
 check "stripes: summary says what the standard errors assume" grep -qE \
    '^\(4 clusters of records, 3 degrees of freedom; naive standard errors, as if all histories were independent: ' stdout
 check "stripes: the file of the run has the clusters" python3 -c 'import json
