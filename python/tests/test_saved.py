@@ -210,7 +210,8 @@ def test_arrays_are_read_only_and_stored_once(results, tmp_path):
 
 def comparison(interval):
     """A result with any values."""
-    return dd.Comparison(method="likelihood", p_value=0.5, ratio=1.0, ratio_interval=interval, statistic=0.0)
+    names = ("ratio", "p_value", "beta_ratio", "beta_interval", "beta_p_value", "curves_p_value", "degrees_of_freedom")
+    return dd.Comparison(pairing="paired", shared=3, ratio_interval=interval, **dict.fromkeys(names, 0.5))
 
 
 def test_values_that_json_lacks(tmp_path):
