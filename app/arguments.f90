@@ -17,9 +17,9 @@ module dondolo_arguments
 
    !> What the command line asks for
    type :: arguments_type
-      !> 'run', 'check', 'merge', 'template', 'benchmark', 'version' or 'help'
+      !> 'run', 'check', 'merge', 'status', 'template', 'benchmark', 'version' or 'help'
       character(len=:), allocatable :: action
-      !> Path of the case
+      !> Path of the case; of 'status' the output
       character(len=:), allocatable :: case_file
       !> Task of the template
       character(len=:), allocatable :: task
@@ -29,7 +29,7 @@ module dondolo_arguments
       integer, allocatable :: threads
       !> First and last row of the population that are to be run; not allocated: all
       integer, allocatable :: rows(:)
-      !> Files of counts to be taken together
+      !> Files of counts to be taken together, or further outputs
       type(lines_type) :: parts
       !> Print errors and warnings only
       logical :: quiet = .false.
@@ -67,18 +67,18 @@ contains
          else if (word == '--benchmark' .or. index(word, '--benchmark=') == 1) then
             call set_action('benchmark')
             if (.not. allocated(error)) call take_seconds(word, i, arguments, error)
-         else if (word == '--merge') then
-            call set_action('merge')
+         else if (word == '--merge' .or. word == '--status') then
+            call set_action(word(3:))
          else if (word == '--walls' .or. index(word, '--walls=') == 1) then
             call take_rows(word, i, arguments, error)
          else if (word == '--threads' .or. index(word, '--threads=') == 1) then
             call take_threads(word, i, arguments, error)
          else if (index(word, '-') == 1) then
-            call raise_input(error, word//': no such option; there are --check, --walls, --merge, --template, '// &
+            call raise_input(error, word//': no such option; there are --check, --walls, --merge, --status, --template, '// &
                & '--benchmark, --threads, --quiet, --version, --help')
          else if (len(word) == 0) then
             call raise_input(error, 'the name of the case is empty'//see_help)
-         else if (allocated(arguments%case_file) .and. arguments%action == 'merge') then
+         else if (allocated(arguments%case_file) .and. any(arguments%action == ['merge ', 'status'])) then
             call arguments%parts%add(word)
          else if (allocated(arguments%case_file)) then
             call raise_input(error, word//': one case at a time, '//arguments%case_file//' was given before')
@@ -89,6 +89,8 @@ contains
       end do
       if (any(arguments%action == [character(len=5) :: 'run', 'check', 'merge'])) then
          if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
+      else if (arguments%action == 'status' .and. .not. allocated(arguments%case_file)) then
+         call raise_input(error, 'no output given: dondolo --status OUTPUT'//see_help)
       else if (allocated(arguments%case_file) .and. arguments%action == 'template') then
          call raise_input(error, arguments%case_file//': --template takes no case, it prints one')
       else if (allocated(arguments%case_file) .and. arguments%action == 'benchmark') then

@@ -15,6 +15,7 @@ module dondolo_help
       & '   dondolo --walls A:B CASE.nml run rows A to B of a population only, into a file of counts', &
       & '   dondolo --merge CASE.nml COUNTS ...', &
       & '                                merge part files and write the result files', &
+      & '   dondolo --status OUTPUT ...  from another terminal: who runs, how far, what time is left', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
       & '   dondolo --version            print the version, and the build variant for this processor', &
@@ -39,7 +40,11 @@ module dondolo_help
       & 'A population runs in blocks, and a checkpoint, OUTPUT.checkpoint, grows with them: a run that was killed', &
       & 'goes on where it was when it is started again. At the end the checkpoint is removed.', &
       & '', &
-      & 'Exit code: 0 done, 1 failed while running, 2 wrong input (nothing is run or written then).']
+      & 'One run at a time writes an OUTPUT; its files are published at once, when all are whole.', &
+      & '', &
+      & 'Exit code: 0 done; 1 failed while running; 2 wrong input, or another run is writing the output (nothing is', &
+      & 'run or written then). Ctrl-C, SIGTERM and SIGHUP end a run in order, with its checkpoint, and then the', &
+      & 'process by the signal (130, 143 and 129 in a shell); a second signal ends it at once.']
 
 contains
 

@@ -18,6 +18,7 @@ program dondolo_main
    use dondolo_run_case, only : run_case
    use dondolo_population_case, only : merge_population
    use dondolo_threads, only : available_threads
+   use dondolo_status, only : print_status
    use dondolo_summary, only : print_summary
    use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template
@@ -27,6 +28,7 @@ program dondolo_main
 
    type(arguments_type) :: arguments
    type(error_type), allocatable :: error
+   integer :: i
 
    call outlive_file_limit()
    call read_arguments(arguments, error)
@@ -44,6 +46,12 @@ program dondolo_main
       call check_variant(error)
       if (allocated(error)) call give_up(error)
       call run_benchmark(arguments%seconds, team(0), arguments%quiet, error)
+      if (allocated(error)) call give_up(error)
+   case ('status')
+      call print_status(arguments%case_file, error)
+      do i = 1, arguments%parts%count
+         if (.not. allocated(error)) call print_status(arguments%parts%line(i)%text, error)
+      end do
       if (allocated(error)) call give_up(error)
    case default
       call serve(arguments, error)

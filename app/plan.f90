@@ -2,7 +2,7 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type, problems_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
@@ -15,6 +15,7 @@ module dondolo_plan
    use dondolo_store, only : store_type
    use dondolo_text, only : left, rounded, to_text
    use dondolo_wall, only : wall_type
+   use dondolo_wall_body, only : is_bare, read_wall_body, wall_body_type
    use dondolo_wall_properties, only : wall_input_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
@@ -112,8 +113,57 @@ contains
       width = min(max(4, len(wall%name())), name_width)
       call print_head(width)
       call print_row(wall, width)
+      if (wall%mechanism_name() /= 'two_block') then
+         if (.not. is_bare(wall%input)) call print_body(wall)
+      end if
       write (output_unit, '(a)') ''
    end subroutine print_wall
+
+   !> Print the body of a wall, what acts on it, and what ends its motion
+   subroutine print_body(wall)
+      !> A wall of one block
+      type(wall_type), intent(in) :: wall
+
+      type(wall_body_type) :: whole
+      type(problems_type) :: problems
+      integer :: i
+
+      call read_wall_body(wall%input, wall%gravity, problems, whole)
+      associate (body => whole%body, actions => whole%actions, q => wall%mechanism%capacity)
+         call print_line('masonry', rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer face, '// &
+            & rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
+         if (actions%hinge > 0.0_wp) call print_line('hinge', rounded(actions%hinge)//' m behind the outer face'// &
+            & trim(merge(', from the compressive strength', repeat(' ', 31), wall%input%has('compressive_strength'))))
+         do i = 1, size(actions%carried)
+            associate (thing => actions%carried(i))
+               if (thing%weight > 0.0_wp) call print_line('load', rounded(thing%weight)//' N/m at depth '// &
+                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '//rounded(thing%pushed)// &
+                  & ' kg/m, lifted '//rounded(thing%lifted)//' kg/m')
+               if (.not. thing%weight > 0.0_wp) call print_line('mass', rounded(thing%pushed)//' kg/m pushed at depth '// &
+                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m')
+            end associate
+         end do
+         call print_line('moments', 'weights hold with '//rounded(wall%gravity*body%mass*(body%depth - actions%hinge) &
+            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m/m, thrusts push out with '// &
+            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
+         if (wall%mechanism%unseating < q) then
+            call print_line('collapse', 'a load loses its seat at '//rounded(wall%mechanism%unseating)//' rad, '// &
+               & rounded(wall%mechanism%unseating/q)//' of the capacity')
+         else
+            call print_line('collapse', 'the restoring moment vanishes at '//rounded(q)//' rad')
+         end if
+      end associate
+   end subroutine print_body
+
+   !> Print a line of what there is to say of a wall
+   subroutine print_line(what, text)
+      !> What it is
+      character(len=*), intent(in) :: what
+      !> What there is to say
+      character(len=*), intent(in) :: text
+
+      write (output_unit, '(a)') '   '//left(what//':', 10)//text
+   end subroutine print_line
 
    !> Print the first rows of the population
    subroutine print_population(case, error)

@@ -4,7 +4,7 @@ module dondolo_progress_bar
    implicit none
    private
 
-   public :: start_progress, show_progress, erase_progress
+   public :: start_progress, show_progress, erase_progress, duration
 
    !> Seconds between two showings
    real, parameter :: pause = 0.1
@@ -57,7 +57,7 @@ contains
    end subroutine show_progress
 
    !> A duration as a person says it
-   function duration(seconds) result(text)
+   pure function duration(seconds) result(text)
       !> Duration [s]
       real, intent(in) :: seconds
       !> Its text, filled up with blanks

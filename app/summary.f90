@@ -145,13 +145,13 @@ contains
       character(len=120) :: line
       character(len=24) :: counts
       real(wp) :: fraction
-      integer :: j, k, histories
+      integer :: j, k
 
       call make_head(case, head)
-      histories = results%row%histories
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
-         associate (collapses => results%row%reached(j, size(results%row%reached, 2)))
+         associate (collapses => results%row%reached(j, size(results%row%reached, 2)), &
+            & histories => results%row%histories(j))
             counts = to_text(collapses)//'/'//to_text(histories)
             fraction = real(collapses, wp)/real(histories, wp)
          end associate
@@ -218,8 +218,8 @@ contains
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse; filled up with blanks
-      character(len=100) :: text
+      !> The levels and their unit; a dash where so many cannot collapse, and why; filled up with blanks
+      character(len=160) :: text
 
       real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
       integer :: i
@@ -233,6 +233,7 @@ contains
          end if
       end do
       text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
+      if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
    end function fractiles
 
    !> Print the curves of a population

@@ -263,7 +263,7 @@ rm -rf out
 population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
 run people.nml
 check "typology: no level where so many cannot collapse" grep -qE \
-   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g$' stdout
+   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g \(-: only [0-9.]+ % can collapse\)$' stdout
 printf 'mechanism,height,thickness,overburden,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
    'two_block,3,0.25,8000,inner,0.06,' 'two_block,3,0.25,8000,,,-0.065' >walls.csv
 run people.nml
@@ -501,7 +501,7 @@ done <<'TABLE'
 s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &population
 s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
 s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
-s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'threads'
+s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'spreadsheet_safe', 'threads'
 s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are 'engine', 'rtol'
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
@@ -559,7 +559,7 @@ s/output = .*/output = 'out\/'/|bad.nml: &job: output = 'out/': must end in the 
 s/output = .*/output = 'good.nml\/x'/|bad.nml: &job: output = 'good.nml/x': the folder good.nml/ cannot be made
 s/output = .*/output = '\/proc\/x\/y'/|bad.nml: &job: output = '/proc/x/y': the folder /proc/x/ cannot be made
 s/output = .*/output = '\/proc\/y'/|bad.nml: &job: output = '/proc/y': the file /proc/y_histories.csv cannot be written
-s/'It''s a wall'/'It's a wall'/|bad.nml: line 4: the quote before
+s/'It''s a wall'/'It's a wall'/|bad.nml: line 4: text right after the quote that closes 'It': a quote inside is doubled, 'L''Aquila'
 s/name = 'wall, one'/name = 'wall, one/|bad.nml: line 9: the quote before 'wall, one' is not closed on its line
 s/'records.records.csv'/records\/records.csv/|bad.nml: line 15: text right after a /: quote paths and other strings
 s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'records/none.csv': there is no file records/none.csv
@@ -805,8 +805,11 @@ warned 's/records.csv/bad.csv/' "record 'strong': a PGA of 899.7 g, more than 3 
 good_case | sed 's/records.csv/bad.csv/; s/thickness/density = 18 thickness/; s/0.6, 1.0/0.6, 5.0/' >warn.nml
 run --check warn.nml
 check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more than 3 g: wrong units\?; ' stdout
-check "check: warnings last" equal "$(tail -n 5 stdout | cut -c 1-24 | tr '\n' ';')" \
-   ";warning: wall 'wall, one;warning: record 'still' ;warning: record 'strong';warning: scale factors a;"
+check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' ';')" \
+   ";warning: wall 'wall, one;warning: record 'still' ;warning: record 'strong';warning: levels up to 5 ;warning: scale factors a;"
+warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
+warned "s/one_sided'/two_block' bearing = 'centre'/" \
+   "wall 'wall, one': a bearing or an eccentricity without overburden changes nothing: is the overburden missing?"
 good_case | sed "s/one_sided'/two_block' overburden = 8000 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
 run --check good2.nml
 check "check: where the load bears" contains stdout '  load 8000 N/m, 0.06 m from the inner face, folding outwards'

@@ -262,8 +262,8 @@ EDITS = [
     ),
     Edit(
         "a wall has as many histories as the mechanism with most of them",
-        "combined_histories = minval(self%histories)",
-        "combined_histories = maxval(self%histories)",
+        "combined_histories = minval(self%histories, dim=2)",
+        "combined_histories = maxval(self%histories, dim=2)",
         "test_typology.f90",
     ),
     Edit(

@@ -21,6 +21,8 @@ program test_case
 
    character(len=*), parameter :: scratch = 'build/test_case', lf = new_line('a')
 
+   character(len=*), parameter :: one_sided = "&job output = '"//scratch//"/out/s' /"//lf// &
+      & "&wall mechanism = 'one_sided' height = 3 thickness = 0.25 /"//lf
    !> A catalogue of two records, a case of each task
    character(len=*), parameter :: records = "&records catalogue = 'records.csv' polarity = 'reversed' /"//lf
    character(len=*), parameter :: wall = "&wall mechanism = 'two_block', height = 3, thickness = 0.25, "// &
@@ -43,6 +45,7 @@ program test_case
    call test_population()
    call test_echo()
    call test_run()
+   call test_record_sets()
    call test_work()
    call test_output()
    call finish()
@@ -162,7 +165,7 @@ contains
       call check_close(case%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
          & 'gravity enters the wall')
       call case%make_study(study)
-      call check_close(study%scale_to(case%wall, 1, 0.6_wp), 0.6_wp*5.0_wp/case%suite%peaks(1), 1.0e-15_wp, 'and the levels')
+      call check_close(study%scale_to(case%wall, 1, 1), 0.1_wp*5.0_wp/case%suite%peaks(1), 1.0e-15_wp, 'and the levels')
    end subroutine test_defaults
 
    !> Levels from a grid
@@ -246,6 +249,69 @@ contains
       end do
    end subroutine check_echo
 
+   !> Records of their own at each level: histories, counts and results are those of the records alone
+   subroutine test_record_sets()
+      character(len=*), parameter :: sets = "&records catalogue = 'sets.csv' polarity = 'both' /"//lf
+      type(case_type) :: case
+      type(results_type) :: whole, some
+      type(error_type), allocatable :: error
+
+      call suite('record sets')
+      call write_file('sets.csv', 'file,dt_s,units,level,factor'//lf//'one.txt,0.01,m/s2,0.3,'//lf// &
+         & 'two.txt,0.01,m/s2,0.5,'//lf//'one.txt,0.01,m/s2,1,'//lf//'two.txt,0.01,m/s2,1,'//lf)
+      call write_file('a.nml', one_sided//"&records catalogue = 'records.csv' polarity = 'both' /"//lf// &
+         & "&stripes levels = 0.3, 0.5, 1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, whole, error, threads=1)
+      call check_ok(error, 'every record at every level')
+      if (allocated(error)) return
+      call write_file('a.nml', one_sided//sets//"&stripes levels = 0.3, 0.5, 1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      if (.not. allocated(error)) call run_case(case, some, error, threads=1)
+      call check_ok(error, 'records of each level')
+      if (allocated(error)) return
+      call check(size(case%suite%records) == 2, 'each record once')
+      call check(all(some%row%histories == [2, 2, 4]), 'histories of each level')
+      call check(some%work%histories == 8, 'nothing else runs')
+      call check(maxval(abs(some%row%response([1, 3], 1)%edp - whole%row%response([1, 3], 1)%edp)) <= 0.0_wp .and. &
+         & maxval(abs(some%row%response([2, 4], 2)%edp - whole%row%response([2, 4], 2)%edp)) <= 0.0_wp .and. &
+         & maxval(abs(some%row%response(:, 3)%edp - whole%row%response(:, 3)%edp)) <= 0.0_wp, 'the same histories')
+      call check(whole%row%response(1, 1)%edp > 0.0_wp, 'which move')
+      call write_file('a.nml', one_sided//sets//"&stripes levels = 0.3, 1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, '&stripes: levels: do not include 0.5, the level of record ''two'' in '//scratch// &
+         & '/sets.csv: line 3', 'a level that is not among the others')
+      call write_file('a.nml', one_sided//sets//"&stripes levels = 0.3, 0.5, 0.7, 1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'levels = 0.7: no record runs at this level', 'a level without records')
+      call write_file('sets.csv', 'file,dt_s,units,level'//lf//'one.txt,0.01,m/s2,0.3'//lf//'one.txt,0.01,m/s2,'//lf)
+      call write_file('a.nml', one_sided//sets//"&stripes levels = 0.3, 1 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_error(error, 'levels = 0.3: record ''one'' runs twice at this level', 'a record twice')
+      call check_factors(one_sided//sets)
+   end subroutine test_record_sets
+
+   !> A factor that the catalogue gives is that of the histories
+   subroutine check_factors(start)
+      character(len=*), intent(in) :: start
+      type(case_type) :: case
+      type(study_type) :: study
+      type(error_type), allocatable :: error
+
+      call write_file('sets.csv', 'file,dt_s,units,level,factor'//lf//'one.txt,0.01,m/s2,0.3,1.25'//lf// &
+         & 'two.txt,0.01,m/s2,,'//lf)
+      call write_file('a.nml', start//"&stripes levels = 0.3, 0.5 /")
+      call read_case(scratch//'/a.nml', case, error)
+      call check_ok(error, 'factors')
+      if (allocated(error)) return
+      call case%make_study(study)
+      call check(study%runs(1, 1) .and. .not. study%runs(1, 2) .and. study%runs(2, 1) .and. study%runs(2, 2), &
+         & 'without a level a record runs at all')
+      call check_close(study%scale_to(case%wall, 1, 1), 1.25_wp, 0.0_wp, 'factor that is given')
+      call check_close(study%scale_to(case%wall, 2, 2), 0.5_wp*9.81_wp/case%suite%peaks(2), 1.0e-15_wp, 'and computed')
+      call check(maxval(abs(study%share() - [1.0_wp, 0.5_wp])) <= 0.0_wp, 'share of the records')
+   end subroutine check_factors
+
    !> Tasks agree with each other
    subroutine test_run()
       type(case_type) :: case
@@ -260,7 +326,7 @@ contains
       call check_ok(error, 'stripes')
       if (allocated(error)) return
       call check(all(stripes%row%reached(:, 1) == count(stripes%row%response%collapsed, dim=1)), 'collapses')
-      call check(stripes%row%histories == 2, 'polarity does not double the histories of a symmetric wall')
+      call check(all(stripes%row%histories == 2), 'polarity does not double the histories of a symmetric wall')
       call check(any(stripes%row%response%edp > 0.0_wp), 'something moves')
 
       call write_file('a.nml', history_case)

@@ -1,8 +1,9 @@
 !> Numbers, tables, units, and the readers of accelerogram files.
 program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_catalogue, only : read_catalogue
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_row, only : cell_type, split_row, text_cell
    use dondolo_encoding, only : is_utf8, take_utf16
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
@@ -270,7 +271,30 @@ contains
          & ': read with '//semicolons//', decimal commas')
       call check_csv('a;b'//lf//'#N/D;2'//lf//'1,5;2'//lf, ': line 2: begins with # as a comment does')
       call check_csv('a;b'//lf//'1,5;2'//lf//'#12;2'//lf, ': line 3: begins with # as a comment does')
+      call check_cell('plain', 'plain', 'plain')
+      call check_cell(' a, "b" ', '" a, ""b"" "', '" a, ""b"" "')
+      call check_cell('=1+1', '=1+1', '''=1+1')
+      call check_cell('@a,b', '"@a,b"', '"''@a,b"')
+      call check_cell('-5', '-5', '''-5')
+      call check_cell('''=1', '''''=1', '''''=1')
+      call check_cell('''''', '''''''', '''''''')
+      call check_cell('''s Hertogenbosch', '''s Hertogenbosch', '''s Hertogenbosch')
+      call check_cell('''', '''', '''')
+      call check_cell('', '', '')
    end subroutine test_spreadsheets
+
+   !> A text as a cell, without and with a guard against spreadsheets, and read back
+   subroutine check_cell(text, cell, safe)
+      character(len=*), intent(in) :: text, cell, safe
+      type(cell_type), allocatable :: cells(:)
+      character(len=:), allocatable :: problem
+
+      call check_text(text_cell(text, .false.), cell, 'cell of '//text)
+      call check_text(text_cell(text, .true.), safe, 'safe cell of '//text)
+      call split_row('x,'//cell//','//safe, ',', cells, problem)
+      call check_text(cells(2)%text, text, 'cell read back')
+      call check_text(cells(3)%text, text, 'safe cell read back')
+   end subroutine check_cell
 
    !> A table of two numbers, and how it was read
    subroutine check_numbers(content, want, note)
@@ -687,6 +711,7 @@ contains
    !> Catalogues
    subroutine test_catalogue()
       type(record_type), allocatable :: records(:)
+      type(record_rows_type) :: rows
       type(error_type), allocatable :: error
 
       call suite('catalogue')
@@ -736,6 +761,21 @@ contains
       call check_text(records(3)%name, 'a.NS', 'extension')
       call check_text(records(4)%name, 'other', 'given')
       call check_text(records(5)%name, 'b', 'stem')
+      call write_file('folder/levels.csv', 'file,dt_s,units,level,factor,event'//lf//'b.txt,,g,0.2,,Friuli'//lf// &
+         & 'a.txt,.01,g,0.2,1.5,'//lf//'b.txt,,g,0.4,3,Friuli'//lf//'a.NS,.01,g,,,'//lf)
+      call read_catalogue(scratch//'/folder/levels.csv', records, error, rows=rows)
+      call check_ok(error, 'levels')
+      if (allocated(error)) return
+      call check(size(records) == 3, 'a record with two rows is read once')
+      call check(rows%have_levels .and. all(rows%record == [1, 2, 1, 3]), 'record of each row')
+      call check_close(maxval(abs(rows%level - [0.2_wp, 0.2_wp, 0.4_wp, 0.0_wp])), 0.0_wp, 0.0_wp, 'levels of rows')
+      call check_close(maxval(abs(rows%factor - [0.0_wp, 1.5_wp, 3.0_wp, 0.0_wp])), 0.0_wp, 0.0_wp, 'factors of rows')
+      call check_text(records(1)%metadata%get('event'), 'Friuli', 'other columns are metadata')
+      call check_catalogue('file,dt_s,units,level'//lf//'a.txt,.01,g,0'//lf, 'line 2: level = 0: must be positive')
+      call check_catalogue('file,dt_s,units,level,factor'//lf//'a.txt,.01,g,1,-2'//lf, &
+         & 'line 2: factor = -2: must be positive')
+      call check_catalogue('file,dt_s,units,factor'//lf//'a.txt,.01,g,2'//lf, &
+         & 'line 2: factor = 2: needs the level at which it applies')
       call check_catalogue('file,dt_s,units'//lf//'none.txt,.01,g'//lf, 'line 2: '//scratch// &
          & '/folder/none.txt: no such file')
       call check_catalogue('file,dt_s,units'//lf//'sub,.01,g'//lf, 'line 2: '//scratch//'/folder/sub: ')

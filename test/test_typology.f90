@@ -66,12 +66,12 @@ contains
       wall%mechanism = mechanisms
       wall%p_occ = spread(1.0_wp, 1, size(rows))
       if (present(p_occ)) wall%p_occ = p_occ
-      wall%histories = spread(44, 1, size(rows))
-      if (present(histories)) wall%histories = histories
+      allocate (wall%histories(size(x), size(rows)), source=44)
+      if (present(histories)) wall%histories = spread(histories, 1, size(x))
       allocate (wall%curve(size(rows)), wall%fraction(size(x), size(rows)))
       do i = 1, size(rows)
-         wall%fraction(:, i) = real(z(:, rows(i)), wp)/real(wall%histories(i), wp)
-         call fit_fragility(wall%curve(i), x, real(z(:, rows(i)), wp), spread(real(wall%histories(i), wp), 1, size(x)), error)
+         wall%fraction(:, i) = real(z(:, rows(i)), wp)/real(wall%histories(:, i), wp)
+         call fit_fragility(wall%curve(i), x, real(z(:, rows(i)), wp), real(wall%histories(:, i), wp), error)
          call check_ok(error, 'fit')
       end do
       call wall%fit(x, error)
@@ -107,8 +107,8 @@ contains
       do i = 1, size(walls)
          do m = 1, size(walls(i)%p_occ)
             row = population%first(i) + m - 1
-            population%histories(row) = walls(i)%histories(m)
-            population%reached(:, 1, row) = nint(walls(i)%fraction(:, m)*real(walls(i)%histories(m), wp))
+            population%histories(:, row) = walls(i)%histories(:, m)
+            population%reached(:, 1, row) = nint(walls(i)%fraction(:, m)*real(walls(i)%histories(:, m), wp))
          end do
       end do
       call population%fit(error)
@@ -242,7 +242,7 @@ contains
       call check_close(curves(1)%mean_curve(3), 0.75_wp*walls(1)%curve(1)%probability(x(3)) &
          & + 0.25_wp*10.0_wp/88.0_wp, 1.0e-15_wp, 'curve')
       call check_close(curves(1)%fitted, 0.75_wp, 0.0_wp, 'share with a curve')
-      call check_close(curves(1)%histories, n, 1.0e-15_wp, 'histories that the fit counts')
+      call check_close(curves(1)%histories(1), n, 1.0e-15_wp, 'histories that the fit counts')
       call fit_fragility(fit, x, f*n, spread(n, 1, 3), error)
       call check_close(curves(1)%fit%theta, fit%theta, 1.0e-13_wp, 'theta')
       call check_close(curves(1)%fit%se_ln_theta(), fit%se_ln_theta(), 1.0e-12_wp, 'standard error')
@@ -288,8 +288,8 @@ contains
          & 'fraction of all')
       call check_close(curves(3)%mean_curve(2), (2.0_wp*p(2) + plain%curve(1)%probability(x(2)))/3.0_wp, 1.0e-14_wp, &
          & 'curve of all')
-      call check_close(curves(2)%histories, 88.0_wp, 1.0e-15_wp, 'histories of the second mechanism')
-      call check_close(curves(3)%histories, 88.0_wp, 1.0e-15_wp, 'histories of all')
+      call check_close(curves(2)%histories(1), 88.0_wp, 1.0e-15_wp, 'histories of the second mechanism')
+      call check_close(curves(3)%histories(1), 88.0_wp, 1.0e-15_wp, 'histories of all')
       call check_close(curves(3)%beta_records, sqrt((2.0_wp*can*fit%beta**2 + plain%curve(1)%beta**2) &
          & /(2.0_wp*can + 1.0_wp)), 1.0e-12_wp, 'dispersion between records is that of the walls as a whole')
       call check_close(curves(3)%beta_walls, sqrt(2.0_wp*can)/(2.0_wp*can + 1.0_wp) &
@@ -582,7 +582,8 @@ contains
 
       call suite('thresholds')
       stripes%levels = [1.0_wp, 2.0_wp]
-      allocate (stripes%response(3, 2))
+      allocate (stripes%response(3, 2), stripes%ran(3, 2))
+      stripes%ran = .true.
       stripes%response(:, 1)%edp = [0.0_wp, 0.1_wp, 0.09_wp]
       stripes%response(:, 2)%edp = [0.4_wp, 1.0_wp, 0.1_wp]
       stripes%response(2, 2)%collapsed = .true.

@@ -39,9 +39,12 @@ from dondolo.records import pulses
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
 from dondolo.records.record import Record
+from dondolo.records.record_set import RecordSet
 from dondolo.records.rotation import RotD
+from dondolo.records.selection import Selection, select_records
 from dondolo.records.spectrum import Spectrum
 from dondolo.records.synthetic import synthetic_records
+from dondolo.records.target import TargetSpectrum, ec8_spectrum, ntc_spectrum
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
@@ -79,16 +82,19 @@ __all__ = [
     "Population",
     "PopulationCurve",
     "Record",
+    "RecordSet",
     "Regression",
     "Response",
     "Results",
     "Risk",
     "RotD",
+    "Selection",
     "Solver",
     "Spectrum",
     "State",
     "StoredResults",
     "Stripes",
+    "TargetSpectrum",
     "Triangular",
     "Typology",
     "TypologyBootstrap",
@@ -100,6 +106,7 @@ __all__ = [
     "cloud",
     "compare",
     "compare_intensities",
+    "ec8_spectrum",
     "fit_fragility",
     "incremental",
     "intensity_table",
@@ -107,6 +114,7 @@ __all__ = [
     "mean_annual_frequency",
     "multiple_stripe",
     "nrml_functions",
+    "ntc_spectrum",
     "overturning_spectrum",
     "pulses",
     "read_case",
@@ -118,6 +126,7 @@ __all__ = [
     "report",
     "run_case",
     "sample_population",
+    "select_records",
     "simulate",
     "synthetic_records",
     "typology",

@@ -7,9 +7,28 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
+# Longest line of a message [characters]; the middle of a longer one is left out
+_LONGEST = 2000
+
+
+def _visible(character: str) -> str:
+    """A character, escaped if it cannot be printed."""
+    return character if character.isprintable() else character.encode("unicode_escape").decode()
+
 
 class DondoloError(Exception):
-    """The work failed."""
+    """The work failed.
+
+    Messages quote files; control characters and marks of direction in them are escaped, and the middle of a long line
+    is left out.
+    """
+
+    def __str__(self) -> str:
+        lines = super().__str__().split("\n")
+        shown = (line if len(line) <= _LONGEST else f"{line[:1500]} ... {line[-400:]}" for line in lines)
+        return "\n".join(
+            "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line) for line in shown
+        )
 
 
 class InputError(DondoloError, ValueError):

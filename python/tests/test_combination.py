@@ -48,7 +48,7 @@ def typology_of(walls, levels=LEVELS, histories=HISTORIES):
     )
     share = [ndtr(np.log(levels / theta) / beta) for *_, (theta, beta, _) in rows]
     counts = np.round(np.array(share).T * histories)[None].astype(np.int32)
-    sizes = np.full(len(rows), histories, dtype=np.int32)
+    sizes = np.full((len(levels), len(rows)), histories, dtype=np.int32)
     complete = np.ones(len(rows), dtype=bool)
     return combine(people, "pga", levels, np.ones(1), counts, sizes, complete, Work())
 
@@ -260,7 +260,16 @@ def test_walls_without_a_fit():
     counts = people.exceedances.copy()
     counts[0, :, 0] = np.where(LEVELS < 0.5, 0, 44)
     complete = np.ones(2, dtype=bool)
-    arguments = (people.population, "pga", LEVELS, np.ones(1), counts, np.full(2, 44), complete, Work())
+    arguments = (
+        people.population,
+        "pga",
+        LEVELS,
+        np.ones(1),
+        counts,
+        np.full((len(LEVELS), 2), 44, dtype=np.int32),
+        complete,
+        Work(),
+    )
     stepped = combine(*arguments)
     assert [str(warning) for warning in stepped.warnings] == [
         "1 of 2 mechanisms of walls has no fit and takes part with its fractions of collapse "
@@ -277,8 +286,8 @@ def test_walls_without_a_fit():
 
 def test_a_wall_has_the_fewest_histories_of_its_mechanisms(people):
     histories = np.array(people.histories)
-    histories[1] *= 2
-    complete = np.ones(len(histories), dtype=bool)
+    histories[:, 1] *= 2
+    complete = np.ones(histories.shape[1], dtype=bool)
     again = combine(people.population, "pga", LEVELS, np.ones(1), people.exceedances, histories, complete, Work())
     assert list(again.combined["a"].histories) == [HISTORIES] * len(LEVELS)
     assert again["two_block"].fit.histories[0] > people["two_block"].fit.histories[0]
@@ -309,7 +318,7 @@ def states(few):
     stripes = [dd.multiple_stripe(wall, few, levels, progress=False) for wall in walls]
     thresholds = np.array([0.1, 0.4, 1.0])
     counts = np.array([[one.exceedances(edp) for one in stripes] for edp in thresholds]).transpose(0, 2, 1)
-    histories = np.array([one.edp.shape[1] for one in stripes])
+    histories = np.array([one.histories for one in stripes]).T
     complete = np.ones(3, dtype=bool)
     return combine(people, "pga", levels, thresholds, counts, histories, complete, Work()), stripes
 

@@ -301,7 +301,22 @@ def test_options_are_keywords():
 
 
 # What may be left out and still goes by its place: the one thing that a call is about
-BY_PLACE = {"ax", "edp_threshold", "ims", "kind", "measure", "name", "probabilities", "q", "scale", "table", "weights"}
+BY_PLACE = {
+    "ax",
+    "edp_threshold",
+    "height",
+    "ims",
+    "kind",
+    "levels",
+    "measure",
+    "name",
+    "probabilities",
+    "q",
+    "scale",
+    "table",
+    "thickness",
+    "weights",
+}
 
 
 def test_what_may_be_left_out_goes_by_name():
@@ -318,7 +333,7 @@ def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
         "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
-        "Population", "Record", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+        "Population", "Record", "RecordSet", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
     assert made_by_users < set(kinds)

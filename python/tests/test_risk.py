@@ -314,7 +314,7 @@ def losses(people, hazard, years, group=""):
             def probability(x, one=one, occurs=occurs):
                 stands = np.ones_like(x)
                 for i in itertools.compress(one, occurs):
-                    curve, counts = people.curves[i], people.collapses[:, i] / people.histories[i]
+                    curve, counts = people.curves[i], people.collapses[:, i] / people.histories[:, i]
                     stands *= 1.0 - (curve(x) if curve.has_fit else np.interp(x, people.levels, counts))
                 return 1.0 - stands
 

@@ -22,7 +22,9 @@ def flags_of(reached):
     """Flags of rows from booleans (states, levels, histories) of each; a stripe has 44 records, or twice as many."""
     histories = np.array([row.shape[-1] for row in reached], dtype=np.int32)
     records = int(histories.min())
-    flags = Flags.empty(histories, reached[0].shape[1], len(reached[0]), cluster_labels(records))
+    levels = reached[0].shape[1]
+    runs = np.ones((records, levels))
+    flags = Flags.empty(histories, levels, len(reached[0]), runs, cluster_labels(records))
     for i, row in enumerate(reached):
         flags.bits[flags.place(i, 1)] = np.packbits(row)
     return flags

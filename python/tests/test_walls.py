@@ -73,7 +73,7 @@ def test_html_is_escaped():
         (lambda: dd.OneSidedWall(3.0, 0.25, gravity=0.0), "gravity = 0: must be positive"),
         (
             lambda: dd.OneSidedWall(3.0, 0.25, restitution="elastic"),
-            "restitution = 'elastic': must be one of 'default', 'sorrentino', 'constant'",
+            "restitution = 'elastic': must be one of 'default', 'sorrentino', 'impulse', 'constant'",
         ),
         (
             lambda: dd.OneSidedWall(3.0, 0.25, restitution="constant"),
@@ -204,3 +204,47 @@ def test_population(root):
 def test_wrong_weights(weights):
     with pytest.raises(dd.InputError):
         dd.Population((WALLS[0], WALLS[1]), weights)
+
+
+def loaded_population():
+    """Walls with different numbers of loads, one with sections, and a bare one."""
+    facade = dd.OneSidedWall(
+        section_height=[4.0, 3.5],
+        section_thickness=[0.6, 0.45],
+        load=[12e3, 6e3],
+        load_depth=[0.5, 0.35],
+        load_height=[4.0, 7.5],
+        load_inertia=["both", "none"],
+        thrust=500.0,
+        thrust_height=7.5,
+        compressive_strength=2e6,
+    )
+    coping = dd.FreeStandingWall(2.0, 0.3, load=500.0, load_depth=0.15, load_height=2.0, load_inertia="both")
+    return dd.Population([facade, coping, dd.TwoBlockWall(3.0, 0.25)])
+
+
+def test_loads_have_a_home_in_tables_and_archives(tmp_path):
+    population = loaded_population()
+    assert population[0].height == 7.5
+    assert population[0].load == (12e3, 6e3)
+    assert population[0].load_inertia == ("both", "none")
+    population.to_csv(tmp_path / "walls.csv")
+    head = (tmp_path / "walls.csv").read_text().splitlines()[0]
+    assert "load1,load2,load1_depth,load2_depth" in head
+    assert list(dd.read_population(tmp_path / "walls.csv")) == list(population)
+    for wall in population:
+        assert pickle.loads(pickle.dumps(wall)) == wall
+
+
+def test_a_table_says_which_load_is_missing(tmp_path):
+    table = tmp_path / "walls.csv"
+    table.write_text("mechanism,height,thickness,load1,load2\none_sided,3,0.25,,1000\n")
+    with pytest.raises(dd.InputError, match="load2: only behind load1"):
+        dd.read_population(table)
+
+
+def test_sampled_loads():
+    common = {"height": 3.0, "thickness": 0.25, "load_depth": 0.175, "load_height": 3.0, "load_inertia": "both"}
+    walls = dd.sample_population("one_sided", 4, 1, load=dd.Uniform(5e3, 10e3), **common)
+    assert all(5e3 < wall.load[0] < 10e3 for wall in walls)
+    assert dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].load == (1e3, 2e3)

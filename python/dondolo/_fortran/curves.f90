@@ -191,7 +191,7 @@ contains
    !> curves, then warnings
    subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, sent, stat, message)
       character(len=*), intent(in) :: texts, names
-      integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(r), rows(w)
+      integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(m, r), rows(w)
       real(c_double), intent(in) :: levels(m), shares(2, r)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
@@ -245,7 +245,7 @@ contains
    subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
          & x, n, q, k, probabilities, mean, fractiles, sent, stat, message)
       character(len=*), intent(in) :: texts, mechanism, group
-      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(r), rows(w), statuses(r)
+      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), rows(w), statuses(r)
       real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
       real(c_double), intent(out) :: mean(n), fractiles(k, n)
       integer(c_int64_t), intent(out) :: sent(4)
@@ -299,8 +299,8 @@ contains
       real(c_double), intent(in) :: levels(:)
       !> Histories that reach the state (levels, rows)
       integer(c_int), intent(in) :: collapses(:, :)
-      !> Histories of a stripe of each row
-      integer(c_int), intent(in) :: histories(:)
+      !> Histories of each stripe (levels, rows)
+      integer(c_int), intent(in) :: histories(:, :)
       !> Weight of the wall and probability that the mechanism can occur (2, rows)
       real(c_double), intent(in) :: shares(:, :)
       !> How many rows each wall has
@@ -313,7 +313,7 @@ contains
       integer :: i, first, group
 
       call split_lines(texts, words)
-      roster%count = size(histories)
+      roster%count = size(histories, 2)
       allocate (roster%row(roster%count))
       do i = 1, roster%count
          group = 0

@@ -31,7 +31,7 @@ class FlatPopulation(NamedTuple):
         Mechanism and group of each row, a line each.
     levels : ndarray, shape (levels,)
     counts : ndarray of int, shape (levels, rows)
-    histories : ndarray of int, shape (rows,)
+    histories : ndarray of int, shape (levels, rows)
     shares : ndarray, shape (2, rows)
         Weight of the wall and probability of occurrence.
     rows : ndarray of int, shape (walls,)
@@ -50,7 +50,7 @@ class GroupData(NamedTuple):
     """A curve of a population, or of one of its groups: the values of a `Group`, and its curve with its histories."""
 
     values: dict[str, Any]
-    histories: float
+    histories: FloatArray
     curve: CurveData
 
 
@@ -108,22 +108,22 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     Names are those of the wall of each row, one a line.
     """
     parcel = receive(*_core.curves.fit_walls(population.texts, names, *population[1:]))
-    levels, histories, rows = population.levels, population.histories, population.rows
-    m, r, w, number = len(levels), len(histories), len(rows), int(parcel.integers[0])
+    rows = population.rows
+    m, r, w, number = len(population.levels), population.counts.shape[1], len(rows), int(parcel.integers[0])
     known = ("", *constants().statuses)
     status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
     walls = parcel.integers[1 + r + w + number :]
     numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
     curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
     together = []
-    for i, row in enumerate(groups.reshape(number, 6 + 5 * m + 8)):
-        first, mean_fraction, mean_curve, fractiles, curve = np.split(row, np.cumsum([6, m, m, 3 * m]))
-        *single, together_histories = first.tolist()
-        values = dict(zip(("weight", "beta_walls", "beta_records", "fitted", "saturation"), single, strict=True))
+    for i, row in enumerate(groups.reshape(number, 5 + 6 * m + 8)):
+        single, histories, mean_fraction, mean_curve, fractiles, curve = np.split(row, np.cumsum([5, m, m, m, 3 * m]))
+        means = ("weight", "beta_walls", "beta_records", "fitted", "saturation")
+        values: dict[str, Any] = dict(zip(means, single.tolist(), strict=True))
         values |= {"group": parcel.lines[2 * i], "mechanism": parcel.lines[2 * i + 1], "n_walls": int(walls[i])}
         values |= {"mean_fraction": mean_fraction, "mean_curve": mean_curve}
         values["level_fractiles"] = np.ascontiguousarray(fractiles.reshape(m, 3).T)
-        together.append(GroupData(values, together_histories, CurveData(status[r + w + i], curve)))
+        together.append(GroupData(values, histories, CurveData(status[r + w + i], curve)))
     found = unpack_warnings(parcel.lines[2 * number :])
     return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
 

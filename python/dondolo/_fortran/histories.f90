@@ -181,7 +181,8 @@ contains
          records(1)%name = record
          stripes%levels = [level]
          stripes%record = spread(1, 1, n)
-         allocate (stripes%response(n, 1))
+         allocate (stripes%response(n, 1), stripes%ran(n, 1))
+         stripes%ran = .true.
          stripes%response(:, 1)%edp = edp
          stripes%response(:, 1)%edp_error = edp_error
          if (len(record) == 0) then

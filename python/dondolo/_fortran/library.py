@@ -46,7 +46,7 @@ class Property(NamedTuple):
     name : str
         As in namelists and in Python.
     kind : str
-        'real', 'integer', 'text', 'logical', 'list' or 'either'.
+        'real', 'integer', 'text', 'logical', 'list', 'either', or 'words' for a list of choices.
     unit : str
         '' for a number.
     default : str

@@ -2,7 +2,7 @@
 module records
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report
-   use dondolo_catalogue, only : read_catalogue
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_csv_row, only : cell_type
    use dondolo_energy_measures, only : times_of => significant_times
    use dondolo_error, only : error_type, raise_input
@@ -231,7 +231,8 @@ contains
    end subroutine significant_times
 
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
-   !> where they are not given
+   !> where they are not given. Integers before those of pack_records: number of records, and of a catalogue with levels the
+   !> record of each row; reals before them: level and factor of each row, 0 where it has none
    subroutine read_records(path, what, dt_given, dt, units, channel, layout, sent, stat, message)
       character(len=*), intent(in) :: path, units, channel, layout
       integer(c_int), intent(in) :: what, dt_given
@@ -244,6 +245,7 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: note
       real(c_double), allocatable :: step
+      type(record_rows_type) :: rows
 
       ! A step that is not allocated is an argument that is not present
       if (dt_given == 1) step = dt
@@ -252,11 +254,18 @@ contains
          allocate (records(1))
          call read_record(path, records(1), error, step, units, channel, layout)
       case (1)
-         call read_catalogue(path, records, error, note)
+         call read_catalogue(path, records, error, note, rows)
       case default
          call read_all(path, records, error, step, units, layout)
       end select
-      if (.not. allocated(error)) call pack_records(records, parcel, error)
+      if (.not. allocated(error)) then
+         call parcel%add([size(records)])
+         if (rows%have_levels) then
+            call parcel%add(rows%record)
+            call parcel%add([rows%level, rows%factor])
+         end if
+         call pack_records(records, parcel, error)
+      end if
       call parcel%add_note(note)
       call send(parcel, error, sent, stat, message)
    end subroutine read_records

@@ -7,6 +7,7 @@ import os
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_number, as_path, as_text
 from dondolo._fortran import _core
@@ -76,17 +77,22 @@ def records_of_file(
     units: str | None = None,
     channel: str | None = None,
     layout: str | None = None,
-) -> list[RecordData]:
-    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2)."""
+) -> tuple[list[RecordData], tuple[NDArray[np.int32], FloatArray, FloatArray]]:
+    """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2).
+
+    Of a catalogue with levels also the record (from 1), level and factor of each row, 0 where it has none; else empty.
+    """
     step = 0.0 if dt is None else as_number("dt", dt)
     texts = (
         b"" if text is None else as_text(name, text)
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
     parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts))
-    count = len(parcel.integers) // 2
-    warn_of_notes(parcel.lines[records_end(parcel, count) :])
-    return unpack_records(parcel, count)
+    count = int(parcel.integers[0])
+    rows = len(parcel.integers) - 1 - 2 * count
+    warn_of_notes(parcel.lines[records_end(parcel, count, 1 + rows) :])
+    level, factor = parcel.reals[: 2 * rows].reshape(2, rows)
+    return unpack_records(parcel, count, 2 * rows, 1 + rows), (parcel.integers[1 : 1 + rows], level, factor)
 
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:

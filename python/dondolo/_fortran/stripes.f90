@@ -2,6 +2,7 @@
 module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : as_solver, check_room, report, unpack_response
+   use dondolo_catalogue, only : record_rows_type
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : add_place, error_type
    use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
@@ -13,6 +14,7 @@ module stripes
    use dondolo_stripes, only : histories_of, plan_stripes, run_part, stripes_type
    use dondolo_study, only : make_study => new_study, study_type
    use dondolo_suite, only : suite_type
+   use dondolo_text, only : to_text
    use dondolo_threads, only : check_threads, team_of
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
@@ -22,7 +24,7 @@ module stripes
    implicit none
    private
 
-   public :: new_study, plan, scales, run_block
+   public :: new_study, choose_records, runs_of_records, plan, scales, run_block
 
 contains
 
@@ -58,7 +60,57 @@ contains
       call report(error, stat, message)
    end subroutine new_study
 
-   !> Check what stripes of walls would be, without running them: histories of a stripe of each, and the parcel of the warnings
+   !> Choose the records of each level: n rows of record (from 1), level and factor, as those of a catalogue; 0: every
+   !> level, and a factor computed from the measure
+   subroutine choose_records(study, record, level, factor, n, stat, message)
+      integer(c_int64_t), intent(in) :: study
+      integer(c_int), intent(in) :: n, record(n)
+      real(c_double), intent(in) :: level(n), factor(n)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(record_rows_type) :: rows
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call find_study(study, chosen, error)
+      if (.not. allocated(error)) then
+         rows%have_levels = .true.
+         rows%record = record
+         rows%level = level
+         rows%factor = factor
+         do i = 1, n
+            call rows%place%add('row '//to_text(i))
+         end do
+         call chosen%set_rows(rows, error)
+      end if
+      call report(error, stat, message)
+   end subroutine choose_records
+
+   !> Which of the n records run at each of the m levels of a study: 1 or 0
+   subroutine runs_of_records(study, n, m, runs, stat, message)
+      integer(c_int64_t), intent(in) :: study
+      integer(c_int), intent(in) :: n, m
+      integer(c_int), intent(out) :: runs(n, m), stat
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(error_type), allocatable :: error
+      integer :: i, j
+
+      runs = 0
+      call find_study(study, chosen, error)
+      if (.not. allocated(error)) then
+         do j = 1, m
+            do i = 1, n
+               if (chosen%runs(i, j)) runs(i, j) = 1
+            end do
+         end do
+      end if
+      call report(error, stat, message)
+   end subroutine runs_of_records
+
+   !> Check what stripes of walls would be, without running them: histories of each in a stripe in which every record runs,
+   !> and the parcel of the warnings
    subroutine plan(study, walls, w, histories, sent, stat, message)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
@@ -108,11 +160,12 @@ contains
       call send(parcel, error, sent, stat, message)
    end subroutine plan
 
-   !> Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels
-   subroutine scales(study, walls, number, k, m, record, polarity, scale, stat, message)
+   !> Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels; ran: 1 where
+   !> one runs, else 0
+   subroutine scales(study, walls, number, k, m, record, polarity, scale, ran, stat, message)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: number, k, m
-      integer(c_int), intent(out) :: record(k), polarity(k), stat
+      integer(c_int), intent(out) :: record(k), polarity(k), ran(k, m), stat
       real(c_double), intent(out) :: scale(k, m)
       character(len=2048), intent(out) :: message
       type(study_type), pointer :: chosen
@@ -123,6 +176,7 @@ contains
       record = 0
       polarity = 0
       scale = 0
+      ran = 0
       call find_study(study, chosen, error)
       if (.not. allocated(error)) call find_walls(walls, people, error)
       if (.not. allocated(error)) call plan_stripes(stripes, people(number), chosen, error)
@@ -130,6 +184,7 @@ contains
          record = stripes%record
          polarity = stripes%polarity
          scale = stripes%scale
+         ran = merge(1, 0, stripes%ran)
       end if
       call report(error, stat, message)
    end subroutine scales
@@ -163,7 +218,7 @@ contains
          range(1, :) = 1
          range(1, one) = first
          do i = one, last
-            range(2, i) = min(histories_of(chosen, people(i))*size(chosen%levels), range(1, i) + left - 1)
+            range(2, i) = min(histories_of(chosen, people(i)), range(1, i) + left - 1)
             left = left - (range(2, i) - range(1, i) + 1)
          end do
          ! As in run_rows: as many walls as go round evenly are shared out, all threads work on each of the others.

@@ -5,7 +5,7 @@ module dondolo_wall_parcel
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_parcel, only : parcel_type
    use dondolo_population, only : member_type
-   use dondolo_property, only : is_text
+   use dondolo_property, only : is_list, is_text, is_words
    use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
@@ -22,9 +22,9 @@ contains
       type(wall_type), allocatable, intent(out) :: walls(:)
       !> A line for each text of a wall, in the order of the table of properties; empty: not given
       character(len=*), intent(in) :: texts
-      !> Numbers of each wall, in the order of the table (numbers, walls)
-      real(c_double), intent(in) :: numbers(:, :)
-      !> 1 where the number was given (numbers, walls)
+      !> All numbers that were given, wall after wall, in the order of the table; what stands behind them is not looked at
+      real(c_double), intent(in) :: numbers(:)
+      !> How many values each number has: of a list any number, else 1 or 0 (numbers, walls)
       integer(c_int), intent(in) :: given(:, :)
       !> Gravity [m/s2]
       real(c_double), intent(in) :: gravity(:)
@@ -33,28 +33,39 @@ contains
 
       type(wall_input_type) :: input
       character(len=:), allocatable :: text
-      integer :: i, k, at, number
+      integer :: i, k, at, number, next
 
-      if (size(numbers, 1) /= wall_numbers .or. size(given, 1) /= wall_numbers) then
-         call raise_input(error, 'walls: '//to_text(size(numbers, 1))//' numbers each: must be '//to_text(wall_numbers))
+      if (size(given, 1) /= wall_numbers) then
+         call raise_input(error, 'walls: '//to_text(size(given, 1))//' numbers each: must be '//to_text(wall_numbers))
+         return
+      end if
+      if (any(given < 0) .or. sum(given) > size(numbers)) then
+         call raise_input(error, 'walls: '//to_text(size(numbers))//' numbers: must be '//to_text(int(sum(given))))
          return
       end if
       call check_room(error, walls=size(gravity))
       if (allocated(error)) return
       allocate (walls(size(gravity)))
       at = 1
+      next = 1
       do i = 1, size(walls)
          input = wall_input_type()
          number = 0
          do k = 1, size(wall_properties)
             associate (property => wall_properties(k))
-               if (property%kind == is_text) then
+               if (property%kind == is_text .or. property%kind == is_words) then
                   call next_line(texts, at, text)
                   if (len(text) > 0) call input%set(property%name, text)
-               else
-                  number = number + 1
-                  if (given(number, i) /= 0) call input%set(property%name, numbers(number, i))
+                  cycle
                end if
+               number = number + 1
+               if (given(number, i) < 1) cycle
+               if (property%kind == is_list) then
+                  call input%set(property%name, numbers(next:next + given(number, i) - 1))
+               else
+                  call input%set(property%name, numbers(next))
+               end if
+               next = next + given(number, i)
             end associate
          end do
          call new_wall(walls(i), input, error, gravity(i))
@@ -68,38 +79,46 @@ contains
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: a wall's numbers given, two_sided; reals: its numbers, gravity, R, alpha, p, trigger, q_c, e; text: its
-      !> texts, one a line
+      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e of
+      !> each wall, then all values of all walls; text: their texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = wall_numbers + 7
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 7
       integer(c_int), allocatable :: integers(:, :)
-      real(c_double), allocatable :: reals(:, :)
-      integer :: i, k, number
+      real(c_double), allocatable :: reals(:, :), values(:)
+      integer, allocatable :: lengths(:)
+      integer :: i, k, number, next
 
-      allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)))
+      allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)), values(16*size(walls)))
+      next = 1
       do i = 1, size(walls)
          associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
             number = 0
+            lengths = input%lengths()
+            if (next + sum(lengths) > size(values)) values = [values, spread(0.0_c_double, 1, sum(lengths) + size(values))]
             do k = 1, size(wall_properties)
                associate (property => wall_properties(k))
-                  if (property%kind == is_text) then
+                  if (property%kind == is_text .or. property%kind == is_words) then
                      call parcel%lines%add(input%word(property%name))
-                  else
-                     number = number + 1
-                     integers(number, i) = merge(1, 0, input%has(property%name))
-                     reals(number, i) = input%number(property%name)
+                     cycle
                   end if
+                  number = number + 1
+                  integers(number, i) = lengths(k)
+                  if (lengths(k) == 0) cycle
+                  if (property%kind == is_list) values(next:next + lengths(k) - 1) = input%list(property%name)
+                  if (property%kind /= is_list) values(next) = input%number(property%name)
+                  next = next + lengths(k)
                end associate
             end do
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
-            reals(wall_numbers + 1:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
+            reals(:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
                & mechanism%restitution]
          end associate
       end do
       call parcel%add(reshape(integers, [size(integers)]))
       call parcel%add(reshape(reals, [size(reals)]))
+      call parcel%add(values(:next - 1))
    end subroutine pack_walls
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their

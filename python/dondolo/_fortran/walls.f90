@@ -18,10 +18,10 @@ module walls
 contains
 
    !> Upload walls that Python has had described
-   subroutine new_walls(texts, numbers, given, q, gravity, w, handle, stat, message)
+   subroutine new_walls(texts, numbers, n, given, q, gravity, w, handle, stat, message)
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: q, w, given(q, w)
-      real(c_double), intent(in) :: numbers(q, w), gravity(w)
+      integer(c_int), intent(in) :: n, q, w, given(q, w)
+      real(c_double), intent(in) :: numbers(n), gravity(w)
       integer(c_int64_t), intent(out) :: handle
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -42,10 +42,10 @@ contains
    end subroutine new_walls
 
    !> Walls with their defaults filled in and their static quantities, as pack_walls has them
-   subroutine describe_walls(texts, numbers, given, q, gravity, w, sent, stat, message)
+   subroutine describe_walls(texts, numbers, n, given, q, gravity, w, sent, stat, message)
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: q, w, given(q, w)
-      real(c_double), intent(in) :: numbers(q, w), gravity(w)
+      integer(c_int), intent(in) :: n, q, w, given(q, w)
+      real(c_double), intent(in) :: numbers(n), gravity(w)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,19 +37,30 @@ class WallData(NamedTuple):
 
 def flat_wall(values: Mapping[str, Any], gravity: float) -> FlatWall:
     """A wall as Fortran takes it, of properties that it has checked."""
-    numbers = [values.get(what) for what in WALL_NUMBERS]
+    numbers: list[float] = []
+    given = []
+    for what in WALL_NUMBERS:
+        value = values.get(what)
+        own = () if value is None else value if what in WALL_LISTS else (value,)
+        numbers.extend(own)
+        given.append(len(own))
     return FlatWall(
-        "\n".join(values.get(what) or "" for what in WALL_TEXTS).encode(),
-        np.array([0.0 if value is None else value for value in numbers]),
-        np.array([value is not None for value in numbers], dtype=np.int32),
+        "\n".join(_words(values.get(what)) or "" for what in WALL_TEXTS).encode(),
+        np.array(numbers, dtype=np.float64),
+        np.array(given, dtype=np.int32),
         gravity,
     )
+
+
+def _words(value: Any) -> Any:
+    """Several words as one text, with a comma between two."""
+    return ",".join(map(str, value)) if isinstance(value, (list, tuple)) else value
 
 
 def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
     """Let Fortran check a wall, fill in its defaults and compute its static quantities."""
     several = {
-        what: [value if what in WALL_TEXTS else as_number(what, value)]
+        what: [value if what in WALL_TEXTS or what in WALL_LISTS else as_number(what, value)]
         for what, value in values.items()
         if value is not None
     }
@@ -58,19 +70,31 @@ def describe_wall(values: Mapping[str, Any], gravity: Any) -> WallData:
 
 def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) -> list[WallData]:
     """The same for many walls: values of each property for all of them; what is None or not there gets its default."""
-    shape = (count, len(WALL_NUMBERS))
-    numbers, given = np.zeros(shape), np.zeros(shape, dtype=np.int32)
-    for i, what in enumerate(WALL_NUMBERS):
-        if what in values:
-            given[:, i] = [value is not None for value in values[what]]
-            numbers[:, i] = [0.0 if value is None else value for value in values[what]]
+    known = [(i, what) for i, what in enumerate(WALL_NUMBERS) if what in values]
+    columns = {what: [_values(what, value) for value in values[what]] for _, what in known}
+    given = np.zeros((count, len(WALL_NUMBERS)), dtype=np.int32)
+    for i, what in known:
+        given[:, i] = [len(own) for own in columns[what]]
+    numbers = [number for wall in range(count) for _, what in known for number in columns[what][wall]]
     nothing = [None] * count
     texts = b"\n".join(
-        b"" if text is None else as_text(what, text)
+        b"" if text is None else as_text(what, _words(text))
         for wall in zip(*(values.get(what, nothing) for what in WALL_TEXTS), strict=True)
         for what, text in zip(WALL_TEXTS, wall, strict=True)
     )
-    return unpack_walls(receive(*_core.walls.describe_walls(texts, numbers.T, given.T, gravity)), count)
+    # f2py takes no empty arrays
+    sent = _core.walls.describe_walls(texts, np.array([*numbers, 0.0]), given.T, gravity)
+    return unpack_walls(receive(*sent), count)
+
+
+def _values(what: str, value: Any) -> Sequence[float]:
+    """Values of a property of one wall: those of a list, else one; none for None."""
+    if value is None:
+        return ()
+    if what not in WALL_LISTS:
+        return (value,)
+    numbers: list[float] = as_array(what, np.atleast_1d(value)).tolist()
+    return numbers
 
 
 def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
@@ -87,31 +111,50 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
 
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
-    known, words = len(WALL_NUMBERS), len(WALL_TEXTS)
-    rows = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
-    masks = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
+    words = len(WALL_TEXTS)
+    statics = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
+    lengths = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
+    values = iter(parcel.reals[reals + count * _WALL_REALS : walls_end(parcel, count, reals, integers)[0]].tolist())
     return [
         WallData(
-            dict(zip(WALL_TEXTS, parcel.lines[lines + words * i : lines + words * (i + 1)], strict=True))
-            | {what: row[k] if given[k] else None for k, what in enumerate(WALL_NUMBERS)},
-            row[known],
-            tuple(row[known + 1 :]),
-            bool(given[known]),
+            _named(WALL_TEXTS, parcel.lines[lines + words * i : lines + words * (i + 1)], WALL_WORDS)
+            | {what: _value(values, what, length) for what, length in zip(WALL_NUMBERS, given, strict=False)},
+            row[0],
+            tuple(row[1:]),
+            bool(given[-1]),
         )
-        for i, (row, given) in enumerate(zip(rows, masks, strict=True))
+        for i, (row, given) in enumerate(zip(statics, lengths, strict=True))
     ]
 
 
-def walls_end(count: int) -> tuple[int, int, int]:
-    """How many reals, integers and lines of a parcel so many walls take."""
-    return count * _WALL_REALS, count * _WALL_INTEGERS, len(WALL_TEXTS) * count
+def _named(names: Sequence[str], texts: Sequence[str], several: Sequence[str]) -> dict[str, Any]:
+    """Texts by their names; those of several words as a tuple, None where there are none."""
+    found: dict[str, Any] = dict(zip(names, texts, strict=True))
+    for name in several:
+        found[name] = tuple(word.strip() for word in found[name].split(",")) if found[name] else None
+    return found
+
+
+def _value(values: Iterator[float], what: str, length: int) -> Any:
+    """The next value: a number, a tuple of them for a list, None for none."""
+    if length == 0:
+        return None
+    return tuple(itertools.islice(values, length)) if what in WALL_LISTS else next(values)
+
+
+def walls_end(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> tuple[int, int, int]:
+    """Where the reals, integers and lines of so many walls in a parcel end."""
+    end = integers + count * _WALL_INTEGERS
+    lengths = parcel.integers[integers:end].reshape(count, _WALL_INTEGERS)[:, :-1]
+    return reals + count * _WALL_REALS + int(lengths.sum()), end, lines + len(WALL_TEXTS) * count
 
 
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
     """Several walls, one after the other."""
     return FlatWall(
         b"\n".join(wall.texts for wall in walls),
-        np.stack([wall.numbers for wall in walls]).T,
+        # f2py takes no empty arrays
+        np.concatenate([*(wall.numbers for wall in walls), [0.0]]),
         np.stack([wall.given for wall in walls]).T,
         np.array([wall.gravity for wall in walls]),
     )
@@ -124,23 +167,20 @@ def read_walls(
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.walls.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
-    weights, p_occ = parcel.reals[count * _WALL_REALS :].reshape(2, count)
-    groups = len(WALL_TEXTS) * count
+    reals, _, groups = walls_end(parcel, count)
+    weights, p_occ = parcel.reals[reals:].reshape(2, count)
     warn_of_notes(parcel.lines[groups + count :])
     return unpack_walls(parcel, count), weights, parcel.lines[groups : groups + count], p_occ
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
 WALL_PROPERTIES = properties("wall")
-
-
-WALL_TEXTS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "text")
-
-
-WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.kind != "text")
-
-
-_WALL_REALS = len(WALL_NUMBERS) + 7
-
-
+WALL_TEXTS = tuple(row.name for row in WALL_PROPERTIES if row.kind in ("text", "words"))
+WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.name not in WALL_TEXTS)
+# Those that have several values, and those whose values are texts
+WALL_LISTS = frozenset(row.name for row in WALL_PROPERTIES if row.kind in ("list", "words"))
+WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
+# Those that only some walls have: tables show them where one of theirs has them
+WALL_EXTRAS = frozenset(row.name for row in WALL_PROPERTIES if row.default == "optional" and row.owners and row.column)
+_WALL_REALS = 7
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

@@ -186,7 +186,10 @@ def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = No
     """A member of an object, which must be of a type."""
     value = content.get(name, default)
     if kind is float and type(value) is int:
-        value = float(value)
+        try:
+            value = float(value)
+        except OverflowError:
+            raise ValueError(f"{name}: must be a number below 1.8e308") from None
     if type(value) is not kind:
         raise ValueError(f"{name} = {value!r}: must be of type {kind.__name__}")
     return value

@@ -33,7 +33,8 @@ from collections.abc import Callable, Mapping
 from enum import Enum
 from inspect import signature
 from pathlib import Path
-from typing import Any, TypeVar
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -146,9 +147,12 @@ def load(path: str | os.PathLike[str]) -> Any:
         raise InputError(f"{source}: is no result saved by dondolo")
     result, origin, arrays = _unpack(data, source)
     try:
-        return _decode(result, arrays)
+        loaded = _decode(result, arrays)
+        # Arrays of shapes that do not belong together are found here, not where the result is shown first.
+        repr(loaded)
     except (AttributeError, InputError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
+    return loaded
 
 
 def _member(place: int) -> str:
@@ -258,7 +262,11 @@ def _made(kind: Any, values: dict[str, Any]) -> Any:
     fields = _fields(kind)
     if set(values) != set(fields):
         wrong = sorted(set(values) ^ set(fields))[0]
-        raise InputError(f"{kind.__name__}: has {'no' if wrong in fields else 'an unknown'} field '{wrong}'")
+        raise InputError(f"{kind.__name__}: has {'no' if wrong in fields else 'an unknown'} field {wrong!r}")
+    hints = get_type_hints(kind)
+    for name, value in values.items():
+        if not _suits(value, hints[name]):
+            raise InputError(f"{kind.__name__}.{name}: must not be {type(value).__name__}")
     given = [name for name in fields if name in signature(kind).parameters]
     made = kind(**{name: values[name] for name in given})
     for name in fields:
@@ -266,6 +274,25 @@ def _made(kind: Any, values: dict[str, Any]) -> Any:
         if name not in given:
             object.__setattr__(made, name, values[name])
     return made
+
+
+def _suits(value: Any, hint: Any) -> bool:
+    """Is a value of the type that a field is declared with? Of the types that results have; others are not judged."""
+    origin, inner = get_origin(hint), get_args(hint)
+    if origin in (Union, UnionType):
+        return any(_suits(value, one) for one in inner)
+    if origin is Literal:
+        return value in inner
+    if origin is np.ndarray:
+        (dtype,) = get_args(inner[1]) or (np.generic,)
+        return isinstance(value, np.ndarray) and (dtype is Any or np.issubdtype(value.dtype, dtype))
+    if origin is tuple and len(inner) == 2 and inner[1] is Ellipsis:
+        return isinstance(value, tuple) and all(_suits(one, inner[0]) for one in value)
+    numbers = {float: (float, int, np.floating, np.integer), int: (int, np.integer), bool: (bool, np.bool_)}
+    kind = numbers.get(hint, origin or hint)
+    if kind is NoneType or isinstance(kind, (type, tuple)):
+        return isinstance(value, kind) and (hint not in (int, float) or not isinstance(value, bool))
+    return True
 
 
 def _fields(kind: Any) -> tuple[str, ...]:

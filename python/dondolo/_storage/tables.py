@@ -27,12 +27,16 @@ def shortest(value: float) -> str:
     return repr(float(value)).removesuffix(".0")
 
 
-def cell(value: Any, number: Callable[[float], str] = digits) -> str:
+# What a spreadsheet takes for the beginning of a formula
+_FORMULA = ("=", "+", "-", "@")
+
+
+def cell(value: Any, number: Callable[[float], str] = digits, spreadsheet_safe: bool = False) -> str:
     """A value as it stands in a table: flags 0/1, empty where there is none."""
     if value is None:
         return ""
     if isinstance(value, str):
-        return quoted(value)
+        return quoted(guarded(value, spreadsheet_safe))
     if isinstance(value, (bool, np.bool_)):
         return str(int(value))
     if isinstance(value, (int, np.integer)):
@@ -47,7 +51,23 @@ def quoted(text: str) -> str:
     return text
 
 
-def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str] = ()) -> None:
+def guarded(text: str, spreadsheet_safe: bool) -> str:
+    """A text with an apostrophe where a spreadsheet would take it for a formula, or where it seems to have one already.
+
+    `unguarded` takes it away, as src/dondolo/base/text/csv_row.f90 does.
+    """
+    is_formula = spreadsheet_safe and text.startswith(_FORMULA)
+    return f"'{text}" if is_formula or unguarded(text) != text else text
+
+
+def unguarded(text: str) -> str:
+    """A text that was read, without the apostrophe that guards it."""
+    return text[1:] if text.startswith("'") and text[1:].startswith((*_FORMULA, "'")) else text
+
+
+def write_csv(
+    path: str | os.PathLike[str], table: Table, comments: Iterable[str] = (), spreadsheet_safe: bool = False
+) -> None:
     """Write a table; it appears whole or not at all.
 
     Parameters
@@ -58,19 +78,28 @@ def write_csv(path: str | os.PathLike[str], table: Table, comments: Iterable[str
         Columns of equal length.
     comments : iterable of str
         Lines for the head of the file.
+    spreadsheet_safe : bool
+        Guard texts that a spreadsheet would take for formulas.
     """
-    write_lines(path, result_lines(table, comments))
+    write_lines(path, result_lines(table, comments, spreadsheet_safe))
 
 
-def result_lines(table: Table, comments: Iterable[str]) -> list[str]:
+def result_lines(table: Table, comments: Iterable[str], spreadsheet_safe: bool = False) -> list[str]:
     """Lines of a table of results; the first names dondolo."""
-    return csv_lines(table, [f"dondolo {constants().version}", *comments])
+    head = [f"dondolo {constants().version}", *comments]
+    return csv_lines(table, head, spreadsheet_safe=spreadsheet_safe)
 
 
-def csv_lines(table: Table, comments: Iterable[str], number: Callable[[float], str] = digits) -> list[str]:
+def csv_lines(
+    table: Table,
+    comments: Iterable[str],
+    number: Callable[[float], str] = digits,
+    spreadsheet_safe: bool = False,
+) -> list[str]:
     """Lines of a table: comments, names of the columns, rows."""
     lines = [*(f"# {comment}" for comment in comments), ",".join(table)]
-    return lines + [",".join(cell(value, number) for value in row) for row in zip(*table.values(), strict=True)]
+    rows = zip(*table.values(), strict=True)
+    return lines + [",".join(cell(value, number, spreadsheet_safe) for value in row) for row in rows]
 
 
 def write_lines(path: str | os.PathLike[str], lines: Sequence[str]) -> None:

@@ -285,10 +285,18 @@ class Cloud(Shown, Saved):
         """The points as a pandas DataFrame."""
         return tables.frame(self._table())
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the points, with the fitted models in the head of the file."""
+    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write the points, with the fitted models in the head of the file.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [repr(self.wall), *(f"{what}: {text}" for what, text in self._facts()[1:])]
-        tables.write_csv(path, self._table(), [*comments, f"unit of intensity: {unit_of(self.im) or '1'}"])
+        tables.write_csv(
+            path,
+            self._table(),
+            [*comments, f"unit of intensity: {unit_of(self.im) or '1'}"],
+            spreadsheet_safe=spreadsheet_safe,
+        )
 
     def _facts(self) -> list[tuple[str, str]]:
         line = self.regression

@@ -52,7 +52,7 @@ from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import FEWEST, Clusters, errors_of_parts, no_errors
 from dondolo.curves.fragility import Fragility, extrapolation, with_errors
-from dondolo.errors import DondoloWarning
+from dondolo.errors import DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -243,10 +243,15 @@ class Incremental(Shown, Saved):
         """One of the tables 'records' and 'fractiles' as a pandas DataFrame; what is infinite is empty."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "records") -> None:
-        """Write one of the tables 'records' and 'fractiles'; what is infinite is empty."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "records", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'records' and 'fractiles'; what is infinite is empty.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.stripes.im)
@@ -276,13 +281,15 @@ def incremental(stripes: Stripes) -> Incremental:
     Raises
     ------
     InputError
-        What is given is no stripes.
+        What is given is no stripes, or their levels have records of their own.
 
     Notes
     -----
     Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
     """
     instance_of("stripes", stripes, Stripes, "no Stripes")
+    if not stripes.ran.all():
+        raise InputError("stripes: have records of their own at each level: every record must run at every level")
     levels, collapsed = stripes.levels, stripes.collapsed
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])

@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_array
 from dondolo.analysis.incremental import Incremental
+from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.plots import parameters
 from dondolo.figures import curves, style
@@ -24,18 +25,19 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     """Draw EDP against intensity, collapses set apart above."""
     ax = style.axes(ax)
     levels, edp, collapsed = stripes.levels, np.asarray(stripes.edp), np.asarray(stripes.collapsed)
+    survives = stripes.ran & ~collapsed
     x = np.broadcast_to(levels[:, None], edp.shape)
     limit = stripes.edp_limit
     ax.plot(
-        x[~collapsed],
-        edp[~collapsed],
+        x[survives],
+        edp[survives],
         linestyle="none",
         marker="o",
         markersize=4,
         markerfacecolor="none",
         markeredgecolor=style.BLUE,
         markeredgewidth=0.8,
-        label="survives" if not collapsed.all() else None,
+        label="survives" if survives.any() else None,
     )
     row = 1.1 * limit
     reached = collapsed.any(axis=1)
@@ -46,7 +48,7 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
         marker="^",
         markersize=7,
         color=style.RED,
-        label=f"collapses (of {edp.shape[1]})" if reached.any() else None,
+        label=f"collapses (of {span(stripes.histories)})" if reached.any() else None,
     )
     for level, count in zip(levels[reached], collapsed.sum(axis=1)[reached], strict=True):
         ax.annotate(

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_text
+from dondolo._base.arguments import FloatArray, as_count, as_text
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, properties, receive, stoppable, unpack_warnings
@@ -25,6 +25,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import DondoloWarning
 from dondolo.records.record import Record
+from dondolo.records.record_set import LevelRows, records_at_levels
 from dondolo.records.suite import upload as upload_records
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
@@ -50,11 +51,13 @@ class Plan(NamedTuple):
     Attributes
     ----------
     histories : ndarray of int, shape (walls,)
-        Histories of a stripe of each wall.
+        Histories of each wall in a stripe in which every record runs.
     record, polarity : ndarray of int, shape (histories,)
         Of the last wall: index of each history's record, and +1 or -1.
     scale : ndarray, shape (levels, histories)
-        Of the last wall: factors on the records, without the sign of the polarity.
+        Of the last wall: factors on the records, without the sign of the polarity; 0 where one does not run.
+    ran : ndarray of bool, shape (levels, histories)
+        Of the last wall: which histories run at each level.
     warnings : list of DondoloWarning
         What the user should know.
     """
@@ -63,6 +66,7 @@ class Plan(NamedTuple):
     record: Any
     polarity: Any
     scale: FloatArray
+    ran: np.ndarray[Any, np.dtype[np.bool_]]
     warnings: list[DondoloWarning]
 
 
@@ -93,6 +97,7 @@ class Request:
     engine: str
     settings: FloatArray
     threads: int
+    rows: LevelRows | None = None
 
     @functools.cached_property
     def _study(self) -> Handle:
@@ -105,7 +110,10 @@ class Request:
             suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
         )
         check(stat, message)
-        return Handle(number, suite)
+        study = Handle(number, suite)
+        if self.rows is not None:
+            check(*_core.stripes.choose_records(number, *self.rows))
+        return study
 
     @functools.cached_property
     def _people(self) -> Handle:
@@ -121,26 +129,45 @@ class Request:
         """Samples of a record, on average."""
         return sum(map(len, self.records)) / len(self.records)
 
+    @functools.cached_property
+    def runs(self) -> FloatArray:
+        """1 where a record runs at a level, else 0, shape (records, levels)."""
+        if self.rows is None:
+            return np.ones((len(self.records), len(self.levels)))
+        runs, stat, message = _core.stripes.runs_of_records(self._study.number, len(self.records), len(self.levels))
+        check(stat, message)
+        return np.asarray(runs, dtype=np.float64)
+
+    @property
+    def share(self) -> FloatArray:
+        """Share of the records that run at each level, shape (levels,)."""
+        return np.asarray(self.runs.mean(axis=0))
+
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         study, people, walls = self._study.number, self._people.number, len(self.walls)
         histories, *sent = _core.stripes.plan(study, people, walls)
         found = unpack_warnings(receive(*sent).lines)
-        record, polarity, scale, stat, message = _core.stripes.scales(
+        record, polarity, scale, ran, stat, message = _core.stripes.scales(
             study, people, walls, histories[-1], len(self.levels)
         )
         check(stat, message)
-        return Plan(histories, record - 1, polarity, scale.T, found)
+        return Plan(histories, record - 1, polarity, scale.T, ran.T == 1, found)
+
+    def totals(self, histories: IntArray) -> NDArray[np.int64]:
+        """Histories of each wall in all stripes."""
+        totals: NDArray[np.int64] = np.rint(np.asarray(histories, dtype=np.float64) * self.share.sum()).astype(np.int64)
+        return totals
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
-        total = len(self.levels) * int(np.sum(histories, dtype=np.int64))
+        total = int(self.totals(histories).sum())
         with progress_bar(total, progress, label, "history") as bar:
             return self.advance(histories, Pace(self.samples), bar.update)
 
     def advance(self, histories: IntArray, pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, and with a report of how many histories were done in each call."""
-        ends = np.cumsum(np.asarray(histories, dtype=np.int64) * len(self.levels))
+        ends = np.cumsum(self.totals(histories))
         total = int(ends[-1])
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
@@ -208,8 +235,8 @@ def in_blocks(
 
 def new_request(
     walls: Sequence[Wall],
-    records: Sequence[Record],
-    levels: ArrayLike,
+    records: Any,
+    levels: ArrayLike | None,
     im: str,
     polarity: str,
     solver: Solver | None,
@@ -217,14 +244,14 @@ def new_request(
     estimate_error: bool = False,
     collapses_only: bool = False,
 ) -> Request:
-    """A request out of what a user gives."""
+    """A request out of what a user gives; for records and levels see `records_at_levels`."""
     team = check_threads(threads)
-    levels = as_array("levels", levels).copy()
+    several, levels, rows = records_at_levels(records, levels)
     levels.flags.writeable = False
     how = as_solver(solver)
     settings = how._settings(estimate_error, collapses_only)
     name = describe_measure(im).name
-    return Request(tuple(walls), tuple(records), levels, name, polarity, how.engine, settings, team)
+    return Request(tuple(walls), several, levels, name, polarity, how.engine, settings, team, rows)
 
 
 def check_threads(threads: int) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -21,11 +21,12 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request, polarity_names
 from dondolo.analysis.solver import Solver
+from dondolo.analysis.stripe_sets import cut, in_matrix, join, span
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import DondoloWarning, InputError, Interrupted
-from dondolo.records.record import Record, as_records
+from dondolo.records.record import Record
 from dondolo.walls.wall import Wall, upload, walls_table
 
 if TYPE_CHECKING:
@@ -36,7 +37,11 @@ _Table = Literal["histories", "stripes", "walls"]
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
-    """Every record at every level of intensity, and who collapses.
+    """Records at levels of intensity, and who collapses.
+
+    Stripes of one wall are joined by ``+``, and cut by indexing: ``stripes[:5]`` are the five lowest,
+    ``stripes[stripes.levels < 1.0]`` those of a mask, and a second index chooses among the records. What is left has
+    the records that run at one of its levels.
 
     Attributes
     ----------
@@ -47,13 +52,15 @@ class Stripes(Shown, Saved):
     levels : ndarray, shape (levels,)
         Its levels: accelerations in g, all else in SI units.
     edp : ndarray, shape (levels, histories)
-        Largest rotation / capacity; edp_limit for a collapse.
+        Largest rotation / capacity; edp_limit for a collapse, NaN where a record does not run.
     collapsed : ndarray of bool, shape (levels, histories)
     impacts : ndarray of int, shape (levels, histories)
     time_of_peak : ndarray, shape (levels, histories)
-        [s]
+        [s]; NaN where a record does not run, as in `scale` and `edp_error`.
     scale : ndarray, shape (levels, histories)
         Factor on the record, without the sign of the polarity.
+    ran : ndarray of bool, shape (levels, histories)
+        Which histories were run: all of them, unless levels have records of their own.
     record_names : tuple of str, length histories
         Record of each history.
     polarity : ndarray of int, shape (histories,)
@@ -61,7 +68,7 @@ class Stripes(Shown, Saved):
     engine, edp_limit, rtol, atol
         How it was computed.
     work : Work
-        What was computed, and what was not.
+        What was computed, and what was not, by the runs that the stripes come from.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     events : tuple of str, length records
@@ -78,6 +85,7 @@ class Stripes(Shown, Saved):
     impacts: np.ndarray[Any, np.dtype[np.int32]]
     time_of_peak: FloatArray
     scale: FloatArray
+    ran: np.ndarray[Any, np.dtype[np.bool_]]
     record_names: tuple[str, ...]
     polarity: np.ndarray[Any, np.dtype[np.int32]]
     engine: str
@@ -88,6 +96,14 @@ class Stripes(Shown, Saved):
     edp_error: FloatArray | None = None
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
+
+    def __getitem__(self, which: Any) -> Stripes:
+        """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
+        return cut(self, which)
+
+    def __add__(self, other: Stripes) -> Stripes:
+        """The stripes of both, of one wall; records of the same name are the same, and run once at a level."""
+        return join(self, other)
 
     @property
     def n_records(self) -> int:
@@ -109,7 +125,8 @@ class Stripes(Shown, Saved):
     @property
     def histories(self) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe, shape (levels,)."""
-        return np.full(len(self.levels), self.edp.shape[1])
+        counts: np.ndarray[Any, np.dtype[np.int64]] = self.ran.sum(axis=1)
+        return counts
 
     @property
     def fraction(self) -> FloatArray:
@@ -176,7 +193,7 @@ class Stripes(Shown, Saved):
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = CurveData(curve.status, numbers)
-        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(self.edp.max()), data)
+        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
         where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
         warn(sentence.placed(where) for sentence in sentences)
         return curve
@@ -236,7 +253,7 @@ class Stripes(Shown, Saved):
         return Sample(
             levels=self.levels,
             collapsed=self.collapsed,
-            ran=np.ones(self.collapsed.shape, dtype=np.bool_),
+            ran=self.ran,
             record_index=self.record_index,
             record_names=names,
             clusters=cluster_labels(len(names), self.events, self.checksums)
@@ -253,7 +270,7 @@ class Stripes(Shown, Saved):
                 self.levels,
                 [self.edp_limit],
                 self.collapses[None, :, None],
-                [self.edp.shape[1]],
+                self.histories[:, None],
             ),
             "walls": lambda: walls_table([self.wall]),
         }
@@ -262,20 +279,25 @@ class Stripes(Shown, Saved):
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "histories") -> None:
-        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does."""
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "histories", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [
             repr(self.wall),
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments)
+        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
             ("wall", self.wall.name),
             ("levels", levels_in_words(self.levels, self.im)),
-            ("histories of a stripe", str(self.edp.shape[1])),
+            ("histories of a stripe", span(self.histories)),
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
         ]
@@ -283,8 +305,8 @@ class Stripes(Shown, Saved):
 
 def multiple_stripe(
     wall: Wall,
-    records: Record | Iterable[Record],
-    levels: ArrayLike,
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+    levels: ArrayLike | None = None,
     *,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
@@ -293,16 +315,18 @@ def multiple_stripe(
     threads: int = 0,
     progress: bool = True,
 ) -> Stripes:
-    """Run every record at every level of intensity.
+    """Run records at levels of intensity: every record at every level, or other records at each level.
 
     Parameters
     ----------
     wall : Wall
         The wall.
-    records : Record or iterable of Record
-        The accelerograms.
+    records : Record, iterable of Record, RecordSet, or mapping of float to these
+        The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its
+        levels only, with the factor of the set where it has one.
     levels : array_like, shape (levels,)
-        Levels of intensity, positive and increasing, in the unit of the measure.
+        Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
+        levels.
     im : str
         Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
         'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
@@ -340,8 +364,7 @@ def multiple_stripe(
     Section 3.3 of Nale et al.
     """
     instance_of("wall", wall, Wall, "no wall")
-    several = as_records(records)
-    request = new_request((wall,), several, levels, im, polarity, solver, threads, estimate_error)
+    request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error)
     try:
         plan = request.plan()
     except KeyboardInterrupt:
@@ -349,35 +372,35 @@ def multiple_stripe(
     warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
-        stripes = _stripes(request, several, plan, outcome, len(request.levels))
+        stripes = _stripes(request, plan, outcome, len(request.levels))
         warn(_warnings(stripes))
         return stripes
-    complete = outcome.done // len(plan.record)
-    partial = _stripes(request, several, plan, outcome, complete) if complete else None
+    complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
+    partial = _stripes(request, plan, outcome, complete) if complete else None
     raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
 
 
-def _stripes(request: Request, records: tuple[Record, ...], plan: Plan, outcome: Outcome, complete: int) -> Stripes:
+def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:
     """The stripes up to a level."""
-    shape = (complete, len(plan.record))
-    size = complete * len(plan.record)
+    levels, ran = request.levels[:complete], plan.ran[:complete]
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     return Stripes(
         wall=request.walls[0],
         im=request.im,
-        levels=request.levels[:complete],
-        scale=plan.scale[:complete],
-        record_names=tuple(records[i].name for i in plan.record),
+        levels=levels,
+        scale=np.where(ran, plan.scale[:complete], np.nan),
+        ran=ran,
+        record_names=tuple(request.records[i].name for i in plan.record),
         polarity=plan.polarity,
         engine=request.engine,
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
-        events=tuple(record.event for record in records),
-        checksums=tuple(record.checksum for record in records),
-        **{name: getattr(outcome, name)[:size].reshape(shape) for name in names},
+        events=tuple(record.event for record in request.records),
+        checksums=tuple(record.checksum for record in request.records),
+        **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},
     )
 
 
@@ -385,10 +408,10 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
     """What the executable would warn of, of estimated errors."""
     if stripes.edp_error is None:
         return []
-    level, history = np.unravel_index(stripes.edp_error.argmax(), stripes.edp_error.shape)
+    level, history = np.unravel_index(np.nanargmax(stripes.edp_error), stripes.edp_error.shape)
     return warnings_of_errors(
-        stripes.edp,
-        stripes.edp_error,
+        stripes.edp[stripes.ran],
+        stripes.edp_error[stripes.ran],
         stripes.edp_limit,
         stripes.record_names[history],
         float(stripes.levels[level]),
@@ -397,23 +420,24 @@ def _warnings(stripes: Stripes) -> list[DondoloWarning]:
 
 def histories_table(stripes: Stripes) -> tables.Table:
     """Columns of ``_histories.csv``."""
-    levels, histories = stripes.edp.shape
-    polarity = polarity_names(stripes.polarity)
+    ran = stripes.ran
+    level, history = np.nonzero(ran)
+    signs = polarity_names(stripes.polarity)
     table: tables.Table = {
-        "wall": [stripes.wall.name] * stripes.edp.size,
-        "mechanism": [stripes.wall.mechanism] * stripes.edp.size,
-        "record": list(stripes.record_names) * levels,
-        "polarity": polarity * levels,
-        "im": [stripes.im] * stripes.edp.size,
-        "im_level": np.repeat(stripes.levels, histories),
-        "scale": stripes.scale.ravel(),
-        "edp": stripes.edp.ravel(),
-        "collapsed": stripes.collapsed.ravel().astype(int),
-        "impacts": stripes.impacts.ravel(),
-        "time_of_peak_s": stripes.time_of_peak.ravel(),
+        "wall": [stripes.wall.name] * len(level),
+        "mechanism": [stripes.wall.mechanism] * len(level),
+        "record": [stripes.record_names[i] for i in history],
+        "polarity": [signs[i] for i in history],
+        "im": [stripes.im] * len(level),
+        "im_level": stripes.levels[level],
+        "scale": stripes.scale[ran],
+        "edp": stripes.edp[ran],
+        "collapsed": stripes.collapsed[ran].astype(int),
+        "impacts": stripes.impacts[ran],
+        "time_of_peak_s": stripes.time_of_peak[ran],
     }
     if stripes.edp_error is not None:
-        table["edp_error"] = stripes.edp_error.ravel()
+        table["edp_error"] = stripes.edp_error[ran]
     return table
 
 
@@ -425,11 +449,11 @@ def stripes_table(
     exceedances: np.ndarray[Any, Any],
     histories: ArrayLike,
 ) -> tables.Table:
-    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls)."""
+    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls), histories (levels, walls)."""
     thresholds = np.asarray(edp_thresholds)
     states, number = len(thresholds), len(levels)
     counts = exceedances.transpose(2, 0, 1).ravel()
-    sizes = np.repeat(np.asarray(histories), states * number)
+    sizes = np.repeat(np.asarray(histories).T[:, None, :], states, axis=1).ravel()
     return {
         "wall": [wall.name for wall in walls for _ in range(states * number)],
         "mechanism": [wall.mechanism for wall in walls for _ in range(states * number)],

@@ -127,7 +127,7 @@ def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArr
 def resample(sample: Sample, times: FloatArray) -> Bootstrap:
     """Fit the histories again with each record taken so many times."""
     place = sample.record_index
-    collapses = times[:, place] @ (sample.collapsed & sample.ran).T.astype(np.float64)
+    collapses = times[:, place] @ sample.collapsed.T.astype(np.float64)
     histories = times[:, place] @ sample.ran.T.astype(np.float64)
     theta, beta, status = fit_samples(sample.levels, np.minimum(collapses, histories), histories)
     return Bootstrap(theta=theta, beta=beta, status=status)

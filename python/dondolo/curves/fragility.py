@@ -291,10 +291,13 @@ class Fragility(Shown, Saved):
         """The curve as a pandas DataFrame of one row."""
         return tables.frame(fragility_table([self.wall], [self]))
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the curve as the executable's ``_fragility.csv``."""
+    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write the curve as the executable's ``_fragility.csv``.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
         comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
-        tables.write_csv(path, fragility_table([self.wall], [self]), comments)
+        tables.write_csv(path, fragility_table([self.wall], [self]), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _need_fit(self) -> None:
         if not self.has_fit:

@@ -143,7 +143,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     task, title, output, im, polarity, engine = parcel.lines[:6]
     places = [5 + levels + thresholds, 6, 6]
     people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
-    reals, integers, lines = (place + more for place, more in zip(places, walls_end(walls), strict=True))
+    reals, integers, lines = walls_end(parcel, walls, *places)
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
     groups = parcel.lines[lines : lines + walls]
     motions = unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)

@@ -15,6 +15,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
 from dondolo._base.transactions import described, run_of, staged
 from dondolo._storage.run_file import RunFile
+from dondolo._storage.tables import unguarded
 from dondolo.errors import InputError, MissingFileError
 
 
@@ -83,7 +84,7 @@ class ResultFile:
                 self._lines.append(head + rows.line_num)
                 if len(row) != len(names):
                     raise ValueError(f"{self.place(-1)}: {len(row)} cells: must be {len(names)} as in the header")
-                body.append(row)
+                body.append([unguarded(cell) for cell in row])
         except csv.Error as error:
             raise ValueError(f"line {head + rows.line_num}: {error}") from error
         if not body:

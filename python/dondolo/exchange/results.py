@@ -12,7 +12,7 @@ import numpy as np
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
-from dondolo._fortran.walls import WALL_PROPERTIES
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -24,10 +24,12 @@ from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
-from dondolo.walls.wall import MECHANISMS, Wall
+from dondolo.walls.wall import MECHANISMS, Wall, numbered
 
 # Columns of _walls.csv and the numbers of a wall
-_WALL_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column and row.kind != "text"}
+_COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
+_WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
+_LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,8 +148,11 @@ def _population(table: ResultFile, gravity: float) -> Population:
     walls: list[Wall] = []
     for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
-            argument: table.number(column, i) for column, argument in _WALL_COLUMNS.items() if table.texts(column)[i]
+            argument: table.number(column, i)
+            for column, argument in _WALL_COLUMNS.items()
+            if (column in table or argument not in WALL_EXTRAS) and table.texts(column)[i]
         }
+        given |= {argument: values for column, argument in _LIST_COLUMNS.items() if (values := _list(table, column, i))}
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
@@ -156,6 +161,15 @@ def _population(table: ResultFile, gravity: float) -> Population:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
     return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
+
+
+def _list(table: ResultFile, column: str, i: int) -> list[Any]:
+    """Values of a list in a row, up to the first that is not there."""
+    values: list[Any] = []
+    while (one := numbered(column, len(values) + 1)) in table and table.texts(one)[i]:
+        is_word = _LIST_COLUMNS[column] in WALL_WORDS
+        values.append(table.texts(one)[i] if is_word else table.number(one, i))
+    return values
 
 
 def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:
@@ -197,29 +211,44 @@ def _stripes(
     table: ResultFile, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
 ) -> Stripes:
     """All histories of a wall."""
-    levels = np.unique(table.numbers("im_level"))
-    if len(table) % len(levels):
-        raise ValueError(f"{len(table)} rows: must be as many at each of the {len(levels)} levels")
-    shape = (len(levels), len(table) // len(levels))
-    first = slice(0, shape[1])
-    polarity = [-1 if word == "reversed" else 1 for word in table.texts("polarity")[first]]
+    levels, row = np.unique(table.numbers("im_level"), return_inverse=True)
+    # The histories of a stripe are those of all records, and again in the other polarity if there are two.
+    signs = [-1 if word == "reversed" else 1 for word in table.texts("polarity")]
+    names, both = tuple(dict.fromkeys(table.texts("record"))), tuple(dict.fromkeys(signs))
+    places = {pair: i for i, pair in enumerate((sign, name) for sign in both for name in names)}
+    column = np.array([places[pair] for pair in zip(signs, table.texts("record"), strict=True)])
+    ran = np.zeros((len(levels), len(places)), dtype=bool)
+    ran[row, column] = True
+    if np.count_nonzero(ran) < len(table):
+        raise ValueError(f"{len(table)} rows: a record is a duplicate at a level")
+    # To estimate errors every history runs twice.
+    histories = work.histories // (2 if "edp_error" in table else 1)
+    if len(table) != histories:
+        raise ValueError(f"{len(table)} rows: must be {histories}, the histories of the run")
+
+    def matrix(values: Any) -> Any:
+        found = np.full(ran.shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
+        found[row, column] = values
+        return found
+
     return Stripes(
         wall=wall,
         im=table.texts("im")[0],
         levels=levels,
-        edp=table.numbers("edp").reshape(shape),
-        collapsed=table.numbers("collapsed").reshape(shape) == 1.0,
-        impacts=table.counts("impacts").reshape(shape),
-        time_of_peak=table.numbers("time_of_peak_s").reshape(shape),
-        scale=table.numbers("scale").reshape(shape),
-        record_names=tuple(table.texts("record")[first]),
-        polarity=np.asarray(polarity, dtype=np.int32),
+        edp=matrix(table.numbers("edp")),
+        collapsed=matrix(table.numbers("collapsed")) == 1.0,
+        impacts=matrix(table.counts("impacts")),
+        time_of_peak=matrix(table.numbers("time_of_peak_s")),
+        scale=matrix(table.numbers("scale")),
+        ran=ran,
+        record_names=names * len(both),
+        polarity=np.repeat(np.asarray(both, dtype=np.int32), len(names)),
         engine=engine,
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
         work=work,
-        edp_error=table.numbers("edp_error").reshape(shape) if "edp_error" in table else None,
+        edp_error=matrix(table.numbers("edp_error")) if "edp_error" in table else None,
     )
 
 
@@ -232,7 +261,7 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
         product = " x ".join(map(str, shape))
         raise ValueError(f"{len(table)} rows: must be {product}, one for each wall, damage state and level")
     counts = table.counts("collapses").reshape(shape).transpose(1, 2, 0)
-    histories = table.counts("histories", 1).reshape(shape)[:, 0, 0]
+    histories = table.counts("histories", 1).reshape(shape)[:, 0].T
     everyone = np.ones(len(population), dtype=bool)
     im = table.texts("im")[0]
     result = combine(population, im, levels, thresholds, counts, histories, everyone, work)

@@ -13,6 +13,7 @@ from dondolo.errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
 
 # Several axes of one figure
 Panels = NDArray[np.object_]
@@ -100,6 +101,15 @@ def panels(ax: Iterable[Axes] | None, rows: int, size: tuple[float, float], colu
         several = "an Axes" if count == 1 else f"{count} Axes"
         raise InputError(f"ax: must be {several} of Matplotlib")
     return given
+
+
+def plain_ticks(axis: Axis) -> None:
+    """Ticks of a logarithmic axis at 1, 2 and 5 times powers of ten, written out."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def legend(ax: Axes, **options: Any) -> None:

@@ -118,7 +118,7 @@ def _run_rest(
     from dondolo.populations.crew import Crew
 
     complete = store.complete()
-    sizes = histories.astype(np.int64) * len(request.levels)
+    sizes = request.totals(histories)
     seconds = _SECONDS_HERE if executor is None else _SECONDS_THERE
     blocks = Blocks(sizes, complete, request.threads or _all_threads(), block, seconds)
     shared = Shared(replace(request, walls=()), states)

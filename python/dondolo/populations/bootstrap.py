@@ -144,7 +144,8 @@ def resample_population(
     ]
     fraction, saturation = (np.concatenate(part) for part in zip(*parts, strict=True))
     counted = np.isfinite(fraction[:, 0])
-    histories = np.full_like(fraction, _histories_behind(rows, flags))
+    # Levels at which none of the drawn records runs count for nothing.
+    histories = np.broadcast_to(_histories_behind(rows, flags) * flags.drawn(records), fraction.shape)
     occurring = np.where(counted & (saturation > 0.0), saturation, 1.0)
     share = np.clip(np.where(counted[:, None], fraction, 0.0) / occurring[:, None], 0.0, 1.0)
     theta, beta, status = fit_samples(levels, share * histories, histories)
@@ -194,7 +195,7 @@ def _mean_fractions(
         records = records[:1]
     total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        collapse = in_series(rows.share[part, None, None] * flags.fractions(rows.row[part], records), starts)
+        collapse = in_series(rows.share[part, None, None] * _fractions(flags, rows.row[part], records), starts)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
         occurring += own @ in_series(rows.share[part], starts)
@@ -204,6 +205,13 @@ def _mean_fractions(
             total += own @ collapse[:, 0]
     with np.errstate(invalid="ignore"):
         return np.clip(total / weight[:, None], 0.0, 1.0), occurring / weight
+
+
+def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
+    """Fractions (rows, samples, levels), with each record taken so many times."""
+    reached, drawn = flags.reached(row, records), flags.drawn(records)
+    fractions: FloatArray = np.divide(reached, drawn, out=np.zeros(reached.shape), where=drawn > 0.0)
+    return fractions
 
 
 def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]:
@@ -218,7 +226,7 @@ def _chunks(rows: _Rows, size: int) -> Iterator[tuple[slice, NDArray[np.int64]]]
 
 
 def _histories_behind(rows: _Rows, flags: Flags) -> float:
-    """Histories at each level that the fit takes the mean fraction for."""
+    """Histories that the fit takes the mean fraction for, at a level at which every record runs."""
     begins = np.flatnonzero(np.diff(rows.wall, prepend=-1))
     histories = np.minimum.reduceat(flags.histories[rows.row], begins)
     weight = rows.weight[begins]

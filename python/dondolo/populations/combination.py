@@ -43,7 +43,7 @@ def combine(
             raise Interrupted("interrupted: no wall of any weight is complete")
         people = people._chosen(chosen.tolist())
     counts = np.ascontiguousarray(exceedances[:, :, chosen], dtype=np.int32)
-    sizes = np.ascontiguousarray(histories[chosen], dtype=np.int32)
+    sizes = np.ascontiguousarray(histories[:, chosen], dtype=np.int32)
     return combine_rows(people, im, levels, np.asarray(edp_thresholds, dtype=np.float64), counts, sizes, work)
 
 
@@ -62,16 +62,16 @@ def combine_rows(
     data = fit_walls(names, flat_population(people, levels, exceedances[-1].T, histories))
     own = curves_of_rows(people, levels, exceedances[-1], histories, data.rows, **origin)
     first = people.first_rows
-    occurrences, least = in_series(people.p_occ, first), np.minimum.reduceat(histories, first)
+    occurrences, least = in_series(people.p_occ, first), np.minimum.reduceat(histories, first, axis=1)
     others = []
     for k in np.flatnonzero(~has_curve_of_row(people)):
-        n = np.full(len(levels), float(least[k]))
+        n = least[:, k].astype(np.float64)
         occurrence, fraction = float(occurrences[k]), data.fractions[k]
         conditional = np.minimum(fraction / occurrence, 1.0) if occurrence > 0.0 else fraction
         others.append(curve_of(data.walls[k], levels, n * conditional, n, **origin, saturation=occurrence))
     together = []
     for group in data.groups:
-        n, values = np.full(len(levels), group.histories), group.values
+        n, values = group.histories, group.values
         share, saturation = values["mean_fraction"], values["saturation"]
         if saturation > 0.0:
             share = share / saturation

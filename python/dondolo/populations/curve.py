@@ -153,7 +153,7 @@ class PopulationCurve(Group, MeanCurve):
         if self.mechanism != "all":
             chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == self.mechanism for wall in people.walls])
         rows = np.flatnonzero(chosen)
-        counts = source.exceedances[-1][:, rows] / source.histories[rows]
+        counts = source.exceedances[-1][:, rows] / source.histories[:, rows]
         curves = [source.curves[i] for i in rows.tolist()]
         if self.mechanism == "all":
             # Weights and groups are those of whole walls

@@ -37,7 +37,9 @@ def with_clustered_errors(typology: Typology, flags: Flags) -> Typology:
     people, levels = typology.population, typology.levels
     labels = tuple(dict.fromkeys(flags.clusters))
     member = np.array([[own == label for own in flags.clusters] for label in labels], dtype=float)
-    part = member.sum(axis=1)[:, None] * np.ones(len(levels)) / flags.records
+    # Histories of each cluster at each level, over those of all records
+    part = member @ flags.runs / flags.records
+    run = part.sum(axis=0)
     first = people.first_rows
     ends = np.append(first[1:], len(people))
     sums = [_Sum(group, typology, part.shape) for group in typology.groups]
@@ -45,12 +47,12 @@ def with_clustered_errors(typology: Typology, flags: Flags) -> Typology:
     combined = dict(typology.combined)
     for walls in _chunks(first, ends, part.size):
         rows = np.arange(first[walls.start], ends[walls.stop - 1])
-        shares = flags.fractions(rows, member)
+        shares = flags.reached(rows, member)
         own = [typology.curves[row] for row in rows]
         curves += _clustered(levels, own, shares, part)
         # Change of the wall's fraction by each cluster: its derivative times what the cluster's outcomes deviate
         starts = first[walls] - rows[0]
-        fractions = shares.sum(axis=1)
+        fractions = shares.sum(axis=1) / run
         slopes = _slopes(people.p_occ[rows], fractions, starts)
         deviations = shares - part * fractions[:, None]
         whole = in_series(people.p_occ[rows, None] * fractions, starts)
@@ -151,9 +153,9 @@ class _Sum:
         records = errors_of_counts("records", labels, self.levels, counts, part, at)
         if records.errors != "clustered" or len(walls) == 1:
             return with_errors(fit, records)
-        histories = (occurring / total)[:, None] * np.ones(len(self.levels))
+        histories = (occurring / total)[:, None] * part.sum(axis=0)
         names = [f"wall {number + 1}" for number in range(len(walls))]
-        drawn = errors_of_counts("walls", names, self.levels, walls / total, histories, at)
+        drawn = errors_of_counts("walls", names, self.levels, walls / total * part.sum(axis=0), histories, at)
         if drawn.errors != "clustered":
             return with_errors(fit, drawn)
         return with_errors(fit, errors_of_parts((*records.parts, *drawn.parts)))

@@ -29,14 +29,16 @@ class Flags:
     Attributes
     ----------
     histories : ndarray of int, shape (walls,)
-        Histories of a stripe of each wall.
+        Histories of each wall in a stripe in which every record runs.
     levels : int
         Number of levels.
     states : int
         Number of states, collapse among them.
+    runs : ndarray, shape (records, levels)
+        1 where a record runs at a level, else 0. The histories of a wall are those of all records, and again in the
+        other polarity if there are two.
     clusters : tuple of str
-        Label of the cluster of each record (`Sample.clusters`): the histories of a stripe are those of all records, and
-        again in the other polarity if there are two.
+        Label of the cluster of each record (`Sample.clusters`).
     bits : ndarray of uint8
         Eight flags a byte.
     state : int
@@ -46,27 +48,42 @@ class Flags:
     histories: NDArray[np.int32]
     levels: int
     states: int
+    runs: FloatArray
     clusters: tuple[str, ...]
     bits: Bits
     state: int = -1
 
     @classmethod
-    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, clusters: tuple[str, ...]) -> Flags:
+    def empty(
+        cls, histories: NDArray[np.int32], levels: int, states: int, runs: FloatArray, clusters: tuple[str, ...]
+    ) -> Flags:
         """No history reaches anything."""
         sizes = _bytes_of(histories, levels * states)
-        return cls(histories, levels, states, clusters, np.zeros(int(sizes.sum()), dtype=np.uint8))
+        return cls(histories, levels, states, runs, clusters, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
     @classmethod
     def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
-        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known."""
+        """Flags of counts (states, levels, walls), as if of one record: which histories they are of is not known.
+
+        Histories are (levels, walls).
+        """
         states, levels, walls = exceedances.shape
-        bits = [np.packbits(np.arange(histories[i]) < exceedances[:, :, i, None]) for i in range(walls)]
-        return cls(histories, levels, states, cluster_labels(1), np.concatenate(bits))
+        most = histories.max(axis=0)
+        bits = [np.packbits(np.arange(most[i]) < exceedances[:, :, i, None]) for i in range(walls)]
+        # Levels have the same share of the records for all walls.
+        runs = (histories[:, 0] / most[0])[None, :]
+        return cls(most, levels, states, runs, cluster_labels(1), np.concatenate(bits))
 
     @property
     def records(self) -> int:
         """Number of records."""
-        return len(self.clusters)
+        return len(self.runs)
+
+    def drawn(self, records: FloatArray) -> FloatArray:
+        """Histories at each level (samples, levels), relative to all records, if each record comes so many times."""
+        if self.runs.all():
+            return np.ones((len(records), self.levels))
+        return np.asarray(records @ self.runs / self.records)
 
     @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:
@@ -90,20 +107,20 @@ class Flags:
         flags = np.unpackbits(packed, axis=1, count=self.states * self.levels * histories)
         return flags.reshape(len(chosen), self.states, self.levels, histories).view(np.bool_)
 
-    def fractions(self, walls: ArrayLike, member: FloatArray) -> FloatArray:
-        """Shares (walls, clusters, levels) of the histories of walls that reach the state, cluster by cluster.
+    def reached(self, walls: ArrayLike, records: FloatArray) -> FloatArray:
+        """Histories that reach the state (walls, samples, levels) over those of all records at all levels.
 
-        `member` (clusters, records) says which records a cluster has; all shares add up to the fraction.
+        `records` (samples, records) says how often each sample has each record.
         """
         chosen = np.asarray(walls)
-        found = np.empty((len(chosen), len(member), self.levels))
+        found = np.empty((len(chosen), len(records), self.levels))
         for places in self.alike(chosen):
-            reached = self.of(chosen[places])[:, self.state]
-            rows, levels, histories = reached.shape
+            flags = self.of(chosen[places])[:, self.state]
+            rows, levels, histories = flags.shape
             # Both polarities of a record stay together.
-            of_record = reached.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)
-            drawn = member @ of_record.reshape(rows * levels, -1).T
-            found[places] = np.moveaxis(drawn.reshape(len(member), rows, levels), 1, 0) / histories
+            of_record = flags.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)
+            drawn = records @ of_record.reshape(rows * levels, -1).T
+            found[places] = np.moveaxis(drawn.reshape(len(records), rows, levels), 1, 0) / histories
         return found
 
     def at(self, state: int) -> Flags:

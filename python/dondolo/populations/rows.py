@@ -26,10 +26,12 @@ def curves_of_rows(
     fitted: Iterable[CurveData],
     **origin: Any,
 ) -> tuple[Fragility, ...]:
-    """Curves that Fortran has fitted to collapses (levels, rows)."""
+    """Curves that Fortran has fitted to collapses and histories (levels, rows)."""
     return tuple(
-        curve_of(curve, levels, z, np.full(len(levels), float(n)), **origin, wall=wall)
-        for curve, z, n, wall in zip(fitted, collapses.T.astype(np.float64), histories, people.walls, strict=True)
+        curve_of(curve, levels, z, n, **origin, wall=wall)
+        for curve, z, n, wall in zip(
+            fitted, collapses.T.astype(float), histories.T.astype(float), people.walls, strict=True
+        )
     )
 
 

@@ -94,9 +94,9 @@ class Store:
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
-        events, checksums = zip(*((record.event, record.checksum) for record in self._request.records), strict=True)
+        events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
         labels = cluster_labels(len(events), events, checksums)
-        flags = Flags(histories[complete], levels, states, labels, packed)
+        flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
         return Contents(complete, exceedances, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +19,7 @@ from dondolo.populations.combination import combine
 from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import states_of
 from dondolo.populations.typology import Typology
-from dondolo.records.record import Record, as_records
+from dondolo.records.record import Record
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
 
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 def typology(
     population: Population | Iterable[Wall],
-    records: Record | Iterable[Record],
-    levels: ArrayLike,
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+    levels: ArrayLike | None = None,
     *,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
@@ -87,11 +87,10 @@ def typology(
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
     if executor is not None and threads == 0:
         threads = 1
-    several = as_records(records)
     limit = float(as_solver(solver)._settings()[2])
     states = states_of(edp_thresholds, limit)
     alone = len(states) == 1
-    request = new_request(people.walls, several, levels, im, polarity, solver, threads, collapses_only=alone)
+    request = new_request(people.walls, records, levels, im, polarity, solver, threads, collapses_only=alone)
     plan = request.plan()
     run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
     # A wall is complete with all its mechanisms.
@@ -100,7 +99,8 @@ def typology(
     rows = np.repeat(whole, np.diff(np.append(first, len(people))))
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
-    result = combine(people, request.im, request.levels, states, run.exceedances, plan.histories, rows, run.work)
+    histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
+    result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
     flags, told = run.flags.chosen(np.flatnonzero(rows[run.complete])), (*plan.warnings, *result.warnings)
     result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told), flags)
     if not whole.all():

@@ -54,8 +54,8 @@ class Typology(Shown, Saved):
         Rotation / capacity, increasing; the last is that of collapse, edp_limit.
     exceedances : ndarray of int, shape (thresholds, levels, rows)
         How many histories of each row reach them.
-    histories : ndarray of int, shape (rows,)
-        Histories of a stripe of each row.
+    histories : ndarray of int, shape (levels, rows)
+        Histories of each row in each stripe.
     curves : tuple of Fragility
         Curve of each row.
     combined : dict of str to Fragility
@@ -297,9 +297,16 @@ class Typology(Shown, Saved):
         """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
-    def to_csv(self, path: str | os.PathLike[str], table: _Table = "typology") -> None:
-        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does."""
-        tables.write_csv(path, tables.choose(self._tables(), table), self._comments())
+    def to_csv(
+        self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
+    ) -> None:
+        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does.
+
+        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        """
+        tables.write_csv(
+            path, tables.choose(self._tables(), table), self._comments(), spreadsheet_safe=spreadsheet_safe
+        )
 
     def _comments(self) -> list[str]:
         counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
@@ -325,7 +332,7 @@ class Typology(Shown, Saved):
         stored = cls(curves=own, combined=combined, **more)
         return stored if stored.flags is None else with_clustered_errors(stored, stored.flags)
 
-    def write_results(self, prefix: str | os.PathLike[str]) -> None:
+    def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.
 
         They are what `read_results` and the commands ``python -m dondolo plot``, ``report`` and ``nrml`` read. They are
@@ -336,6 +343,8 @@ class Typology(Shown, Saved):
         ----------
         prefix : path
             What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; the folder must exist.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
 
         Raises
         ------
@@ -354,7 +363,8 @@ class Typology(Shown, Saved):
         comments = [f"shape: {', '.join(f'{name} = {count}' for name, count in shape.items())}", *self._comments()]
         with publishing(start) as files:
             for name, table in self._tables().items():
-                files.write(f"_{name}.csv", tables.result_lines(table(), [f"run: {files.run}", *comments]))
+                lines = tables.result_lines(table(), [f"run: {files.run}", *comments], spreadsheet_safe)
+                files.write(f"_{name}.csv", lines)
             run = self._run_file(pulls.pop())
             run = dataclasses.replace(run, run=files.run, shape=shape, files=tuple(files.written))
             files.write("_run.json", [run.to_json()])

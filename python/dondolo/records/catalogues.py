@@ -1,17 +1,29 @@
-"""Catalogues made of folders of accelerogram files."""
+"""Catalogues: made of folders of accelerogram files, and written of sets of records."""
 
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from dondolo._base.files import check_replaced
+import numpy as np
+
+from dondolo._base.files import as_file, check_replaced
+from dondolo._fortran.library import constants
 from dondolo._storage import tables
-from dondolo.errors import InputError
+from dondolo.errors import DondoloError, InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
 from dondolo.records.reading import read_records
 from dondolo.records.record import Record
+
+if TYPE_CHECKING:
+    from dondolo.records.record_set import RecordSet
+
+#: What stands in the second line of catalogues that sets of records were written to
+_MARK = "# records written by dondolo"
+# Metadata that a file of columns states otherwise
+_STATED = ("format", "quantity", "units", "dt", "channel")
 
 #: Metadata that stand in a catalogue, for its readers.
 _KEYS = ("event", "date", "station", "component", "magnitude")
@@ -101,6 +113,48 @@ def build_catalogue(
         raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
     tables.write_csv(target, table)
     return Catalogue(target, len(table["file"]), problems)
+
+
+def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
+    """Write a set of records as a catalogue, and its accelerograms as files of columns in a folder beside it.
+
+    Every file has the samples with all their digits. Names of files are numbers and the names of the records, those of
+    their characters that every file system takes.
+    """
+    target = as_file("path", path)
+    check_replaced(target, _MARK, "catalogue of records")
+    if not target.suffix:
+        raise InputError(f"path = {os.fspath(path)!r}: must have a suffix, such as .csv")
+    each = list(dict.fromkeys(records.records))
+    names = [record.name for record in each]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"records: two have the name {name!r}: must have names of their own in a catalogue")
+    folder = target.with_suffix("")
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise DondoloError(f"{folder}: cannot be written: {error.strerror}") from error
+    files = {}
+    for i, record in enumerate(each, 1):
+        stem = re.sub(r"[^A-Za-z0-9_.-]+", "_", record.name)[:80]
+        files[record] = f"{folder.name}/{i:0{len(str(len(each)))}d}_{stem}.txt"
+        about = {key: value for key, value in record.metadata.items() if key not in _STATED}
+        lines = [f"# {key}: {' '.join(value.split())}" for key, value in about.items()]
+        lines += ["# units: m/s2", f"# dt: {record.dt!r}", *map(repr, record.acceleration.tolist())]
+        tables.write_lines(target.parent / files[record], lines)
+    table: tables.Table = {
+        "file": [files[record] for record in records],
+        "name": [record.name for record in records],
+        "dt_s": [tables.shortest(record.dt) for record in records],
+        "units": ["m/s2"] * len(records),
+    }
+    for what in ("level", "factor"):
+        values = getattr(records, what)
+        if values is not None:
+            table[what] = ["" if np.isnan(value) else tables.shortest(value) for value in values]
+    lines = tables.csv_lines(table, [f"dondolo {constants().version}"])
+    tables.write_lines(target, [lines[0], _MARK, *lines[1:]])
 
 
 def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 
+import numpy as np
+
 from dondolo._fortran.records import RecordData, records_of_file
 from dondolo.records.record import Record
+from dondolo.records.record_set import RecordSet
 
 
 def read_record(
@@ -41,7 +44,7 @@ def read_record(
         The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
     """
     name = str(channel) if isinstance(channel, int) else channel
-    (data,) = records_of_file(path, 0, dt, units, name, format)
+    ((data,), _) = records_of_file(path, 0, dt, units, name, format)
     return _as_record(data)
 
 
@@ -69,27 +72,35 @@ def read_records(
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [_as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)]
+    return [_as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
 
 
-def read_catalogue(path: str | os.PathLike[str]) -> list[Record]:
+def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     """Read all records of a catalogue.
 
     Parameters
     ----------
     path : path
-        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder.
+        A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder. The
+        columns level and factor say which records run at which levels of intensity, and how they are scaled. All other
+        columns are metadata of the records.
 
     Returns
     -------
-    list of Record
+    RecordSet
 
     Raises
     ------
     InputError
         The catalogue or one of its records is wrong.
     """
-    return [_as_record(data) for data in records_of_file(path, 1)]
+    several, (place, level, factor) = records_of_file(path, 1)
+    records = [_as_record(data) for data in several]
+    if not len(place):
+        return RecordSet(records)
+    given = factor if factor.any() else None
+    rows = [None if values is None else np.where(values > 0.0, values, np.nan) for values in (level, given)]
+    return RecordSet([records[i - 1] for i in place], level=rows[0], factor=rows[1])
 
 
 def _as_record(data: RecordData) -> Record:

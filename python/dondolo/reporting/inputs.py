@@ -176,11 +176,12 @@ def records(run: Run) -> dict[str, Any]:
 
 def _histories_table(stripes: Stripes) -> Table:
     """The histories of a stripe; the level over the factor is the intensity of the record as it is."""
+    unscaled = np.nanmax(stripes.levels[:, None] / stripes.scale, axis=0)
     columns: dict[Piece, Sequence[Piece]] = {
         "record": list(stripes.record_names),
         "polarity": ["reversed" if sign < 0 else "as recorded" for sign in stripes.polarity],
-        f"{stripes.im} unscaled [{level_unit(stripes.im)}]": [number(x) for x in stripes.levels[0] / stripes.scale[0]],
-        "largest factor": [number(x) for x in stripes.scale[-1]],
+        f"{stripes.im} unscaled [{level_unit(stripes.im)}]": [number(x) for x in unscaled],
+        "largest factor": [number(x) for x in np.nanmax(stripes.scale, axis=0)],
         "collapses": [whole(z) for z in stripes.collapsed.sum(axis=0)],
     }
     return Table.of(columns, ("polarity",))

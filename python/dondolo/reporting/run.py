@@ -46,7 +46,7 @@ class LargeScales(NamedTuple):
     def of(cls, stripes: Stripes) -> LargeScales | None:
         """Those of a wall, if there are any."""
         many = int(np.sum(stripes.scale > 10.0))
-        return cls(many, stripes.scale.size, float(stripes.scale.max())) if many else None
+        return cls(many, int(stripes.ran.sum()), float(np.nanmax(stripes.scale))) if many else None
 
     @classmethod
     def among(cls, found: Sequence[DondoloWarning]) -> LargeScales | None:

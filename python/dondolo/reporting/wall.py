@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo._fortran.records import blank_unit
 from dondolo.analysis.response import Response
+from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import (
@@ -40,9 +41,9 @@ def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
         low, high = curve.bracket
         cards.append(("fit", "none", curve.status.replace("_", " ")))
         cards.append(("median between", (number(low, 3), " and ", level(high, stripes.im)), "levels"))
-    histories = f"{len(stripes.levels)} levels of {stripes.edp.shape[1]}"
-    cards.append(("histories", whole(stripes.collapsed.size), histories))
-    share = (percent(stripes.collapsed.mean()), " of the histories")
+    histories = f"{len(stripes.levels)} levels of {span(stripes.histories)}"
+    cards.append(("histories", whole(stripes.ran.sum()), histories))
+    share = (percent(stripes.collapsed.sum() / stripes.ran.sum()), " of the histories")
     cards.append(("collapses", whole(stripes.collapsed.sum()), share))
     return {"cards": cards, "shares": []}
 

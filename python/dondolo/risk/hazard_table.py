@@ -86,7 +86,9 @@ def _levels(title: str, name: str, unit: str, column: FloatArray) -> tuple[str, 
             raise InputError(f"column {title!r}: the unit must be one of {', '.join(map(repr, sizes))}")
         return "pga", column * sizes[unit]
     try:
-        return describe_measure(title.strip()).name, column
+        # A table with decimal commas may have them in a period too: Sa(0,5)
+        measure = re.sub(r"(?<=\d),(?=\d)", ".", title.strip())
+        return describe_measure(measure).name, column
     except InputError as error:
         raise InputError(
             f"column {title!r}: must be an intensity measure, ag, {', '.join(_FREQUENCIES)} or investigation_time"

@@ -46,14 +46,5 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     below.set_xscale("log")
     below.set_xlim(grid[0], grid[-1])
     below.set_xlabel(style.im_label(hazard.im))
-    _plain_ticks(below)
+    style.plain_ticks(below.xaxis)
     return axes
-
-
-def _plain_ticks(ax: Axes) -> None:
-    """Ticks at 1, 2 and 5 times powers of ten, written out."""
-    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
-
-    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    ax.xaxis.set_major_formatter(FormatStrFormatter("%g"))
-    ax.xaxis.set_minor_formatter(NullFormatter())

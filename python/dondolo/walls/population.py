@@ -16,12 +16,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_text, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
-from dondolo._fortran.walls import WALL_PROPERTIES, describe_walls, read_walls
+from dondolo._fortran.walls import WALL_LISTS, WALL_PROPERTIES, describe_walls, read_walls
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
-from dondolo.walls.wall import Wall, wall_from, walls_table
+from dondolo.walls.wall import Wall, property_columns, wall_from, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -118,7 +118,10 @@ class Population(Shown):
         """What a file has of it: the properties of its walls as columns."""
         columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in WALL_PROPERTIES}
         return {
-            "properties": {name: column if None in column else np.array(column) for name, column in columns.items()},
+            "properties": {
+                name: column if None in column or name in WALL_LISTS else np.array(column)
+                for name, column in columns.items()
+            },
             "gravity": np.array([wall.gravity for wall in self.walls]),
             **{name: getattr(self, name) for name in ("weights", "groups", "p_occ", "origin")},
         }
@@ -299,13 +302,15 @@ class Population(Shown):
         """
         return tables.frame(self._table())
 
-    def to_csv(self, path: str | os.PathLike[str]) -> None:
+    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write the table that `read_population` and the executable read.
 
         Parameters
         ----------
         path : path
             The file; its folder must exist.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_population` takes it away.
 
         Raises
         ------
@@ -317,7 +322,8 @@ class Population(Shown):
         What is read back is the same to the bit. Gravity is no column: it is given again when the table is read. The
         lines of `origin` stand at the head.
         """
-        tables.write_lines(path, tables.csv_lines(population_table(self), self.origin, tables.shortest))
+        lines = tables.csv_lines(population_table(self), self.origin, tables.shortest, spreadsheet_safe)
+        tables.write_lines(path, lines)
 
     def _table(self) -> tables.Table:
         return walls_table(self.walls, self.weights, self.groups, self.p_occ)
@@ -412,6 +418,6 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
-    names = [row.name for row in WALL_PROPERTIES if row.column]
-    table: tables.Table = {name: [getattr(wall, name, None) for wall in population.walls] for name in names}
+    names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
+    table = property_columns(population.walls, names)
     return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}

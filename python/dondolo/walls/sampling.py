@@ -15,7 +15,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_number, as_text, one_of
 from dondolo._fortran.library import constants
-from dondolo._fortran.walls import WALL_NUMBERS, WALL_TEXTS, describe_walls
+from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution
 from dondolo.walls.population import Population
@@ -188,7 +188,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 raise InputError(f"{what!r}: no such property of walls; there are {', '.join(_PROPERTIES)}")
             if what == "weight" and mechanism:
                 raise InputError("weight: belongs to the wall, not to one of its mechanisms")
-            if isinstance(value, str) != (what in _TEXTS):
+            if what not in WALL_LISTS and isinstance(value, str) != (what in _TEXTS):
                 raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
@@ -330,6 +330,8 @@ def _evaluate(
             values[what] = sampled[prefix + what]
         elif isinstance(value, str):
             values[what] = value
+        elif what in WALL_LISTS and isinstance(value, Iterable):
+            values[what] = tuple(value)
         elif not callable(value):
             values[what] = np.broadcast_to(as_number(what, value), n)
     for what, value in properties.items():
@@ -345,7 +347,7 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     """Walls of one mechanism."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
-    said = {what: [value] * n if what in _TEXTS else value for what, value in values.items()}
+    said = {what: value if isinstance(value, np.ndarray) else [value] * n for what, value in values.items()}
     data = describe_walls(n, {**said, "name": names, "mechanism": [mechanism] * n}, np.full(n, pull))
     return [wall_from(one) for one in data]
 

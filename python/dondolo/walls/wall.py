@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -15,7 +15,17 @@ from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check
-from dondolo._fortran.walls import WALL_PROPERTIES, FlatWall, WallData, describe_wall, flat_wall, join_walls, wall_terms
+from dondolo._fortran.walls import (
+    WALL_EXTRAS,
+    WALL_LISTS,
+    WALL_PROPERTIES,
+    FlatWall,
+    WallData,
+    describe_wall,
+    flat_wall,
+    join_walls,
+    wall_terms,
+)
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
@@ -28,6 +38,9 @@ __all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
 
 # What is left out gets its value from Fortran; from then on it is there.
 _DEFAULT: Any = None
+
+# One value or several
+Values = float | Sequence[float] | None
 
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
@@ -65,8 +78,8 @@ class Wall:
 
     mechanism: ClassVar[str] = ""
 
-    height: float
-    thickness: float
+    height: float = _DEFAULT
+    thickness: float = _DEFAULT
     _: KW_ONLY
     density: float = _DEFAULT
     restitution: Literal["default", "sorrentino", "impulse", "constant"] = _DEFAULT
@@ -253,7 +266,7 @@ class Wall:
             for field in dataclasses.fields(self)
             if field.name != "name" and getattr(self, field.name) is not None
         ]
-        facts = [(what, value if isinstance(value, str) else f"{value:.6g}") for what, value in own]
+        facts = [(what, _in_words(value)) for what, value in own]
         facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
         trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
         return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
@@ -270,9 +283,55 @@ class Wall:
         return tables.frame(walls_table([self]))
 
 
+def _in_words(value: Any) -> str:
+    """A property as text."""
+    if isinstance(value, tuple):
+        return " ".join(map(_in_words, value))
+    return value if isinstance(value, str) else f"{value:.6g}"
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class BlockWall(Wall):
+    """What walls of one block share: storeys, the hinge, and what they carry."""
+
+    section_height: Values = None
+    section_thickness: Values = None
+    section_fill: Values = None
+    section_offset: Values = None
+    section_base_width: Values = None
+    section_top_width: Values = None
+    mass: float | None = None
+    centroid_depth: float | None = None
+    centroid_height: float | None = None
+    hinge_inertia: float | None = None
+    hinge_depth: float | None = None
+    compressive_strength: float | None = None
+    stress_block: float | None = None
+    edge_radius: float | None = None
+    load: Values = None
+    load_depth: Values = None
+    load_height: Values = None
+    load_inertia: str | Sequence[str] | None = None
+    load_seat: Values = None
+    inertia_mass: Values = None
+    inertia_depth: Values = None
+    inertia_height: Values = None
+    thrust: Values = None
+    thrust_depth: Values = None
+    thrust_height: Values = None
+    thrust_decay: Values = None
+    spring: Values = None
+    spring_depth: Values = None
+    spring_height: Values = None
+    bed: Values = None
+    bed_depth: Values = None
+    bed_bottom: Values = None
+    bed_top: Values = None
+
+
 @part_of_results
 @dataclass(frozen=True, repr=False)
-class OneSidedWall(Wall):
+class OneSidedWall(BlockWall):
     """A wall that rotates outwards only, about its outer base edge (a facade that came loose, a parapet).
 
     Parameters
@@ -283,9 +342,10 @@ class OneSidedWall(Wall):
         Thickness of the wall [m].
     density : float, optional
         Density of the masonry [kg/m3], 1800 if left out.
-    restitution : {'default', 'sorrentino', 'constant'}, optional
+    restitution : {'default', 'sorrentino', 'impulse', 'constant'}, optional
         Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
-        (2011).
+        (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the
+        wall carries.
     restitution_value : float, optional
         Speed after / before an impact, only with restitution = 'constant': 0 <= value < 1.
     restitution_factor : float, optional
@@ -294,6 +354,73 @@ class OneSidedWall(Wall):
         Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional
         Name in the results, 'wall' if left out.
+    section_height : float or sequence of float, optional
+        Heights of the storeys from the bottom, instead of height [m].
+    section_thickness : float or sequence of float, optional
+        Their thicknesses, instead of thickness [m].
+    section_fill : float or sequence of float, optional
+        Part of each storey that is masonry, 1 if not given.
+    section_offset : float or sequence of float, optional
+        Depth of the outer face of each storey behind that of the lowest, 0 if not given [m].
+    section_base_width : float or sequence of float, optional
+        Width of each elevation at its bottom / width that values per metre refer to, 1 if not given.
+    section_top_width : float or sequence of float, optional
+        The same at its top, as at its bottom if not given; 0 for a gable.
+    mass : float, optional
+        Mass of the body, instead of its density [kg/m].
+    centroid_depth : float, optional
+        Depth of its centroid behind the outer face, with mass [m].
+    centroid_height : float, optional
+        Height of its centroid, with mass [m].
+    hinge_inertia : float, optional
+        Its inertia about the hinge, with mass [kg m2/m].
+    hinge_depth : float, optional
+        Depth of the hinge behind the outer face [m].
+    compressive_strength : float, optional
+        Strength of the masonry, from which the depth of the hinge follows [Pa].
+    stress_block : float, optional
+        Stress in the compressed part of the base / that strength, 0.85 if not given.
+    edge_radius : float, optional
+        Radius of the edge that the wall rolls on, which is also the depth of its hinge at rest [m].
+    load : float or sequence of float, optional
+        Vertical loads that go with the wall, per metre of wall [N/m].
+    load_depth : float or sequence of float, optional
+        Depth of each load behind the outer face [m].
+    load_height : float or sequence of float, optional
+        Height of each load above the base [m].
+    load_inertia : {'none', 'vertical', 'both'} or sequence of them, optional
+        Which mass of each load the wall moves: 'none' is a dead force, 'vertical' a mass that other walls hold
+        sideways, 'both' one that the wall pushes too (docs/loads.md); one for all loads or one for each.
+    load_seat : float or sequence of float, optional
+        Horizontal travel at which each load loses its seat [m].
+    inertia_mass : float or sequence of float, optional
+        Masses that the wall pushes and does not carry, per metre of wall [kg/m].
+    inertia_depth : float or sequence of float, optional
+        Depth of each of them behind the outer face [m].
+    inertia_height : float or sequence of float, optional
+        Height of each of them above the base [m].
+    thrust : float or sequence of float, optional
+        Horizontal forces outwards, per metre of wall [N/m].
+    thrust_depth : float or sequence of float, optional
+        Depth of each thrust behind the outer face, the inner face if not given [m].
+    thrust_height : float or sequence of float, optional
+        Height of each thrust above the base [m].
+    thrust_decay : float or sequence of float, optional
+        Travel over which each thrust falls to 1/e, constant if not given [m].
+    spring : float or sequence of float, optional
+        Stiffness of springs that pull and push, per metre of wall [N/m2].
+    spring_depth : float or sequence of float, optional
+        Depth of each spring behind the outer face [m].
+    spring_height : float or sequence of float, optional
+        Height of each spring above the base [m].
+    bed : float or sequence of float, optional
+        Stiffness of springs spread over a height, per metre of wall and of height [N/m3].
+    bed_depth : float or sequence of float, optional
+        Depth of each bed behind the outer face [m].
+    bed_bottom : float or sequence of float, optional
+        Height at which each bed begins [m].
+    bed_top : float or sequence of float, optional
+        Height at which each bed ends [m].
 
     Raises
     ------
@@ -302,7 +429,9 @@ class OneSidedWall(Wall):
 
     Notes
     -----
-    Equation (1) of Nale et al.; docs/theory.md, section 2.
+    Equation (1) of Nale et al.; docs/theory.md, section 2. Depths are measured from the outer face of the base, towards
+    which the wall falls, heights from the base. What belongs to several loads is a value for each, or one for all;
+    which inertia to choose is the subject of docs/loads.md.
 
     Examples
     --------
@@ -310,6 +439,21 @@ class OneSidedWall(Wall):
     >>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
     >>> round(wall.frequency_parameter, 6)
     2.210895
+
+    A floor of 10 kN/m whose mass the wall pushes too, and a roof that thrusts:
+
+    >>> facade = dd.OneSidedWall(
+    ...     3.0,
+    ...     0.25,
+    ...     load=10e3,
+    ...     load_depth=0.175,
+    ...     load_height=3.0,
+    ...     load_inertia="both",
+    ...     thrust=200.0,
+    ...     thrust_height=3.0,
+    ... )
+    >>> round(facade.trigger_acceleration / facade.gravity, 4)
+    0.0563
     """
 
     mechanism: ClassVar[str] = "one_sided"
@@ -317,11 +461,12 @@ class OneSidedWall(Wall):
 
 @part_of_results
 @dataclass(frozen=True, repr=False)
-class FreeStandingWall(Wall):
+class FreeStandingWall(BlockWall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
 
     Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
-    1 - 3/2 sin^2 alpha) and 'constant'.
+    1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
+    its thickness, and nothing thrusts.
     """
 
     mechanism: ClassVar[str] = "free_standing"
@@ -397,6 +542,28 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     return handle
 
 
+def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
+    """Columns of properties under their heads; a list has as many, numbered, as a wall has values."""
+    table: tables.Table = {}
+    for what, head in heads.items():
+        values = [getattr(wall, what, None) for wall in walls]
+        if what in WALL_EXTRAS and all(value is None for value in values):
+            continue
+        if what not in WALL_LISTS:
+            table[head] = values
+            continue
+        lists = [value or () for value in values]
+        for i in range(max(map(len, lists))):
+            table[numbered(head, i + 1)] = [value[i] if i < len(value) else None for value in lists]
+    return table
+
+
+def numbered(name: str, number: int) -> str:
+    """Name of one value of a list: the number stands behind its first word."""
+    stem, *rest = name.split("_", 1)
+    return "_".join([f"{stem}{number}", *rest])
+
+
 def walls_table(
     walls: Sequence[Wall],
     weights: Iterable[float] = (1.0,),
@@ -409,7 +576,7 @@ def walls_table(
         return [getattr(wall, what, None) for wall in walls]
 
     return {
-        **{row.column: column(row.name) for row in WALL_PROPERTIES if row.column},
+        **property_columns(walls, {row.name: row.column for row in WALL_PROPERTIES if row.column}),
         "alpha_rad": column("slenderness_angle"),
         "p_rad_s": column("frequency_parameter"),
         "trigger_acceleration_m_s2": column("trigger_acceleration"),

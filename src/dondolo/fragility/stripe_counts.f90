@@ -12,8 +12,8 @@ module dondolo_stripe_counts
 
    !> Counts and curves of a wall, or of one of its mechanisms
    type :: stripe_counts_type
-      !> Histories of a stripe
-      integer :: histories = 0
+      !> Histories of each stripe
+      integer, allocatable :: histories(:)
       !> Histories that reach a threshold (levels, thresholds)
       integer, allocatable :: reached(:, :)
       !> Curve of each threshold
@@ -38,22 +38,22 @@ contains
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: histories(:)
       real(wp), dimension(size(stripes%levels), maxval(clusters)) :: reached, run
       real(wp) :: changes(2, maxval(clusters))
       integer :: i, j, k
 
-      self%histories = size(stripes%record)
+      self%histories = stripes%histories()
       allocate (self%reached(size(stripes%levels), size(thresholds)), self%curve(size(thresholds)))
-      histories = spread(real(self%histories, wp), 1, size(stripes%levels))
       do k = 1, size(thresholds)
          self%reached(:, k) = stripes%exceedances(thresholds(k))
-         call fit_fragility(self%curve(k), stripes%levels, real(self%reached(:, k), wp), histories, error)
+         call fit_fragility(self%curve(k), stripes%levels, real(self%reached(:, k), wp), &
+            & real(self%histories, wp), error)
          if (allocated(error)) return
          reached = 0.0_wp
          run = 0.0_wp
          do i = 1, size(stripes%record)
             do j = 1, size(stripes%levels)
+               if (.not. stripes%ran(i, j)) cycle
                associate (g => clusters(stripes%record(i)))
                   run(j, g) = run(j, g) + 1.0_wp
                   if (stripes%response(i, j)%edp >= thresholds(k)) reached(j, g) = reached(j, g) + 1.0_wp

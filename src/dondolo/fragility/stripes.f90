@@ -1,4 +1,5 @@
-!> Multiple stripe analysis: every record at every level of intensity, and who collapses.
+!> Multiple stripe analysis: records at levels of intensity, and who collapses. Every record runs at every level, unless
+!> each level has records of its own.
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
@@ -30,13 +31,17 @@ module dondolo_stripes
       integer, allocatable :: record(:)
       !> Its polarity: +1 as recorded, -1 reversed
       integer, allocatable :: polarity(:)
-      !> Factor on the record (histories, levels), without the sign of the polarity
+      !> Which of the histories run at each level (histories, levels)
+      logical, allocatable :: ran(:, :)
+      !> Factor on the record (histories, levels), without the sign of the polarity; 0 where it does not run
       real(wp), allocatable :: scale(:, :)
-      !> Responses (histories, levels)
+      !> Responses (histories, levels), of those that do not run without collapse
       type(response_type), allocatable :: response(:, :)
       !> What was computed for them
       type(work_type) :: work
    contains
+      !> Histories of each stripe
+      procedure :: histories
       !> Collapses in each stripe
       procedure :: collapses
       !> Histories that reach a threshold in each stripe
@@ -82,10 +87,12 @@ contains
             & *real(histories, wp)*real(levels, wp), error)
          if (.not. allocated(error)) call study%check_scales(wall, error)
          if (allocated(error)) return
-         allocate (stripes%scale(histories, levels), stripes%response(histories, levels))
+         allocate (stripes%response(histories, levels), stripes%ran(histories, levels))
+         allocate (stripes%scale(histories, levels), source=0.0_wp)
          do j = 1, levels
             do i = 1, histories
-               stripes%scale(i, j) = study%scale_to(wall, stripes%record(i), stripes%levels(j))
+               stripes%ran(i, j) = study%runs(stripes%record(i), j)
+               if (stripes%ran(i, j)) stripes%scale(i, j) = study%scale_to(wall, stripes%record(i), j)
             end do
          end do
       end associate
@@ -109,6 +116,7 @@ contains
       high = merge(trigger, huge(trigger), rest%two_sided)
       do j = 1, size(stripes%levels)
          do i = 1, size(stripes%record)
+            if (.not. stripes%ran(i, j)) cycle
             associate (record => stripes%record(i), set => study%suite%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
@@ -120,7 +128,7 @@ contains
       end do
    end function planned_work
 
-   !> Run the histories of a plan, or some of them; they are numbered stripe by stripe, from the lowest level
+   !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
    subroutine run_histories(stripes, wall, study, threads, first, last, progress)
       !> The plan; the responses of these histories are set
       type(stripes_type), intent(inout) :: stripes
@@ -135,16 +143,20 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(ensemble_type) :: ensemble
-      integer :: k, from, to, histories
+      integer :: i, j, k, from, to
 
       from = 1
       if (present(first)) from = first
-      to = size(stripes%response)
+      to = count(stripes%ran)
       if (present(last)) to = last
       call run_part(ensemble, wall, study, threads, [from, to], progress)
-      histories = size(stripes%record)
-      do k = from, to
-         stripes%response(modulo(k - 1, histories) + 1, (k - 1)/histories + 1) = ensemble%response(k - from + 1)
+      k = 0
+      do j = 1, size(stripes%levels)
+         do i = 1, size(stripes%record)
+            if (.not. stripes%ran(i, j)) cycle
+            k = k + 1
+            if (k >= from .and. k <= to) stripes%response(i, j) = ensemble%response(k - from + 1)
+         end do
       end do
       call stripes%work%add(ensemble%work)
    end subroutine run_histories
@@ -164,26 +176,32 @@ contains
       procedure(progress_interface), optional :: progress
 
       integer, allocatable :: record(:), polarity(:)
-      integer :: i, k
+      integer :: i, j, k
 
       call choose_polarities(study, wall, record, polarity)
       allocate (ensemble%record(range(2) - range(1) + 1), ensemble%scale(range(2) - range(1) + 1))
-      do k = 1, size(ensemble%record)
-         i = modulo(range(1) + k - 2, size(record)) + 1
-         ensemble%record(k) = record(i)
-         ensemble%scale(k) = real(polarity(i), wp) &
-            & *study%scale_to(wall, record(i), study%levels((range(1) + k - 2)/size(record) + 1))
+      k = 0
+      do j = 1, size(study%levels)
+         if (k >= range(2)) exit
+         do i = 1, size(record)
+            if (.not. study%runs(record(i), j)) cycle
+            k = k + 1
+            if (k < range(1) .or. k > range(2)) cycle
+            ensemble%record(k - range(1) + 1) = record(i)
+            ensemble%scale(k - range(1) + 1) = real(polarity(i), wp)*study%scale_to(wall, record(i), j)
+         end do
       end do
       call run_ensemble(ensemble, wall%mechanism, study%suite, study%solver, threads, progress)
    end subroutine run_part
 
-   !> Histories of a stripe of a wall
+   !> Histories of all stripes of a wall
    pure integer function histories_of(study, wall) result(histories)
       !> What the wall is tried with
       type(study_type), intent(in) :: study
       type(wall_type), intent(in) :: wall
 
-      histories = size(study%suite%records)
+      histories = size(study%suite%records)*size(study%levels)
+      if (allocated(study%factor)) histories = count(abs(study%factor) > 0.0_wp)
       if (runs_twice(study, wall)) histories = 2*histories
    end function histories_of
 
@@ -216,6 +234,15 @@ contains
       end if
    end subroutine choose_polarities
 
+   !> Histories of each stripe
+   pure function histories(self) result(counts)
+      class(stripes_type), intent(in) :: self
+      !> Number of histories at each level
+      integer :: counts(size(self%levels))
+
+      counts = count(self%ran, dim=1)
+   end function histories
+
    !> Collapses in each stripe
    pure function collapses(self) result(counts)
       class(stripes_type), intent(in) :: self
@@ -240,7 +267,7 @@ contains
       integer :: j
 
       do j = 1, size(counts)
-         counts(j) = count(self%response(:, j)%edp >= threshold)
+         counts(j) = count(self%ran(:, j) .and. self%response(:, j)%edp >= threshold)
       end do
    end function exceedances
 

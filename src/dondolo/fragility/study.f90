@@ -2,9 +2,11 @@
 !>
 !> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
 module dondolo_study
+   use dondolo_catalogue, only : record_rows_type
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_record, only : largest_acceleration
    use dondolo_scaling, only : scaling_type
    use dondolo_solver, only : check_limit, check_solver, solver_type
@@ -16,6 +18,9 @@ module dondolo_study
 
    public :: study_type, new_study
    public :: check_levels, check_thresholds, polarity_names
+
+   !> Levels that differ by less than this part are the same: a table may give them in fewer digits than a computation
+   real(wp), parameter :: same_level = 1.0e-9_wp
 
    !> Polarities a record can be used with
    character(len=11), parameter :: polarity_names(3) = [character(len=11) :: 'as_recorded', 'reversed', 'both']
@@ -30,6 +35,9 @@ module dondolo_study
       real(wp), allocatable :: values(:)
       !> Levels of intensity, positive and increasing, in the unit of the measure
       real(wp), allocatable :: levels(:)
+      !> Factor on each record at each level (records, levels), > 0 where it is given, < 0 where it follows from the
+      !> measure, 0 where the record does not run; not allocated: every record runs at every level, scaled by the measure
+      real(wp), allocatable :: factor(:, :)
       !> One of polarity_names; a two-sided wall is symmetric, so that 'both' runs once
       character(len=:), allocatable :: polarity
       !> EDP thresholds, each a damage state; the last is the limit of the solver, collapse
@@ -43,6 +51,12 @@ module dondolo_study
    contains
       !> Check that a wall can be tried
       procedure :: check
+      !> Choose the records of each level
+      procedure :: set_rows
+      !> Does a record run at a level?
+      procedure :: runs
+      !> Share of the records that run at each level
+      procedure :: share
       !> Factor that scales a record to a level for a wall
       procedure :: scale_to
       !> Check that no record is scaled beyond all measure
@@ -94,34 +108,104 @@ contains
       if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error)
    end subroutine check
 
+   !> Choose the records of each level, and factors on them, as the rows of a catalogue give them
+   subroutine set_rows(self, rows, error)
+      class(study_type), intent(inout) :: self
+      type(record_rows_type), intent(in) :: rows
+      !> A row at a level that there is not, or beside one for every level; a level without records; lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j, first, last
+
+      if (.not. rows%have_levels) return
+      associate (records => size(self%suite%records), levels => size(self%levels))
+         call check_room(8.0_wp*real(records, wp)*real(levels, wp), error)
+         if (allocated(error)) return
+         allocate (self%factor(records, levels), source=0.0_wp)
+         do i = 1, size(rows%record)
+            first = 1
+            last = levels
+            if (rows%level(i) > 0.0_wp) then
+               first = findloc(abs(self%levels - rows%level(i)) <= same_level*self%levels, .true., dim=1)
+               last = first
+            end if
+            if (first == 0) then
+               call raise_input(error, 'levels: do not include '//to_text(rows%level(i))//', the level of record '''// &
+                  & self%suite%records(rows%record(i))%name//''' in '//rows%place%line(i)%text)
+            else if (any(abs(self%factor(rows%record(i), first:last)) > 0.0_wp)) then
+               call raise_input(error, 'levels = '//to_text(self%levels(max(first, 1)))//': record '''// &
+                  & self%suite%records(rows%record(i))%name//''' runs twice at this level, see '//rows%place%line(i)%text)
+            end if
+            if (allocated(error)) return
+            self%factor(rows%record(i), first:last) = merge(rows%factor(i), -1.0_wp, rows%factor(i) > 0.0_wp)
+         end do
+         do j = 1, levels
+            if (any(abs(self%factor(:, j)) > 0.0_wp)) cycle
+            call raise_input(error, 'levels = '//to_text(self%levels(j))//': no record runs at this level')
+            return
+         end do
+      end associate
+   end subroutine set_rows
+
+   !> Does a record run at a level?
+   pure logical function runs(self, record, level)
+      class(study_type), intent(in) :: self
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Number of the level
+      integer, intent(in) :: level
+
+      runs = .true.
+      if (allocated(self%factor)) runs = abs(self%factor(record, level)) > 0.0_wp
+   end function runs
+
+   !> Share of the records that run at each level
+   pure function share(self)
+      class(study_type), intent(in) :: self
+      !> More than 0, at most 1
+      real(wp) :: share(size(self%levels))
+
+      share = 1.0_wp
+      if (allocated(self%factor)) share = real(count(abs(self%factor) > 0.0_wp, dim=1), wp)/ &
+         & real(size(self%factor, 1), wp)
+   end function share
+
    !> Factor that scales a record to a level for a wall
    pure real(wp) function scale_to(self, wall, record, level) result(scale)
       class(study_type), intent(in) :: self
       type(wall_type), intent(in) :: wall
       !> Number of the record
       integer, intent(in) :: record
-      !> Level, in the unit of the measure
-      real(wp), intent(in) :: level
+      !> Number of the level; the record runs at it
+      integer, intent(in) :: level
 
-      scale = self%scaling%factor(level, self%values(record), wall)
+      if (allocated(self%factor)) then
+         scale = self%factor(record, level)
+         if (scale > 0.0_wp) return
+      end if
+      scale = self%scaling%factor(self%levels(level), self%values(record), wall)
    end function scale_to
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(self, wall, error)
       class(study_type), intent(in) :: self
       type(wall_type), intent(in) :: wall
-      !> The first that is, at the highest level
+      !> The first that is, at its highest level
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: highest
-      integer :: i
+      integer :: i, j
 
-      highest = self%levels(size(self%levels))
       do i = 1, size(self%suite%records)
-         if (self%scale_to(wall, i, highest)*self%suite%peaks(i) <= largest_acceleration) cycle
-         call raise_input(error, 'levels = '//to_text(highest)//': scales record '''//self%suite%records(i)%name// &
-            & ''' beyond '//to_text(largest_acceleration)//' m/s2')
-         return
+         do j = size(self%levels), 1, -1
+            if (.not. self%runs(i, j)) cycle
+            if (.not. self%scale_to(wall, i, j)*self%suite%peaks(i) <= largest_acceleration) then
+               call raise_input(error, 'levels = '//to_text(self%levels(j))//': scales record '''// &
+                  & self%suite%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+               return
+            end if
+            ! The factors that the measure gives grow with the level.
+            if (.not. allocated(self%factor)) exit
+         end do
       end do
    end subroutine check_scales
 

@@ -53,6 +53,7 @@ contains
          call key%add('number of rows', to_text(rows))
          call key%add('walls', walls%text())
          call key%add('records', records_fingerprint(study%suite))
+         if (allocated(study%factor)) call key%add('records of each level', factors_fingerprint(study%factor))
          call key%add('im', study%scaling%name)
          call key%add('levels', list_of(study%levels))
          call key%add('polarity', study%polarity)
@@ -103,6 +104,19 @@ contains
       end do
       text = fingerprint%text()
    end function records_fingerprint
+
+   !> Fingerprint of the records of each level, and of the factors on them
+   pure function factors_fingerprint(factor) result(text)
+      !> Factors (records, levels), see study_type
+      real(wp), intent(in) :: factor(:, :)
+      !> Fingerprint
+      character(len=16) :: text
+
+      type(fingerprint_type) :: fingerprint
+
+      call fingerprint%add_reals(reshape(factor, [size(factor)]))
+      text = fingerprint%text()
+   end function factors_fingerprint
 
    !> Length of numbers as text
    pure integer function list_length(numbers)

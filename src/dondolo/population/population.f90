@@ -11,7 +11,7 @@ module dondolo_population
    use dondolo_limits, only : most_walls
    use dondolo_memory, only : check_room, raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_property, only : find_property, is_text, property_type
+   use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
    use dondolo_text, only : join, lower, to_text
    use dondolo_wall, only : new_wall, wall_type
@@ -64,6 +64,9 @@ module dondolo_population
       logical :: is_checked = .true.
       !> Are all rows so far right, and has one of them a weight?
       logical :: is_right = .true., has_weight = .false.
+      !> Columns of values of lists: place of each list among the properties of walls, number of the value and column, and
+      !> in the order of the values of each list
+      integer, allocatable :: items(:, :)
       !> Names of the walls so far
       type(name_index_type) :: names
       !> The wall of the row before, its first row
@@ -139,7 +142,7 @@ contains
       !> Is the table as a whole to be checked? Yes if absent
       logical, intent(in), optional :: is_checked
 
-      integer :: i
+      integer :: i, at, item
 
       self%row = 0
       self%mechanisms = ''
@@ -147,20 +150,59 @@ contains
       if (present(is_checked)) self%is_checked = is_checked
       call self%table%open(file, error)
       if (allocated(error)) return
+      self%items = reshape([integer ::], [3, 0])
       do i = 1, size(self%table%columns)
          associate (column => self%table%columns(i)%text)
-            if (any(lower(column) == wall_properties%name) .or. any(lower(column) == member_properties%name)) cycle
+            call find_item(wall_properties, lower(column), at, item)
+            if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
+            if (at > 0 .or. any(lower(column) == shown_names()) .or. any(lower(column) == member_properties%name)) cycle
             call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(wall_properties%name)//', '//join(member_properties%name))
+               & join(shown_names())//', '//join(member_properties%name))
          end associate
          call self%close()
          return
       end do
+      call sort_items(self%items)
       self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
       self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
       call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
-         & pack(self%member_columns, member_properties%kind /= is_text)], error)
+         & pack(self%member_columns, member_properties%kind /= is_text), &
+         & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
+
+   contains
+
+      !> Names of the properties of walls as columns: of a list that of its first value
+      function shown_names() result(names)
+         !> Names
+         character(len=len(item_name(wall_properties(1)%name, 1))), allocatable :: names(:)
+
+         integer :: k
+
+         allocate (names(size(wall_properties)))
+         do k = 1, size(names)
+            names(k) = wall_properties(k)%name
+            if (is_many(wall_properties(k)%kind)) names(k) = item_name(trim(wall_properties(k)%name), 1)
+         end do
+      end function shown_names
+
    end subroutine open_population
+
+   !> Put columns of lists in the order of the lists and of the values of each, by insertion: they are few
+   pure subroutine sort_items(items)
+      !> Place of the list, number of the value and column of each
+      integer, intent(inout) :: items(:, :)
+
+      integer :: i, k, item(3)
+
+      do i = 2, size(items, 2)
+         item = items(:, i)
+         do k = i - 1, 1, -1
+            if (items(1, k) < item(1) .or. (items(1, k) == item(1) .and. items(2, k) < item(2))) exit
+            items(:, k + 1) = items(:, k)
+         end do
+         items(:, k + 1) = item
+      end do
+   end subroutine sort_items
 
    !> Read the next row; after an error the rows behind it can be read
    subroutine next(self, member, found, error)
@@ -247,6 +289,7 @@ contains
       call input%set('name', 'wall '//to_text(self%row))
       member%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
       call read_cells(self, self%wall_columns, input, problems)
+      call read_lists(self, input, problems)
       call member%wall%input%set('name', trim(input%word('name')))
       ! A number that cannot be read would be told of once more as one that is missing
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
@@ -300,6 +343,52 @@ contains
          call problems%take(error)
       end do
    end subroutine read_cells
+
+   !> Read the cells of a row that give values of lists; a list ends at the first cell that is empty
+   subroutine read_lists(reader, input, problems)
+      !> The reader, with a row
+      type(population_reader_type), intent(in) :: reader
+      !> What is said of the wall
+      type(wall_input_type), intent(inout) :: input
+      !> Takes every cell that should be a number and is none, or that stands behind an empty one
+      type(problems_type), intent(inout) :: problems
+
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: values(:)
+      character(len=:), allocatable :: cell, words
+      real(wp) :: number
+      integer :: i, count
+
+      count = 0
+      words = ''
+      do i = 1, size(reader%items, 2)
+         associate (property => wall_properties(reader%items(1, i)), item => reader%items(2, i))
+            if (i > 1) then
+               if (reader%items(1, i) /= reader%items(1, i - 1)) count = 0
+            end if
+            if (count == 0) values = [real(wp) ::]
+            if (count == 0) words = ''
+            cell = trim(reader%table%get_text(reader%items(3, i)))
+            if (len(cell) == 0) cycle
+            if (item /= count + 1) then
+               call problems%note(trim(item_name(trim(property%name), item))//': only behind '// &
+                  & trim(item_name(trim(property%name), count + 1)))
+               cycle
+            end if
+            count = item
+            if (property%kind == is_words) then
+               if (item > 1) words = words//','
+               words = words//cell
+               call input%set(property%name, words)
+               cycle
+            end if
+            call reader%table%get_real(reader%items(3, i), number, error)
+            call problems%take(error)
+            values = [values, number]
+            call input%set(property%name, values)
+         end associate
+      end do
+   end subroutine read_lists
 
    !> Place a row among those before it: a further mechanism of the wall before, or a new wall
    subroutine place_row(self, member, error)

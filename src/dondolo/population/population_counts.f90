@@ -32,8 +32,8 @@ module dondolo_population_counts
       integer, allocatable :: mechanism(:)
       !> Probability that it can occur
       real(wp), allocatable :: p_occ(:)
-      !> Histories of a stripe of each row
-      integer, allocatable :: histories(:)
+      !> Histories of each row in each stripe (levels, rows)
+      integer, allocatable :: histories(:, :)
       !> How many of them reach each damage state (levels, states, rows)
       integer, allocatable :: reached(:, :, :)
       !> Curves of the rows (states, rows), and of the walls as a whole (states, walls)
@@ -77,7 +77,7 @@ contains
       population%weight = roster%row(:rows)%weight
       population%mechanism = roster%row(:rows)%mechanism
       population%p_occ = roster%row(:rows)%p_occ
-      allocate (population%histories(rows), population%reached(size(levels), states, rows), source=0)
+      allocate (population%histories(size(levels), rows), population%reached(size(levels), states, rows), source=0)
       allocate (population%curve(states, rows), population%combined(states, population%walls()))
    end subroutine new_population_counts
 
@@ -85,7 +85,7 @@ contains
    pure integer function rows(self)
       class(population_counts_type), intent(in) :: self
 
-      rows = size(self%histories)
+      rows = size(self%weight)
    end function rows
 
    !> Number of walls
@@ -138,7 +138,7 @@ contains
       integer :: i
 
       do i = self%first(number), self%first(number + 1) - 1
-         histories = real(self%histories(i), wp)
+         histories = real(self%histories(:, i), wp)
          call fit_fragility(self%curve(state, i), self%levels, real(self%reached(:, state, i), wp), histories, error)
          if (allocated(error)) return
       end do
@@ -168,9 +168,8 @@ contains
          curves%mechanism = mechanism_names(self%mechanism(i:last))
          curves%p_occ = self%p_occ(i:last)
          curves%curve = self%curve(state, i:last)
-         curves%fraction = real(self%reached(:, state, i:last), wp)/ &
-            & spread(real(self%histories(i:last), wp), 1, size(self%levels))
-         curves%histories = self%histories(i:last)
+         curves%fraction = real(self%reached(:, state, i:last), wp)/real(self%histories(:, i:last), wp)
+         curves%histories = self%histories(:, i:last)
          curves%combined = self%combined(state, number)
       end associate
    end function wall

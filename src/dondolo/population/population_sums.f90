@@ -22,8 +22,8 @@ module dondolo_population_sums
       real(wp), allocatable :: fraction(:)
       !> Sum of weight and curve at each level
       real(wp), allocatable :: curve(:)
-      !> Sum of weight and histories of a stripe
-      real(wp) :: histories = 0.0_wp
+      !> Sum of weight and histories at each level
+      real(wp), allocatable :: histories(:)
       !> The same sum over the walls with a curve
       real(wp) :: fitted = 0.0_wp
       !> Mean of their ln theta, with these weights
@@ -72,7 +72,7 @@ contains
             if (group%mechanism(place)%mechanism == wall%mechanism(m)) exit
          end do
          if (place > size(group%mechanism)) call add_mechanism(group, trim(wall%mechanism(m)), levels)
-         call sum_row(group%mechanism(place), wall%weight*wall%p_occ(m), 1.0_wp, f(:, m), p(:, m), wall%histories(m), &
+         call sum_row(group%mechanism(place), wall%weight*wall%p_occ(m), 1.0_wp, f(:, m), p(:, m), wall%histories(:, m), &
             & wall%curve(m))
       end do
       call sum_row(group%all, wall%weight, wall%occurrence(), f(:, m), p(:, m), wall%combined_histories(), wall%combined)
@@ -89,8 +89,8 @@ contains
       real(wp), intent(in) :: fraction(:)
       !> Its probability of collapse at each level
       real(wp), intent(in) :: p(:)
-      !> Its histories of a stripe
-      integer, intent(in) :: histories
+      !> Its histories at each level
+      integer, intent(in) :: histories(:)
       type(fragility_type), intent(in) :: fit
 
       real(wp) :: part, distance
@@ -166,7 +166,7 @@ contains
       real(wp), intent(in) :: levels(:)
 
       sums%mechanism = name
-      allocate (sums%fraction(size(levels)), sums%curve(size(levels)), source=0.0_wp)
+      allocate (sums%fraction(size(levels)), sums%curve(size(levels)), sums%histories(size(levels)), source=0.0_wp)
    end subroutine begin_sums
 
 end module dondolo_population_sums

@@ -53,13 +53,13 @@ contains
    ! The lengths precede what is as long; otherwise gfortran 12 reports an implicit interface.
 
    !> Bytes that the flags of a row take
-   pure integer function bytes_of_flags(shape, histories)
+   pure integer(int64) function bytes_of_flags(shape, histories)
       !> How many levels and states there are
       type(shape_type), intent(in) :: shape
       !> Histories of a stripe
       integer, intent(in) :: histories
 
-      bytes_of_flags = int((int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64)
+      bytes_of_flags = (int(shape%levels, int64)*shape%states*histories + 7_int64)/8_int64
    end function bytes_of_flags
 
    !> Bytes that a row takes
@@ -69,7 +69,7 @@ contains
       !> Histories of a stripe
       integer, intent(in) :: histories
 
-      bytes_of_row = work_bytes + int(bytes_of_flags(shape, histories), int64)
+      bytes_of_row = work_bytes + bytes_of_flags(shape, histories)
       if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
    end function bytes_of_row
 
@@ -128,24 +128,27 @@ contains
    end function reached
 
    !> Histories that reach a state, and those that were run, of each cluster of records (levels, clusters)
-   pure subroutine by_cluster(self, state, clusters, counts, histories)
+   pure subroutine by_cluster(self, state, clusters, runs, counts, histories)
       class(row_result_type), intent(in) :: self
       !> Number of the state
       integer, intent(in) :: state
       !> Number of the cluster of each record; a stripe has all records, and again in the other polarity if there are two
       integer, intent(in) :: clusters(:)
+      !> Whether a record runs at a level (records, levels)
+      logical, intent(in) :: runs(:, :)
       !> Counts
       real(wp), intent(out) :: counts(:, :), histories(:, :)
 
-      integer :: i, j, g, flag
+      integer :: i, j, g, flag, record
 
       counts = 0.0_wp
       histories = 0.0_wp
       flag = (state - 1)*size(counts, 1)*self%histories
       do j = 1, size(counts, 1)
          do i = 1, self%histories
-            g = clusters(modulo(i - 1, size(clusters)) + 1)
-            histories(j, g) = histories(j, g) + 1.0_wp
+            record = modulo(i - 1, size(clusters)) + 1
+            g = clusters(record)
+            if (runs(record, j)) histories(j, g) = histories(j, g) + 1.0_wp
             if (btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))) counts(j, g) = counts(j, g) + 1.0_wp
             flag = flag + 1
          end do
@@ -188,8 +191,7 @@ contains
       !> The row: its number and its histories are given, all else is set
       type(row_result_type), intent(inout) :: row
 
-      integer(int64) :: counts(work_counts), at, number
-      integer :: flags
+      integer(int64) :: counts(work_counts), at, number, flags
 
       counts = transfer(bytes(:work_bytes), counts)
       row%work = work_type(histories=counts(1), still=counts(2), in_lanes=counts(3), intervals=counts(4), &

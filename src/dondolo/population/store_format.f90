@@ -24,6 +24,9 @@ module dondolo_store_format
    !> longest head; bytes of a row before its contents, the last 16 a fingerprint
    integer, parameter :: line_bytes = 43, longest_head = 10000000, entry_head = 32, guarded = 16
 
+   !> Most levels and states that a head may state; as many flags of a row are counted without overflow
+   integer, parameter :: most_levels = 2**20, most_states = 2**10
+
    !> Which rows of which study a file is for
    type :: identity_type
       !> The study
@@ -108,8 +111,7 @@ contains
 
       character(len=line_bytes) :: line
       character(len=:), allocatable :: head
-      character(len=10) :: words(5)
-      integer :: length, stat, keeps, bits, at, ends
+      integer :: length, stat, keeps, bits, at, ends, numbers(6)
 
       bytes = 0
       length = -1
@@ -124,9 +126,14 @@ contains
          read (unit, iostat=stat) head
          if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
             at = index(head, new_line('a'))
-            read (head(:at - 1), *, iostat=stat) words(1), identity%first, identity%last, words(2), &
-               & identity%shape%levels, words(3), identity%shape%states, words(4), keeps, words(5), bits
-            if (stat == 0) bytes = line_bytes + length
+            call find_numbers(head(:at - 1), numbers)
+            identity%first = numbers(1)
+            identity%last = numbers(2)
+            identity%shape%levels = numbers(3)
+            identity%shape%states = numbers(4)
+            keeps = numbers(5)
+            bits = numbers(6)
+            if (can_be() .and. head(length:) == new_line('a')) bytes = line_bytes + length
          end if
       end if
       if (bytes == 0) then
@@ -141,7 +148,39 @@ contains
       end do
       if (bits /= storage_size(1.0_wp)) call raise_input(error, path//': was made in real'//to_text(bits)// &
          & ', not in real'//to_text(storage_size(1.0_wp)))
+
+   contains
+
+      !> Can there be such rows? A file that was made up must not cost an endless loop or a wild address.
+      pure logical function can_be()
+         can_be = identity%first >= 1 .and. identity%last >= identity%first .and. identity%last < huge(1) .and. &
+            & identity%shape%levels >= 1 .and. identity%shape%levels <= most_levels .and. identity%shape%states >= 1 .and. &
+            & identity%shape%states <= most_states .and. any(keeps == [0, 1]) .and. bits > 0
+      end function can_be
+
    end subroutine read_head
+
+   !> Find the numbers of a line among its words (a list-directed READ of a made-up line leaks memory)
+   pure subroutine find_numbers(line, numbers)
+      character(len=*), intent(in) :: line
+      !> Its numbers, in their order; -1: there are fewer
+      integer, intent(out) :: numbers(:)
+
+      character(len=*), parameter :: digits = '0123456789'
+      integer :: found, first, length
+
+      numbers = -1
+      first = 1
+      do found = 1, size(numbers)
+         length = scan(line(first:), digits) - 1
+         if (length < 0) return
+         first = first + length
+         length = verify(line(first:)//' ', digits) - 1
+         if (length > range(1)) return
+         read (line(first:first + length - 1), '(i9)') numbers(found)
+         first = first + length
+      end do
+   end subroutine find_numbers
 
    !> Bytes of a row in a file
    pure integer(int64) function bytes_of_entry(shape, histories) result(bytes)

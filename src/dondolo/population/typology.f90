@@ -47,8 +47,8 @@ module dondolo_typology
       real(wp) :: beta_records = 0.0_wp
       !> Share of what can occur that has a curve
       real(wp) :: fitted = 0.0_wp
-      !> Histories at each level that the fit counts: number of walls by the weighted mean of their histories
-      real(wp) :: histories = 0.0_wp
+      !> Histories that the fit counts at each level: number of walls by the weighted mean of their histories
+      real(wp), allocatable :: histories(:)
       !> Lognormal fitted to the mean fractions / saturation; its standard errors are naive
       type(fragility_type) :: fit
    end type typology_type
@@ -174,7 +174,7 @@ contains
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: n(size(levels)), share(size(levels))
+      real(wp) :: share(size(levels))
 
       curve%group = group
       curve%mechanism = sums%mechanism
@@ -191,11 +191,10 @@ contains
          curve%beta_records = sqrt(sums%beta_squares/sums%fitted)
       end if
       curve%histories = real(sums%walls, wp)*(sums%histories/sums%weight)
-      n = curve%histories
       ! Divided first: where all that can collapse does, the share is 1 to the last bit and no survivor is made up.
       share = curve%mean_fraction
       if (curve%saturation > 0.0_wp) share = min(share/curve%saturation, 1.0_wp)
-      call fit_fragility(curve%fit, levels, n*share, n, error)
+      call fit_fragility(curve%fit, levels, curve%histories*share, curve%histories, error)
    end subroutine make_curve
 
 end module dondolo_typology

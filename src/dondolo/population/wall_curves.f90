@@ -30,8 +30,8 @@ module dondolo_wall_curves
       type(fragility_type), allocatable :: curve(:)
       !> Fractions of collapse (levels, mechanisms)
       real(wp), allocatable :: fraction(:, :)
-      !> Histories of a stripe of each
-      integer, allocatable :: histories(:)
+      !> Histories of each in each stripe (levels, mechanisms)
+      integer, allocatable :: histories(:, :)
       !> Lognormal of the wall as a whole if a mechanism can occur in it: fitted to its fractions / occurrence; that of its
       !> mechanism, if one always can occur
       type(fragility_type) :: combined
@@ -42,7 +42,7 @@ module dondolo_wall_curves
       procedure :: is_mixed
       !> Probability that any mechanism can occur
       procedure :: occurrence
-      !> Histories of a stripe of the wall as a whole
+      !> Histories of the wall as a whole in each stripe
       procedure :: combined_histories
       !> Fractions of collapse of the mechanisms and of the wall as a whole
       procedure :: fractions
@@ -89,11 +89,12 @@ contains
       occurrence = whole(1)
    end function occurrence
 
-   !> Histories of a stripe of the wall as a whole: no more than its mechanisms have
-   pure integer function combined_histories(self)
+   !> Histories of the wall as a whole in each stripe: no more than its mechanisms have
+   pure function combined_histories(self)
       class(wall_curves_type), intent(in) :: self
+      integer :: combined_histories(size(self%histories, 1))
 
-      combined_histories = minval(self%histories)
+      combined_histories = minval(self%histories, dim=2)
    end function combined_histories
 
    !> Fractions of collapse of the mechanisms, if they can occur, and of the wall as a whole

@@ -1,4 +1,9 @@
-!> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format, name and event, and any others.
+!> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format and name, level and factor, and
+!> any others, which are metadata of the records; records of one `event` depend on each other (dondolo_clusters).
+!>
+!> With a column level a row is a record at a level of intensity, and a record may have several rows; where the cell is
+!> empty it runs at every level. With a column factor a cell is the factor on the record there, instead of one computed
+!> from the intensity measure.
 !>
 !> Each record has a name of its own. Where the catalogue gives none and stems of files are the same, the names get the
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
@@ -14,53 +19,166 @@ module dondolo_catalogue
    use dondolo_plain, only : is_plain, must_be_plain, shown, visible
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
-   use dondolo_text, only : to_text
+   use dondolo_text, only : lower, to_text
    implicit none
    private
 
-   public :: read_catalogue
+   public :: read_catalogue, record_rows_type
 
    !> Memory that a row takes, its samples and metadata left aside [bytes]
    real(wp), parameter :: bytes_of_row = 1000.0_wp
 
+   !> Columns that say how a record is read and run; all others are metadata
+   character(len=7), parameter :: own_columns(8) = [character(len=7) :: 'file', 'dt_s', 'units', 'channel', 'format', &
+      & 'name', 'level', 'factor']
+
+   !> Rows of a catalogue
+   type :: record_rows_type
+      !> Has the catalogue a column level?
+      logical :: have_levels = .false.
+      !> Record of each row
+      integer, allocatable :: record(:)
+      !> Level at which it runs, in the unit of the measure; 0: every level
+      real(wp), allocatable :: level(:)
+      !> Factor on it; 0: computed from the measure
+      real(wp), allocatable :: factor(:)
+      !> Where each row is, for messages
+      type(lines_type) :: place
+   end type record_rows_type
+
 contains
 
    !> Read all records of a catalogue
-   subroutine read_catalogue(file, records, error, note)
+   subroutine read_catalogue(file, records, error, note, rows)
       !> Path of the catalogue; files in it are relative to its folder
       character(len=*), intent(in) :: file
-      !> The records
+      !> The records, each once
       type(record_type), allocatable, intent(out) :: records(:)
       !> The catalogue or one of its records is wrong
       type(error_type), allocatable, intent(out) :: error
       !> How the catalogue was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
+      !> Its rows: which records run at which levels
+      type(record_rows_type), intent(out), optional :: rows
 
       type(csv_reader_type) :: table
       type(lines_type) :: paths, places, names
-      integer :: rows, row
+      type(name_index_type) :: sources
+      type(record_rows_type) :: runs
+      type(record_type), allocatable :: several(:)
+      character(len=:), allocatable :: source
+      integer :: number, count, row, earlier
       logical :: found
 
-      call count_rows(file, rows, error)
-      if (.not. allocated(error)) call check_room(bytes_of_row*real(rows, wp), error)
+      call count_rows(file, number, error)
+      if (.not. allocated(error)) call check_room(bytes_of_row*real(number, wp), error)
       if (.not. allocated(error)) call table%open(file, error)
-      if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s')], error)
+      if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s'), table%column('level'), &
+         & table%column('factor')], error)
       if (allocated(error)) return
       if (present(note)) note = table%note()
-      allocate (records(rows))
-      do row = 1, rows
+      runs%have_levels = table%column('level') > 0
+      allocate (several(number), runs%record(number))
+      allocate (runs%level(number), runs%factor(number), source=0.0_wp)
+      count = 0
+      do row = 1, number
          call table%next(found, error)
          if (.not. allocated(error) .and. .not. found) call raise_input(error, file//': has changed while it was read')
-         if (.not. allocated(error)) call read_row(table, records(row), error)
+         if (.not. allocated(error)) call read_run(table, runs%level(row), runs%factor(row), error)
          if (allocated(error)) exit
-         call paths%add(table%get_text(table%column('file')))
-         call places%add(table%place())
-         call names%add(trim(adjustl(table%get_text(table%column('name')))))
+         ! Of a record at several levels the first row reads it.
+         earlier = 0
+         if (runs%have_levels) then
+            call describe_source(table, source)
+            call sources%note(source, count + 1, earlier)
+         end if
+         if (earlier == 0) then
+            count = count + 1
+            earlier = count
+            call read_row(table, several(count), error)
+            if (allocated(error)) exit
+            call paths%add(table%get_text(table%column('file')))
+            call places%add(table%place())
+            call names%add(trim(adjustl(table%get_text(table%column('name')))))
+         end if
+         runs%record(row) = earlier
+         call runs%place%add(table%place())
       end do
       call table%close()
-      if (.not. allocated(error)) call name_records(paths, places, names, records, error)
-      if (allocated(error)) deallocate (records)
+      if (allocated(error)) return
+      allocate (records(count))
+      do row = 1, count
+         call move_record(several(row), records(row))
+      end do
+      call name_records(paths, places, names, records, error)
+      if (allocated(error)) then
+         deallocate (records)
+      else if (present(rows)) then
+         rows = runs
+      end if
    end subroutine read_catalogue
+
+   !> Move a record to its place among those that a catalogue has once
+   subroutine move_record(from, to)
+      type(record_type), intent(inout) :: from
+      type(record_type), intent(inout) :: to
+
+      call move_alloc(from%name, to%name)
+      call move_alloc(from%file, to%file)
+      call move_alloc(from%acceleration, to%acceleration)
+      call move_alloc(from%metadata%entries, to%metadata%entries)
+      to%dt = from%dt
+   end subroutine move_record
+
+   !> What a row says of the record that it names, by which rows of the same record are recognised
+   subroutine describe_source(table, text)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Its cells, with a character in between that none of them holds
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, 6
+         text = text//table%get_text(table%column(trim(own_columns(i))))//achar(0)
+      end do
+   end subroutine describe_source
+
+   !> Read the level and the factor of a row
+   subroutine read_run(table, level, factor, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Level; 0: every level
+      real(wp), intent(inout) :: level
+      !> Factor; 0: computed
+      real(wp), intent(inout) :: factor
+      !> A level or a factor that is none
+      type(error_type), allocatable, intent(out) :: error
+
+      call read_positive(table, 'level', level, error)
+      if (.not. allocated(error)) call read_positive(table, 'factor', factor, error)
+      if (allocated(error) .or. .not. factor > 0.0_wp .or. level > 0.0_wp) return
+      call raise_input(error, table%place()//': factor = '//to_text(factor)//': needs the level at which it applies')
+   end subroutine read_run
+
+   !> Read a cell with a positive number
+   subroutine read_positive(table, name, value, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> The number; stays as it is where the cell is empty
+      real(wp), intent(inout) :: value
+      !> No number, or not positive
+      type(error_type), allocatable, intent(out) :: error
+
+      if (len_trim(table%get_text(table%column(name))) == 0) return
+      call table%get_real(table%column(name), value, error)
+      if (allocated(error)) return
+      if (.not. (value > 0.0_wp .and. value <= huge(value))) call raise_input(error, table%place()//': '//name//' = '// &
+         & to_text(value)//': must be positive')
+   end subroutine read_positive
 
    !> Look through a catalogue before its records are read
    subroutine count_rows(file, rows, error)
@@ -80,6 +198,8 @@ contains
       if (table%column('file') == 0) then
          call raise_input(error, file//': no column ''file'': must have file, and dt_s and units '// &
             & 'where the files do not state them')
+      else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
+         call raise_input(error, file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
       else
          do
             call table%next(found, error)
@@ -175,6 +295,7 @@ contains
 
       character(len=:), allocatable :: path, units
       real(wp), allocatable :: dt
+      integer :: i
       logical :: exists
 
       path = table%get_text(table%column('file'))
@@ -199,8 +320,13 @@ contains
       if (.not. allocated(error)) call read_record(path, record, error, dt, units, &
          & table%get_text(table%column('channel')), table%get_text(table%column('format')))
       record%file = path
-      call record%metadata%set('event', table%get_text(table%column('event')))
       call add_place(error, table%place())
+      if (allocated(error)) return
+      do i = 1, size(table%columns)
+         associate (title => table%columns(i)%text)
+            if (.not. any(own_columns == lower(title))) call record%metadata%set(title, table%get_text(i))
+         end associate
+      end do
    end subroutine read_row
 
    !> Does a path begin at the root?

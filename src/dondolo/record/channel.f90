@@ -6,7 +6,7 @@ module dondolo_channel
    use dondolo_record, only : new_record, record_type
    use dondolo_plain, only : shown, visible
    use dondolo_record_format, only : channel_type, raise_at, samples_type
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : brief, lower, to_text
    use dondolo_text_file, only : text_file_type
    use dondolo_units, only : unit_factor
    implicit none
@@ -143,7 +143,8 @@ contains
 
       step = stated
       if (.not. present(given)) then
-         if (.not. stated > 0.0_wp) call raise_input(error, 'the file does not state its time step: dt must be given')
+         if (.not. stated > 0.0_wp) call raise_input(error, 'the file does not state its time step: '// &
+            & 'dt must be given, dt_s in a catalogue')
          return
       end if
       if (.not. (given > 0.0_wp .and. given <= huge(given))) then
@@ -226,7 +227,7 @@ contains
       rounding = 0.5_wp*10.0_wp**(-decimals_of(channel%peak))
       if (abs(peak - abs(stated)) <= peak_tolerance*abs(stated) + rounding) return
       call raise_at(error, text, channel%peak_line, 'peak value '//to_text(stated)//': the largest value is '// &
-         & to_text(peak))
+         & brief(peak))
    end subroutine check_peak
 
    !> Decimals of a printed number

@@ -5,7 +5,7 @@ module dondolo_record_format
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
    use dondolo_plain, only : shown
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -161,7 +161,7 @@ contains
       length = channel%dt*real(size(channel%values), wp)
       if (.not. duration > 0.0_wp .or. abs(duration - length) <= max(0.02_wp*length, 5.0_wp*channel%dt)) return
       call raise_at(error, text, line, 'duration '//to_text(duration)//' s: count and time step make '// &
-         & to_text(length)//' s')
+         & brief(length)//' s')
    end subroutine check_duration
 
    !> Report what is wrong in a line of a file

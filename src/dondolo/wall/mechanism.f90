@@ -22,6 +22,8 @@ module dondolo_mechanism
       real(wp) :: restitution = 0.0_wp
       !> Rotations between which the terms are defined; no step goes to them or beyond [rad]
       real(wp) :: lowest = -huge(1.0_wp), highest = huge(1.0_wp)
+      !> Rotation at which a load loses its seat, which counts as collapse [rad]; huge: none does
+      real(wp) :: unseating = huge(1.0_wp)
    contains
       !> J, C, G, L and Q at a rotation
       procedure(terms_interface), deferred :: terms

@@ -21,7 +21,7 @@ contains
       type(one_sided_type), intent(out) :: mechanism
       !> The wall as one block
       type(block_type), intent(in) :: block
-      !> Model of restitution: 'default' and 'sorrentino' are equation (2)
+      !> Model of restitution: equation (2), which is the impulse model of a bare block too
       type(restitution_type), intent(in) :: restitution
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -32,7 +32,7 @@ contains
       call mechanism%take_block(block, gravity)
       ! The velocity reverses, so that the speed ratio is minus the coefficient.
       call restitution%speed_ratio(mechanism%restitution, error, &
-         & sorrentino=-one_sided_restitution(block%alpha))
+         & sorrentino=-one_sided_restitution(block%alpha), impulse=-one_sided_restitution(block%alpha))
    end subroutine new_one_sided
 
    !> Ratio of the angular velocities after and before an impact, equation (2) of Nale et al.

@@ -3,7 +3,7 @@ module dondolo_restitution
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_property, only : choices_length
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : brief, join, to_text
    implicit none
    private
 
@@ -82,7 +82,7 @@ contains
       ratio = max(0.0_wp, self%factor*coefficient)
       if (.not. ratio < 1.0_wp) then
          call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
-            & ': makes the speed ratio of an impact '//to_text(ratio)//', must be less than 1')
+            & ': makes the speed ratio of an impact '//brief(ratio)//', must be less than 1')
          ratio = 0.0_wp
       end if
    end subroutine speed_ratio

@@ -4,12 +4,15 @@ module dondolo_wall
    use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
    use dondolo_kinds, only : wp
+   use dondolo_loaded_block, only : loaded_block_type, new_loaded_block
+   use dondolo_loaded_impact, only : one_sided_impulse, two_sided_impulse
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_one_sided, only : one_sided_type, new_one_sided
+   use dondolo_one_sided, only : new_one_sided, one_sided_restitution, one_sided_type
    use dondolo_property, only : check_number
    use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_two_block, only : two_block_type, new_two_block
+   use dondolo_wall_body, only : is_bare, read_wall_body, take_sections, wall_body_type
    use dondolo_wall_properties, only : gravity_property, mechanism_names, standard_gravity, wall_input_type
    implicit none
    private
@@ -27,6 +30,8 @@ module dondolo_wall
       real(wp) :: radius = 0.0_wp
       !> Slenderness angle of the wall, of the lower block for two_block [rad]
       real(wp) :: alpha = 0.0_wp
+      !> Was a bearing given?
+      logical :: bears = .false.
       !> What the motion integrates
       class(mechanism_type), allocatable :: mechanism
    contains
@@ -78,26 +83,76 @@ contains
       real(wp), intent(in), optional :: gravity
 
       type(problems_type) :: problems
+      type(wall_body_type) :: body
       character(len=:), allocatable :: mechanism, allowed
-      logical :: bears
+      logical :: is_loaded
 
       if (present(gravity)) wall%gravity = gravity
       wall%input = input
       mechanism = input%word('mechanism')
       if (.not. any(mechanism == mechanism_names)) mechanism = ''
-      bears = input%has('bearing') .or. input%has('bearing_distance')
+      if (mechanism /= 'two_block') call take_sections(problems, wall%input)
+      wall%bears = input%has('bearing') .or. input%has('bearing_distance')
       call wall%input%fill(mechanism)
       call wall%input%set('name', trim(wall%input%word('name')))
-      if (bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
+      if (wall%bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
       call wall%input%check(problems, 'mechanism', mechanism)
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
       if (mechanism == 'two_block') call check_load(problems, wall%input)
+      is_loaded = problems%count == 0 .and. mechanism /= 'two_block'
+      if (is_loaded) is_loaded = .not. is_bare(wall%input)
+      if (is_loaded) call read_wall_body(wall%input, wall%gravity, problems, body)
       call problems%raise(error)
       if (allocated(error)) return
-      if (bears) call replace_bearing(wall%input)
-      call build_mechanism(wall, error)
+      if (wall%bears) call replace_bearing(wall%input)
+      if (is_loaded) then
+         call build_loaded(wall, body, error)
+      else
+         call build_mechanism(wall, error)
+      end if
    end subroutine new_wall
+
+   !> What the user asks of the impacts
+   pure function restitution_of(input) result(restitution)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> The same as one thing
+      type(restitution_type) :: restitution
+
+      restitution%model = input%word('restitution')
+      if (input%has('restitution_value')) restitution%value = input%number('restitution_value')
+      restitution%factor = input%number('restitution_factor')
+   end function restitution_of
+
+   !> The mechanism of a block that is more than a rectangle on its edge
+   subroutine build_loaded(wall, body, error)
+      !> The wall, its input checked
+      type(wall_type), intent(inout) :: wall
+      !> Its sections and what acts on it
+      type(wall_body_type), intent(in) :: body
+      !> It does not stand at rest, or what is wrong with its restitution
+      type(error_type), allocatable, intent(out) :: error
+
+      type(loaded_block_type) :: block
+      type(restitution_type) :: restitution
+      real(wp) :: depth, height
+
+      restitution = restitution_of(wall%input)
+      depth = body%body%depth - body%actions%hinge
+      height = body%body%height - body%actions%edge
+      wall%radius = hypot(depth, height)
+      wall%alpha = atan2(depth, height)
+      if (wall%input%word('mechanism') == 'free_standing') then
+         call new_loaded_block(block, body%body, body%actions, wall%gravity, .true., error)
+         if (.not. allocated(error)) call restitution%speed_ratio(block%restitution, error, impulse=two_sided_impulse(body))
+      else
+         call new_loaded_block(block, body%body, body%actions, wall%gravity, .false., error)
+         if (.not. allocated(error)) call restitution%speed_ratio(block%restitution, error, &
+            & sorrentino=-one_sided_restitution(atan2(body%body%depth, body%body%height)), impulse=-one_sided_impulse(body))
+      end if
+      wall%mechanism = block
+   end subroutine build_loaded
 
    !> Names become types: the one place that knows all mechanisms
    subroutine build_mechanism(wall, error)
@@ -117,9 +172,7 @@ contains
          height = input%number('height')
          thickness = input%number('thickness')
          density = input%number('density')
-         restitution%model = input%word('restitution')
-         if (input%has('restitution_value')) restitution%value = input%number('restitution_value')
-         restitution%factor = input%number('restitution_factor')
+         restitution = restitution_of(input)
          whole = new_block(height, thickness, density)
          wall%radius = whole%radius
          wall%alpha = whole%alpha
@@ -179,7 +232,8 @@ contains
       eccentricity = input%number('eccentricity')
       if (.not. (input%has('bearing') .or. input%has('bearing_distance'))) then
          if (half > 0.0_wp .and. .not. abs(eccentricity) <= half) call problems%note('eccentricity = '// &
-            & to_text(eccentricity)//': must lie between -'//to_text(half)//' and '//to_text(half)// &
+            & to_text(eccentricity)//': must lie between -'//brief(half)//' and '// &
+            & brief(half)// &
             & ' (half the thickness)')
       else if (input%has('eccentricity')) then
          call problems%note('eccentricity = '//to_text(eccentricity)// &
@@ -193,7 +247,7 @@ contains
          call problems%note('bearing_distance: must be given with bearing = '''//input%word('bearing')//'''')
       else if (thickness > 0.0_wp .and. .not. (distance >= 0.0_wp .and. distance <= thickness)) then
          call problems%note('bearing_distance = '//to_text(distance)//': must lie between 0 and '// &
-            & to_text(thickness)//' (the thickness)')
+            & brief(thickness)//' (the thickness)')
       end if
    end subroutine check_load
 

@@ -4,14 +4,14 @@
 !> To add one: a row here, and its value where a mechanism is built (dondolo_wall).
 module dondolo_wall_properties
    use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, find_property, is_text, most_choices, property_type
+   use dondolo_property, only : blank, choices_length, find_property, is_list, is_text, is_words, most_choices, property_type
    use dondolo_restitution, only : restitution_models
    use dondolo_settings, only : settings_type
    implicit none
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: mechanism_names, standard_gravity, wall_numbers
+   public :: is_beyond_bare, mechanism_names, load_inertias, standard_gravity, wall_numbers
 
    !> Names of the mechanisms
    character(len=choices_length), parameter :: mechanism_names(*) = &
@@ -21,6 +21,10 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: bearing_names(*) = &
       & [character(len=choices_length) :: 'inner', 'outer', 'centre']
 
+   !> Which mass a load brings: none, one that the wall lifts, one that it lifts and pushes
+   character(len=choices_length), parameter :: load_inertias(*) = &
+      & [character(len=choices_length) :: 'none', 'vertical', 'both']
+
    !> Gravity unless the user sets it [m/s2]
    real(wp), parameter :: standard_gravity = 9.81_wp
 
@@ -28,18 +32,100 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: two_block(most_choices) = &
       & reshape([character(len=choices_length) :: 'two_block'], [most_choices], pad=blank)
 
+   !> Owners of what only one block has
+   character(len=choices_length), parameter :: one_block(most_choices) = &
+      & reshape([character(len=choices_length) :: 'one_sided', 'free_standing'], [most_choices], pad=blank)
+
    !> The rows, in the order in which a user thinks of them
    type(property_type), parameter :: rows(*) = [ &
       & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      &   example='3.0', meaning='height of the wall', usual_most=60.0_wp, if_more='is it in centimetres?'), &
+      &   example='3.0', meaning='height of the wall', instead='section_height', usual_most=60.0_wp, &
+      &   if_more='is it in centimetres?'), &
       & property_type('thickness', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      &   example='0.25', meaning='thickness of the wall', usual_most=3.0_wp, if_more='is it in centimetres?'), &
+      &   example='0.25', meaning='thickness of the wall', instead='section_thickness', usual_most=3.0_wp, &
+      &   if_more='is it in centimetres?'), &
       & property_type('density', unit='kg/m3', default=1800.0_wp, positive=.true., smallest=1.0e-3_wp, &
       &   largest=1.0e5_wp, meaning='density of the masonry', usual_least=500.0_wp, usual_most=4000.0_wp, &
       &   if_less='is it in kN/m3 or t/m3?', if_more='is it in N/m3?'), &
+      & property_type('section_height', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_most=20.0_wp, if_more='is it in centimetres?', example='4.0, 3.5', &
+      &   meaning='heights of the storeys from the bottom, instead of height'), &
+      & property_type('section_thickness', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_most=3.0_wp, if_more='is it in centimetres?', example='0.60, 0.45', &
+      &   meaning='their thicknesses, instead of thickness'), &
+      & property_type('section_fill', is_list, owners=one_block, optional=.true., positive=.true., largest=1.0_wp, &
+      &   example='0.8, 1.0', meaning='part of each storey that is masonry, 1 if not given'), &
+      & property_type('section_offset', is_list, unit='m', owners=one_block, optional=.true., smallest=-1.0e3_wp, &
+      &   largest=1.0e3_wp, example='0.0, 0.1', &
+      &   meaning='depth of the outer face of each storey behind that of the lowest, 0 if not given'), &
+      & property_type('section_base_width', is_list, owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='1.0, 1.0', &
+      &   meaning='width of each elevation at its bottom / width that values per metre refer to, 1 if not given'), &
+      & property_type('section_top_width', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0e3_wp, &
+      &   example='1.0, 0.0', meaning='the same at its top, as at its bottom if not given; 0 for a gable'), &
+      & property_type('mass', unit='kg/m', owners=one_block, optional=.true., positive=.true., &
+      &   smallest=1.0e-3_wp, largest=1.0e9_wp, example='1350.0', meaning='mass of the body, instead of its density'), &
+      & property_type('centroid_depth', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.125', meaning='depth of its centroid behind the outer face, with mass'), &
+      & property_type('centroid_height', unit='m', owners=one_block, optional=.true., positive=.true., &
+      &   largest=1.0e3_wp, example='1.5', meaning='height of its centroid, with mass'), &
+      & property_type('hinge_inertia', unit='kg m2/m', owners=one_block, optional=.true., positive=.true., &
+      &   column='hinge_inertia_kg_m', example='4078.0', meaning='its inertia about the hinge, with mass'), &
+      & property_type('hinge_depth', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.02', meaning='depth of the hinge behind the outer face'), &
+      & property_type('compressive_strength', unit='Pa', owners=one_block, optional=.true., positive=.true., &
+      &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, if_less='is it in MPa?', &
+      &   if_more='is it in kPa?', example='2.0e6', &
+      &   meaning='strength of the masonry, from which the depth of the hinge follows'), &
+      & property_type('stress_block', owners=one_block, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
+      &   meaning='stress in the compressed part of the base / that strength, 0.85 if not given'), &
+      & property_type('edge_radius', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.02', &
+      &   meaning='radius of the edge that the wall rolls on, which is also the depth of its hinge at rest'), &
+      & property_type('load', is_list, unit='N/m', owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
+      &   usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', if_more='is it per metre of wall?', &
+      &   example='12.0e3, 6.0e3', meaning='vertical loads that go with the wall, per metre of wall'), &
+      & property_type('load_depth', is_list, unit='m', owners=one_block, optional=.true., example='0.5, 0.35', &
+      &   meaning='depth of each load behind the outer face'), &
+      & property_type('load_height', is_list, unit='m', owners=one_block, optional=.true., example='4.0, 7.5', &
+      &   meaning='height of each load above the base'), &
+      & property_type('load_inertia', is_words, owners=one_block, optional=.true., &
+      &   choices=reshape(load_inertias, [most_choices], pad=blank), more='one for all loads, or one for each', &
+      &   example='both', meaning='which mass of each load the wall moves'), &
+      & property_type('load_seat', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      &   example='0.15, 0.15', meaning='horizontal travel at which each load loses its seat'), &
+      & property_type('inertia_mass', is_list, unit='kg/m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e9_wp, example='600.0', meaning='masses that the wall pushes and does not carry, per metre of wall'), &
+      & property_type('inertia_depth', is_list, unit='m', owners=one_block, optional=.true., example='0.175', &
+      &   meaning='depth of each of them behind the outer face'), &
+      & property_type('inertia_height', is_list, unit='m', owners=one_block, optional=.true., example='3.0', &
+      &   meaning='height of each of them above the base'), &
+      & property_type('thrust', is_list, unit='N/m', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e9_wp, usual_least=10.0_wp, usual_most=1.0e5_wp, if_less='is it in kN/m?', &
+      &   if_more='is it per metre of wall?', example='1.0e3', meaning='horizontal forces outwards, per metre of wall'), &
+      & property_type('thrust_depth', is_list, unit='m', owners=one_block, optional=.true., example='0.3', &
+      &   meaning='depth of each thrust behind the outer face, the inner face if not given'), &
+      & property_type('thrust_height', is_list, unit='m', owners=one_block, optional=.true., example='7.5', &
+      &   meaning='height of each thrust above the base'), &
+      & property_type('thrust_decay', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      &   example='0.05', meaning='travel over which each thrust falls to 1/e, constant if not given'), &
+      & property_type('spring', is_list, unit='N/m2', owners=one_block, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e9_wp, example='50.0e3', meaning='stiffness of springs that pull and push, per metre of wall'), &
+      & property_type('spring_depth', is_list, unit='m', owners=one_block, optional=.true., example='0.0', &
+      &   meaning='depth of each spring behind the outer face'), &
+      & property_type('spring_height', is_list, unit='m', owners=one_block, optional=.true., example='3.0', &
+      &   meaning='height of each spring above the base'), &
+      & property_type('bed', is_list, unit='N/m3', owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0e9_wp, &
+      &   example='20.0e3', meaning='stiffness of springs spread over a height, per metre of wall and of height'), &
+      & property_type('bed_depth', is_list, unit='m', owners=one_block, optional=.true., example='0.25', &
+      &   meaning='depth of each bed behind the outer face'), &
+      & property_type('bed_bottom', is_list, unit='m', owners=one_block, optional=.true., example='0.0', &
+      &   meaning='height at which each bed begins'), &
+      & property_type('bed_top', is_list, unit='m', owners=one_block, optional=.true., example='3.0', &
+      &   meaning='height at which each bed ends'), &
       & property_type('hinge', default=0.5_wp, smallest=0.01_wp, largest=0.99_wp, owners=two_block, &
       &   meaning='height of the intermediate hinge / height of the wall'), &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &
@@ -64,13 +150,16 @@ module dondolo_wall_properties
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
+   !> Properties that a bare rectangle with its hinge at its edge does not have; tables show them only where a wall has them
+   logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) == 'one_sided'
+
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &
       & default=standard_gravity, positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
       & meaning='acceleration of gravity')
 
    !> How many of them are numbers
-   integer, parameter :: wall_numbers = count(rows%kind /= is_text)
+   integer, parameter :: wall_numbers = count(rows%kind /= is_text .and. rows%kind /= is_words)
 
    !> What a user says of a wall
    type, extends(settings_type) :: wall_input_type

@@ -11,14 +11,17 @@ module dondolo_property
 
    public :: property_type, find_property, has_owner, number_of_choices, check_number, check_word
    public :: column_name, default_text, describe_property
-   public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name
+   public :: is_many, item_name, find_item, number_of_words, word_of
+   public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name, is_words
    public :: name_length, choices_length, most_choices, blank, no_limit
 
-   !> Kinds of values: a real number, a whole number, a text, yes or no, a list of real numbers, a whole number or a name
-   integer, parameter :: is_real = 1, is_integer = 2, is_text = 3, is_logical = 4, is_list = 5, is_number_or_name = 6
+   !> Kinds of values: a real number, a whole number, a text, yes or no, a list of real numbers, a whole number or a name,
+   !> a list of choices, which is kept as a text with a comma between two
+   integer, parameter :: is_real = 1, is_integer = 2, is_text = 3, is_logical = 4, is_list = 5, is_number_or_name = 6, &
+      & is_words = 7
 
    !> Length of a name
-   integer, parameter :: name_length = 18
+   integer, parameter :: name_length = 20
 
    !> Length of a choice, and how many a property can have
    integer, parameter :: choices_length = 16, most_choices = 8
@@ -70,7 +73,7 @@ module dondolo_property
       !> What a template shows, where it is not the default
       character(len=40) :: example = ''
       !> Column in tables of results, where it is not the name and the unit
-      character(len=24) :: column = ''
+      character(len=32) :: column = ''
       !> Does another property take its place when a wall is made of it?
       logical :: replaced = .false.
       !> Does what is computed depend on it? Files that keep intermediate results belong to one set of values
@@ -112,9 +115,91 @@ contains
       end do
    end function has_owner
 
+   !> Is a kind one of several values?
+   elemental logical function is_many(kind)
+      !> Kind of a property
+      integer, intent(in) :: kind
+
+      is_many = kind == is_list .or. kind == is_words
+   end function is_many
+
+   !> Name of one value of a list, as the columns of tables have it: load_height is load2_height
+   pure function item_name(name, item) result(numbered)
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> Number of the value, from 1
+      integer, intent(in) :: item
+      !> The name with the number behind its first word; blanks after it
+      character(len=name_length + 4) :: numbered
+
+      integer :: stem
+
+      stem = scan(name, '_ ') - 1
+      if (stem < 0) stem = len(name)
+      numbered = name(:stem)//to_text(item)//name(stem + 1:)
+   end function item_name
+
+   !> Which value of which list a column holds
+   pure subroutine find_item(table, column, at, item)
+      type(property_type), intent(in) :: table(:)
+      !> Name of the column, in lower case
+      character(len=*), intent(in) :: column
+      !> Place of the list, 0 if it is none of a list
+      integer, intent(out) :: at
+      !> Number of the value, from 1
+      integer, intent(out) :: item
+
+      character(len=*), parameter :: figures = '0123456789'
+      integer :: first, last, stat
+
+      at = 0
+      first = scan(column, figures)
+      if (first == 0) return
+      last = first + verify(column(first:)//' ', figures) - 2
+      read (column(first:last), *, iostat=stat) item
+      if (stat /= 0 .or. last - first > 3) return
+      at = find_property(table, column(:first - 1)//column(last + 1:))
+      if (at == 0) return
+      if (.not. is_many(table(at)%kind) .or. item < 1) at = 0
+   end subroutine find_item
+
+   !> How many words a list of choices has
+   pure integer function number_of_words(text)
+      !> The list, with commas
+      character(len=*), intent(in) :: text
+
+      integer :: i
+
+      number_of_words = 0
+      if (len_trim(text) > 0) number_of_words = 1 + count([(iachar(text(i:i)) == iachar(','), i=1, len(text))])
+   end function number_of_words
+
+   !> A word of a list of choices; blank beyond the last
+   pure function word_of(text, item) result(word)
+      !> The list, with commas
+      character(len=*), intent(in) :: text
+      !> Number of the word, from 1
+      integer, intent(in) :: item
+      !> The word, blanks after it
+      character(len=choices_length) :: word
+
+      integer :: first, length, i
+
+      first = 1
+      word = ''
+      do i = 1, item
+         if (first > len(text)) return
+         length = index(text(first:)//',', ',') - 1
+         if (i == item) word = adjustl(text(first:first + length - 1))
+         first = first + length + 1
+      end do
+   end function word_of
+
    !> Column of a property in tables of results: its name and its unit
-   pure function column_name(property) result(column)
+   pure function column_name(property, item) result(column)
       type(property_type), intent(in) :: property
+      !> Number of a value of a list
+      integer, intent(in), optional :: item
       !> Name of the column, such as density_kg_m3; blanks after it
       character(len=len(property%column)) :: column
 
@@ -123,6 +208,7 @@ contains
       column = property%column
       if (len_trim(column) > 0) return
       column = property%name
+      if (present(item)) column = item_name(trim(property%name), item)
       if (len_trim(property%unit) > 0) column = trim(column)//'_'//lower(property%unit)
       do i = 1, len(column)
          if (column(i:i) == '/') column(i:i) = '_'
@@ -171,7 +257,8 @@ contains
       !> Its line
       character(len=:), allocatable, intent(out) :: line
 
-      character(len=7), parameter :: kinds(6) = [character(len=7) :: 'real', 'integer', 'text', 'logical', 'list', 'either']
+      character(len=7), parameter :: kinds(7) = [character(len=7) :: 'real', 'integer', 'text', 'logical', 'list', 'either', &
+         & 'words']
       character(len=:), allocatable :: default
 
       call default_text(property, default)
@@ -228,7 +315,7 @@ contains
          text = trim(property%word)
       case (is_logical)
          text = trim(merge('.true. ', '.false.', property%default > 0.0_wp))
-      case (is_list)
+      case (is_list, is_words)
          text = ''
       case (is_integer, is_number_or_name)
          text = to_text(nint(property%default))
@@ -281,10 +368,15 @@ contains
       !> 'must be one of ...'; not allocated: the value is right
       character(len=:), allocatable, intent(out) :: allowed
 
-      integer :: count
+      integer :: count, i
 
       count = number_of_choices(property%choices)
-      if (property%required .and. len_trim(word) == 0 .and. len_trim(property%names) > 0) then
+      if (property%kind == is_words) then
+         do i = 1, number_of_words(word)
+            if (.not. any(property%choices(:count) == word_of(word, i))) allowed = 'each must be one of '// &
+               & join(property%choices(:count))
+         end do
+      else if (property%required .and. len_trim(word) == 0 .and. len_trim(property%names) > 0) then
          allowed = 'must name '//trim(property%names)
       else if (count > 0 .and. .not. property%checked_by_owner) then
          if (.not. any(property%choices(:count) == word)) allowed = 'must be one of '//join(property%choices(:count))

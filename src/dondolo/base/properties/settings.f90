@@ -5,7 +5,7 @@ module dondolo_settings
    use dondolo_limits, only : longest_name
    use dondolo_plain, only : is_plain, must_be_plain, shown
    use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
-      & is_text, name_length, number_of_choices, property_type
+      & is_text, is_words, name_length, number_of_choices, number_of_words, property_type
    use dondolo_text, only : join, lower, to_text
    implicit none
    private
@@ -44,6 +44,8 @@ module dondolo_settings
       procedure(find_interface), deferred :: find
       !> Has a property a value?
       procedure :: has
+      !> Has any of some properties a value?
+      procedure :: gives
       !> A number; 0 where there is none
       procedure :: number
       !> Yes or no
@@ -57,6 +59,8 @@ module dondolo_settings
       !> Set a value
       generic :: set => set_number, set_integer, set_word, set_logical, set_list
       procedure, private :: set_number, set_integer, set_word, set_logical, set_list
+      !> How many values each property has
+      procedure :: lengths
       !> Take a value away
       procedure :: clear
       !> Give properties without a value their defaults
@@ -144,6 +148,36 @@ contains
 
       has = self%place(name) > 0
    end function has
+
+   !> Has any of some properties a value?
+   pure logical function gives(self, asked)
+      class(settings_type), intent(in) :: self
+      !> Which properties of the table
+      logical, intent(in) :: asked(:)
+
+      gives = .false.
+      if (allocated(self%known)) gives = any(self%known .and. asked)
+   end function gives
+
+   !> How many values each property has: those of a list, else 1 or 0
+   pure function lengths(self)
+      class(settings_type), intent(in) :: self
+      !> Their numbers, in the order of the table; none if nothing has a value
+      integer, allocatable :: lengths(:)
+
+      integer :: i
+
+      if (.not. allocated(self%known)) then
+         allocate (lengths(0))
+         return
+      end if
+      lengths = merge(1, 0, self%known)
+      do i = 1, size(lengths)
+         if (lengths(i) == 0) cycle
+         if (is_listed(self, i)) lengths(i) = size(self%lists(i)%values)
+         if (allocated(self%words(i)%text)) lengths(i) = max(1, number_of_words(self%words(i)%text))
+      end do
+   end function lengths
 
    !> A number
    pure real(wp) function number(self, name)
@@ -335,6 +369,7 @@ contains
       if (at == 0) return
       self%known(at) = .false.
       if (allocated(self%words(at)%text)) deallocate (self%words(at)%text)
+      if (is_listed(self, at)) deallocate (self%lists(at)%values)
    end subroutine clear
 
    !> Give properties without a value their defaults
@@ -355,7 +390,7 @@ contains
                if (.not. has_owner(property, owner)) cycle
             end if
             select case (property%kind)
-            case (is_text)
+            case (is_text, is_words)
                self%words(i)%text = trim(property%word)
             case (is_list)
                call self%set(property%name, [real(wp) ::])
@@ -393,14 +428,28 @@ contains
       end do
    end function one_of
 
+   !> Is a value a list of numbers?
+   pure logical function is_listed(self, at)
+      class(settings_type), intent(in) :: self
+      !> Place of a property that has a value
+      integer, intent(in) :: at
+
+      is_listed = allocated(self%lists)
+      if (is_listed) is_listed = allocated(self%lists(at)%values)
+   end function is_listed
+
    !> Length of a value as it stands in messages
    pure integer function value_length(self, at)
       class(settings_type), intent(in) :: self
       !> Place of a property that has a value
       integer, intent(in) :: at
 
+      integer :: i
+
       if (allocated(self%words(at)%text)) then
          value_length = len(shown(self%words(at)%text)) + 2
+      else if (is_listed(self, at)) then
+         value_length = sum([(len(to_text(self%lists(at)%values(i))) + 2, i=1, size(self%lists(at)%values))]) - 2
       else
          value_length = len(to_text(self%numbers(at)))
       end if
@@ -414,8 +463,18 @@ contains
       !> Text, in quotes if it is one
       character(len=value_length(self, at)) :: text
 
+      integer :: i, length
+
       if (allocated(self%words(at)%text)) then
          text = ''''//shown(self%words(at)%text)//''''
+      else if (is_listed(self, at)) then
+         length = 0
+         do i = 1, size(self%lists(at)%values)
+            if (i > 1) text(length + 1:) = ', '
+            if (i > 1) length = length + 2
+            text(length + 1:) = to_text(self%lists(at)%values(i))
+            length = length + len(to_text(self%lists(at)%values(i)))
+         end do
       else
          text = to_text(self%numbers(at))
       end if
@@ -434,7 +493,7 @@ contains
       type(property_type), pointer :: table(:)
       character(len=name_length), allocatable :: names(:)
       character(len=:), allocatable :: allowed
-      integer :: i
+      integer :: i, k
 
       call self%get_table(table)
       if (allocated(self%unknown)) then
@@ -460,12 +519,17 @@ contains
                cycle
             end if
             select case (property%kind)
-            case (is_text)
+            case (is_text, is_words)
                call check_word(property, self%words(i)%text, allowed)
                if (.not. is_plain(self%words(i)%text)) allowed = must_be_plain
                if (len(self%words(i)%text) > longest_name) allowed = 'must have at most '//to_text(longest_name)//' bytes'
             case (is_real, is_integer)
                call check_number(property, self%numbers(i), allowed)
+            case (is_list)
+               if (allocated(allowed)) deallocate (allowed)
+               do k = 1, size(self%lists(i)%values)
+                  if (.not. allocated(allowed)) call check_number(property, self%lists(i)%values(k), allowed)
+               end do
             case default
                if (allocated(allowed)) deallocate (allowed)
             end select

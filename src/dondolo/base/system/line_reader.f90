@@ -90,7 +90,7 @@ contains
       found = .false.
       do
          length = index(self%text(self%at:), line_feed) - 1
-         if (length < 0 .and. len(self%text) - self%at >= longest_line) then
+         if (length > longest_line .or. (length < 0 .and. len(self%text) - self%at >= longest_line)) then
             call raise_input(error, self%file//': line '//to_text(self%number + 1)//': longer than '// &
                & to_text(longest_line)//' bytes')
             call self%close()

@@ -1,13 +1,19 @@
-!> A row of a CSV table: what separates its cells, and the cells.
+!> A row of a CSV table: what separates its cells, and the cells, read and written.
+!>
+!> A spreadsheet takes a cell that begins with = + - or @ for a formula, and with an apostrophe before it for a text. So
+!> such an apostrophe is no part of a text that is read, and one that is part of a text is written twice.
 module dondolo_csv_row
    use dondolo_limits, only : most_cells
    use dondolo_text, only : blanks, occurrences, stripped, to_text
    implicit none
    private
 
-   public :: cell_type, split_row, separator_of, is_title
+   public :: cell_type, split_row, separator_of, is_title, text_cell
 
    character(len=1), parameter :: tab = achar(9)
+
+   !> What begins a formula, and what guards a text that begins so
+   character(len=*), parameter :: formula = '=+-@', guard = ''''
 
    !> One cell
    type :: cell_type
@@ -16,6 +22,76 @@ module dondolo_csv_row
    end type cell_type
 
 contains
+
+   !> Does an apostrophe guard a text?
+   pure logical function is_guarded(text)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      is_guarded = .false.
+      if (len(text) > 1) is_guarded = text(1:1) == guard .and. index(formula//guard, text(2:2)) > 0
+   end function is_guarded
+
+   !> Is an apostrophe to be written before a text?
+   pure logical function needs_guard(text, is_safe)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Is the cell to be no formula in a spreadsheet?
+      logical, intent(in) :: is_safe
+
+      needs_guard = is_guarded(text)
+      if (is_safe .and. len(text) > 0) needs_guard = needs_guard .or. index(formula, text(1:1)) > 0
+   end function needs_guard
+
+   !> Must a text stand in quotes, by RFC 4180, or since its # would begin a comment, or its blanks would be lost?
+   pure logical function needs_quotes(text)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      needs_quotes = scan(text, ',"#'//new_line('a')//achar(13)) > 0
+      if (len(text) > 0) needs_quotes = needs_quotes .or. scan(text(1:1)//text(len(text):), blanks) > 0
+   end function needs_quotes
+
+   !> Length of a text as a cell
+   pure integer function text_length(text, is_safe) result(length)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Is the cell to be no formula in a spreadsheet?
+      logical, intent(in) :: is_safe
+
+      length = len(text)
+      if (needs_quotes(text)) length = length + 2 + occurrences(text, '"')
+      if (needs_guard(text, is_safe)) length = length + 1
+   end function text_length
+
+   !> A text as a cell, which `split_row` reads as the same text
+   pure function text_cell(text, is_safe) result(cell)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Is the cell to be no formula in a spreadsheet?
+      logical, intent(in) :: is_safe
+      !> Cell
+      character(len=text_length(text, is_safe)) :: cell
+
+      integer :: i, at
+
+      if (len(cell) == len(text)) then
+         cell = text
+         return
+      end if
+      cell = '"'
+      at = merge(1, 0, needs_quotes(text))
+      if (needs_guard(text, is_safe)) at = at + 1
+      if (needs_guard(text, is_safe)) cell(at:at) = guard
+      do i = 1, len(text)
+         at = at + 1
+         cell(at:at) = text(i:i)
+         if (text(i:i) /= '"') cycle
+         at = at + 1
+         cell(at:at) = '"'
+      end do
+      if (needs_quotes(text)) cell(at + 1:) = '"'
+   end function text_cell
 
    !> Split a row into its cells
    pure subroutine split_row(row, separator, cells, problem)
@@ -41,6 +117,7 @@ contains
          end if
          count = count + 1
          call take_cell(row, separator, at, cells(count)%text, problem)
+         if (is_guarded(cells(count)%text)) cells(count)%text = cells(count)%text(2:)
          if (len(problem) == 0) cycle
          problem = 'cell '//to_text(count)//': '//problem
          return
@@ -155,15 +232,31 @@ contains
    pure function separator_of(row) result(separator)
       !> Text of the row
       character(len=*), intent(in) :: row
-      !> A comma where there is one, unless empty cells at the end are separated by semicolons or tabs; else a semicolon
-      !> or a tab, if there is one
+      !> A comma where there is one, unless empty cells at the end are separated by semicolons or tabs, or all commas are
+      !> decimal ones; else a semicolon or a tab, if there is one
       character(len=1) :: separator
 
       separator = ','
-      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0) return
+      if (has_outside_quotes(row, ',') .and. scan(row(len(row):), ';'//tab) == 0 .and. .not. has_decimal_commas(row)) return
       if (has_outside_quotes(row, tab)) separator = tab
       if (has_outside_quotes(row, ';')) separator = ';'
    end function separator_of
+
+   !> Does every comma of a row stand between two figures, beside semicolons or tabs? Sa(0,5);poe
+   pure logical function has_decimal_commas(row) result(has)
+      !> Text of the row
+      character(len=*), intent(in) :: row
+
+      character(len=*), parameter :: figures = '0123456789'
+      integer :: i
+
+      has = scan(row, ';'//tab) > 0
+      do i = 1, len(row)
+         if (row(i:i) /= ',') cycle
+         has = has .and. i > 1 .and. i < len(row)
+         if (has) has = index(figures, row(i - 1:i - 1)) > 0 .and. index(figures, row(i + 1:i + 1)) > 0
+      end do
+   end function has_decimal_commas
 
    !> Is a character in a row, outside of double quotes?
    pure logical function has_outside_quotes(row, character) result(has)

@@ -118,7 +118,7 @@ contains
       !> 'byte 7 (E9) is not UTF-8 ...'
       character(len=:), allocatable, intent(out) :: problem
 
-      character(len=16) :: place
+      character(len=32) :: place
       integer :: at
 
       at = max(first_wrong(line), 1)

@@ -58,7 +58,7 @@ contains
 
       allocate(error)
       error%stat = status_input
-      error%message = visible(message)
+      call shorten(message, error%message)
    end subroutine raise_input
 
    !> Report a file that does not exist
@@ -81,8 +81,24 @@ contains
 
       allocate(error)
       error%stat = status_failure
-      error%message = visible(message)
+      call shorten(message, error%message)
    end subroutine raise_failure
+
+   !> A sentence as users see it: on one line, and without the middle of what a file says at length
+   pure subroutine shorten(message, sentence)
+      !> Sentence
+      character(len=*), intent(in) :: message
+      !> The same
+      character(len=:), allocatable, intent(out) :: sentence
+
+      integer, parameter :: longest = 2000, beginning = 1500, ending = 400
+
+      if (len(message) <= longest) then
+         sentence = visible(message)
+      else
+         sentence = visible(message(:beginning)//' ... '//message(len(message) - ending:))
+      end if
+   end subroutine shorten
 
    !> Put the place (a file, a group) before every sentence of an error, if there is one
    pure subroutine add_place(error, place)

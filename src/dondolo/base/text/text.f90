@@ -8,8 +8,12 @@ module dondolo_text
    implicit none
    private
 
-   public :: to_text, to_table, rounded, counted, lower, join, first_word, stripped, occurrences, replaced, left, right
+   public :: to_text, to_table, rounded, brief, counted, lower, join, first_word, stripped, occurrences, replaced, left
+   public :: right
    public :: blanks
+
+   !> Significant digits of a result for people, and of a limit that was computed
+   integer, parameter :: result_digits = 4, limit_digits = 8
 
    !> Blank and tab
    character(len=*), parameter :: blanks = ' '//achar(9)
@@ -28,16 +32,20 @@ contains
 
    ! The lengths precede the functions whose results they size; otherwise gfortran 12 reports an implicit interface.
 
-   !> The nearest number of four significant digits
-   pure real(wp) function four_digits(value)
+   !> The nearest number of few significant digits
+   pure real(wp) function nearest_short(value, digits)
       !> Number
       real(wp), intent(in) :: value
+      !> Significant digits, at most 10
+      integer, intent(in) :: digits
 
       character(len=24) :: buffer
+      character(len=10) :: format
 
-      write (buffer, '(es24.3e4)') value
-      read (buffer, *) four_digits
-   end function four_digits
+      write (format, '(a, i1, a)') '(es24.', digits - 1, 'e4)'
+      write (buffer, format) value
+      read (buffer, *) nearest_short
+   end function nearest_short
 
    !> Length of the text of a number
    pure integer function real_length(value)
@@ -116,10 +124,20 @@ contains
       !> Number
       real(wp), intent(in) :: value
       !> Its text
-      character(len=real_length(four_digits(value))) :: text
+      character(len=real_length(nearest_short(value, result_digits))) :: text
 
-      text = real_to_text(four_digits(value))
+      text = real_to_text(nearest_short(value, result_digits))
    end function rounded
+
+   !> A number with eight significant digits, for limits that were computed
+   pure function brief(value) result(text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text
+      character(len=real_length(nearest_short(value, limit_digits))) :: text
+
+      text = real_to_text(nearest_short(value, limit_digits))
+   end function brief
 
    !> Write the shortest decimal that reads back as the same number
    pure subroutine make_real(value, text)

@@ -22,13 +22,15 @@ module dondolo_job_group
       & reshape([character(len=choices_length) :: 'typology'], [most_choices], pad=blank)
 
    !> Variables of the group
-   type(property_type), target, protected :: job_properties(5) = [ &
+   type(property_type), target, protected :: job_properties(6) = [ &
       & property_type('task', is_text, word='stripes', choices=reshape(task_names, [most_choices], pad=blank), &
       &   meaning='what is to be done'), &
       & property_type('title', is_text, changes_results=.false., meaning='any text'), &
       & property_type('output', is_text, word='dondolo', changes_results=.false., meaning='what the names of the '// &
       &   'result files begin with, relative to the current folder'), &
       & property_type('histories', is_logical, owners=typology, meaning='write the table of all histories too?'), &
+      & property_type('spreadsheet_safe', is_logical, changes_results=.false., meaning='put an apostrophe before names '// &
+      &   'that a spreadsheet would take for formulas?'), &
       & property_type('threads', is_integer, smallest=0.0_wp, largest=real(largest_threads, wp), zero='all', &
       &   changes_results=.false., meaning='number of threads; 0: all, or OMP_NUM_THREADS')]
 
@@ -44,6 +46,8 @@ module dondolo_job_group
       integer :: threads = 0
       !> Task 'typology': write the table of all histories too?
       logical :: histories = .false.
+      !> Is an apostrophe put before texts in tables that a spreadsheet would take for formulas?
+      logical :: spreadsheet_safe = .false.
       !> In which line the output was given, for messages
       character(len=:), allocatable :: output_line
    contains
@@ -71,6 +75,7 @@ contains
       job%title = settings%word('title')
       job%output = settings%word('output')
       job%histories = settings%holds('histories')
+      job%spreadsheet_safe = settings%holds('spreadsheet_safe')
       job%threads = nint(settings%number('threads'))
       if (len_trim(job%output) == 0) then
          call group%refuse('output', 'must not be empty: the names of all result files begin with it', error)
@@ -95,6 +100,7 @@ contains
       call settings%set('title', self%title)
       call settings%set('output', self%output)
       call settings%set('histories', self%histories)
+      call settings%set('spreadsheet_safe', self%spreadsheet_safe)
       call settings%set('threads', self%threads)
    end subroutine put
 

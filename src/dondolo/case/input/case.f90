@@ -1,6 +1,6 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
-   use dondolo_catalogue, only : read_catalogue
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, history_input_type, read_history_group
@@ -26,7 +26,7 @@ module dondolo_case
    use dondolo_suite, only : new_suite, suite_type
    use dondolo_survey, only : survey_population, survey_type
    use dondolo_system, only : is_folder
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type
    implicit none
@@ -54,6 +54,8 @@ module dondolo_case
       type(records_input_type) :: records_input
       !> The accelerograms, measured where they are scaled to levels
       type(suite_type) :: suite
+      !> Factor on each at each level, as in study_type; not allocated: every record runs at every level
+      real(wp), allocatable :: factor(:, :)
       !> Intensity measure and levels
       type(stripes_input_type) :: stripes
       !> How the motions are computed
@@ -91,6 +93,7 @@ contains
 
       type(namelist_type) :: namelist
       type(wall_input_type) :: wall
+      type(record_rows_type) :: runs
 
       case%file = file
       call check_variant(error)
@@ -111,8 +114,9 @@ contains
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
       if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
-      if (.not. allocated(error)) call read_records(namelist%group('records'), case, error)
+      if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
       if (.not. allocated(error)) call measure_case(namelist, case, error)
+      if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
@@ -133,6 +137,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(study_type) :: study
+      character(len=:), allocatable :: note
       integer :: range(2)
 
       range = [1, huge(1)]
@@ -142,8 +147,14 @@ contains
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       case%survey%is_part = present(rows)
-      if (case%survey%first > case%survey%rows) call raise_input(error, '--walls '//to_text(range(1))//':'// &
-         & to_text(range(2))//': the population has '//to_text(case%survey%rows)//' rows')
+      if (.not. present(rows) .or. case%survey%last == range(2)) return
+      note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
+         & to_text(case%survey%rows)//' rows'
+      if (case%survey%first > case%survey%rows) then
+         call raise_input(error, note)
+      else
+         call case%notes%add(note)
+      end if
    end subroutine survey
 
    !> Check that the groups suit the task
@@ -235,11 +246,13 @@ contains
    end subroutine check_combinations
 
    !> Read the accelerograms
-   subroutine read_records(group, case, error)
+   subroutine read_records(group, case, rows, error)
       !> The group &records
       type(group_type), intent(in) :: group
       !> The case: its records are read
       type(case_type), intent(inout) :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(out) :: rows
       !> What is wrong with them, or too little memory
       type(error_type), allocatable, intent(out) :: error
 
@@ -253,7 +266,7 @@ contains
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note)
+      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows)
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return
@@ -302,6 +315,26 @@ contains
       if (case%is_scaled()) call case%suite%measure(case%stripes%scaling%measure, case%job%threads)
    end subroutine measure_case
 
+   !> Choose the records of each level
+   subroutine choose_records(namelist, case, rows, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(inout), target :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(in) :: rows
+      !> A level that is not among the others, or has no record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(study_type) :: study
+
+      if (case%job%task == 'history') return
+      call case%make_study(study)
+      call study%set_rows(rows, error)
+      group = namelist%group('stripes')
+      call group%locate(error)
+      if (.not. allocated(error)) call move_alloc(study%factor, case%factor)
+   end subroutine choose_records
+
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(namelist, case, error)
       type(namelist_type), intent(in) :: namelist
@@ -322,7 +355,7 @@ contains
                call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
                   & ' of 0 and cannot be scaled to a level', error)
             else
-               call raise_input(error, group%place()//': the scale '//to_text(scale)//' makes record '''// &
+               call raise_input(error, group%place()//': the scale '//brief(scale)//' makes record '''// &
                   & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
                   & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
             end if
@@ -357,6 +390,7 @@ contains
       if (present(threads)) team = threads
       call new_study(study, self%suite, self%stripes%scaling, self%stripes%levels, self%records_input%polarity, &
          & self%solver%solver, team)
+      if (allocated(self%factor)) study%factor = self%factor
       study%thresholds = self%stripes%thresholds
       study%keeps_histories = self%job%task == 'stripes' .or. self%job%histories
       study%solver%collapses_only = size(study%thresholds) == 1 .and. .not. study%keeps_histories

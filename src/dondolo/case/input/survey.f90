@@ -17,6 +17,7 @@ module dondolo_survey
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
+   use dondolo_wall_properties, only : wall_properties
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private
@@ -43,6 +44,8 @@ module dondolo_survey
       type(wall_warning_type) :: oddities
       !> Fingerprints of the lines of the table, and of the walls in it
       type(fingerprint_type) :: fingerprint, walls_fingerprint
+      !> How many values each property of a wall has at most
+      integer, allocatable :: lengths(:)
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -74,6 +77,7 @@ contains
       if (allocated(error)) return
       survey%first = rows(1)
       survey%note = reader%table%note()
+      allocate (survey%lengths(size(wall_properties)), source=0)
       do
          call reader%next(member, found, error)
          if (.not. found) exit
@@ -81,6 +85,7 @@ contains
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
             call survey%roster%add(member)
+            survey%lengths = max(survey%lengths, member%wall%input%lengths())
             call add_wall(survey%walls_fingerprint, member%wall)
             if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
@@ -97,7 +102,7 @@ contains
             call survey%scales%look(plan, study%suite%records)
             call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
-               survey%histories = survey%histories + size(plan%scale)
+               survey%histories = survey%histories + count(plan%ran)
             end if
          end if
          call problems%take(error)

@@ -64,6 +64,8 @@ module dondolo_namelist_group
       procedure :: has_text
       !> Take a text
       procedure :: get_text
+      !> Take a list of words
+      procedure :: get_words
       !> Take a real number
       procedure :: get_real
       !> Take an integer
@@ -302,6 +304,32 @@ contains
          call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
       end if
    end subroutine get_text
+
+   !> Take a list of words
+   subroutine get_words(self, name, value, error)
+      class(group_type), intent(in) :: self
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Its words, with a comma between two; left as it is when the variable was not given
+      character(len=:), allocatable, intent(inout) :: value
+      !> One of them is not in quotes
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j
+
+      i = position(self, name)
+      if (i == 0) return
+      value = ''
+      associate (given => self%variables(i)%values)
+         do j = 1, size(given)
+            if (.not. given(j)%quoted) then
+               call self%refuse(name, 'must be text in quotes, such as '''//given(j)%text//'''', error)
+               return
+            end if
+            value = value//trim(merge(',', ' ', j > 1))//given(j)%text
+         end do
+      end associate
+   end subroutine get_words
 
    !> Take a real number
    subroutine get_real(self, name, value, error)

@@ -2,6 +2,7 @@
 module dondolo_namelist_tokens
    use dondolo_error, only : error_type, raise_input
    use dondolo_limits, only : most_tokens
+   use dondolo_plain, only : shown
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -167,7 +168,7 @@ contains
       !> Position of the opening quote, then of what follows the closing one
       integer, intent(inout) :: at
       type(token_type), intent(inout) :: token
-      !> The quote is not closed
+      !> The quote is not closed, or text follows it
       type(error_type), allocatable, intent(out) :: error
 
       character(len=1) :: quote
@@ -195,6 +196,10 @@ contains
          token%text(i:i) = line(from:from)
          if (line(from:from) == quote) from = from + 1
       end do
+      if (at > len(line)) return
+      if (index(word_ends, line(at:at)) > 0) return
+      call raise_input(error, 'text right after the quote that closes '//shown(line(first:at - 1))// &
+         & ': a quote inside is doubled, ''L''''Aquila''')
    end subroutine take_quoted
 
 end module dondolo_namelist_tokens

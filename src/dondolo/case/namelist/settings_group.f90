@@ -4,8 +4,8 @@ module dondolo_settings_group
    use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, name_length, &
-      & property_type
+   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
+      & is_words, name_length, property_type
    use dondolo_settings, only : settings_type
    implicit none
    private
@@ -58,6 +58,9 @@ contains
       select case (kind)
       case (is_text)
          call group%get_text(name, text, error)
+         if (.not. allocated(error)) call settings%set(name, text)
+      case (is_words)
+         call group%get_words(name, text, error)
          if (.not. allocated(error)) call settings%set(name, text)
       case (is_integer)
          whole = 0
@@ -142,7 +145,7 @@ contains
          if (kind == is_number_or_name) kind = merge(is_text, is_integer, settings%has_word(property%name))
          variable = trim(property%name)
          select case (kind)
-         case (is_text)
+         case (is_text, is_words)
             call echo%add(name, variable, settings%word(variable))
          case (is_integer)
             call echo%add(name, variable, nint(settings%number(variable)))

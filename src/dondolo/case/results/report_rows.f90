@@ -1,15 +1,16 @@
 !> The rows of the result tables, as lines of text.
 module dondolo_report_rows
    use dondolo_clustered, only : parameter_intervals
+   use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type
-   use dondolo_property, only : column_name
+   use dondolo_property, only : column_name, is_list, is_many, is_words, word_of
    use dondolo_response, only : response_type
-   use dondolo_text, only : occurrences, to_table, to_text
+   use dondolo_text, only : to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : is_beyond_bare, wall_properties
    implicit none
    private
 
@@ -29,65 +30,35 @@ module dondolo_report_rows
 
 contains
 
-   !> Must a text stand in quotes, by RFC 4180, or since its # would begin a comment?
-   pure logical function needs_quotes(text)
-      !> Text
-      character(len=*), intent(in) :: text
-
-      needs_quotes = scan(text, ',"#'//new_line('a')//achar(13)) > 0
-   end function needs_quotes
-
-   !> Length of a text as a cell
-   pure integer function cell_length(text)
-      !> Text
-      character(len=*), intent(in) :: text
-
-      cell_length = len(text)
-      if (needs_quotes(text)) cell_length = cell_length + 2 + occurrences(text, '"')
-   end function cell_length
-
-   !> A text as a cell
-   pure function quoted(text) result(cell)
-      !> Text
-      character(len=*), intent(in) :: text
-      !> Cell
-      character(len=cell_length(text)) :: cell
-
-      integer :: i, at
-
-      cell = text
-      if (.not. needs_quotes(text)) return
-      cell = '"'
-      at = 1
-      do i = 1, len(text)
-         at = at + 1
-         cell(at:at) = text(i:i)
-         if (text(i:i) /= '"') cycle
-         at = at + 1
-         cell(at:at) = '"'
-      end do
-      cell(at + 1:) = '"'
-   end function quoted
-
    !> Name and mechanism of a wall
-   pure subroutine make_wall_cells(wall, cells)
+   pure subroutine make_wall_cells(wall, is_safe, cells)
       type(wall_type), intent(in) :: wall
+      !> Are texts to be no formulas in a spreadsheet?
+      logical, intent(in) :: is_safe
       !> Two cells
       character(len=:), allocatable, intent(out) :: cells
 
-      cells = quoted(wall%name())//','//wall%mechanism_name()
+      cells = text_cell(wall%name(), is_safe)//','//wall%mechanism_name()
    end subroutine make_wall_cells
 
    !> Names of the columns of a wall: its properties, and what follows from them
-   subroutine make_wall_head(head)
+   subroutine make_wall_head(lengths, head)
+      !> How many values each property has at most; as many columns has a list
+      integer, intent(in) :: lengths(:)
       !> Names
       character(len=:), allocatable, intent(out) :: head
 
-      integer :: i
+      integer :: i, k
 
       head = ''
       do i = 1, size(wall_properties)
-         if (wall_properties(i)%replaced) cycle
+         if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+         if (is_many(wall_properties(i)%kind)) then
+            do k = 1, lengths(i)
+               head = head//','//trim(column_name(wall_properties(i), k))
+            end do
+            cycle
+         end if
          if (len(head) > 0) head = head//','
          head = head//trim(column_name(wall_properties(i)))
       end do
@@ -95,22 +66,39 @@ contains
    end subroutine make_wall_head
 
    !> A wall: its properties, empty cells for those that it does not have, and its static quantities
-   subroutine make_wall_row(member, row)
+   subroutine make_wall_row(member, lengths, is_safe, row)
       !> The wall, one mechanism of it
       type(member_type), intent(in) :: member
+      !> How many values each property has at most
+      integer, intent(in) :: lengths(:)
+      !> Are texts to be no formulas in a spreadsheet?
+      logical, intent(in) :: is_safe
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      integer :: i
+      real(wp), allocatable :: values(:)
+      integer :: i, k
 
       row = ''
       associate (wall => member%wall)
          do i = 1, size(wall_properties)
             associate (name => wall_properties(i)%name)
-               if (wall_properties(i)%replaced) cycle
+               if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+               if (wall_properties(i)%kind == is_list) values = wall%input%list(name)
+               if (is_many(wall_properties(i)%kind)) then
+                  do k = 1, lengths(i)
+                     row = row//','
+                     if (wall_properties(i)%kind == is_words) then
+                        row = row//trim(word_of(wall%input%word(name), k))
+                     else if (k <= size(values)) then
+                        row = row//to_table(values(k))
+                     end if
+                  end do
+                  cycle
+               end if
                if (i > 1) row = row//','
                if (wall%input%has_word(name)) then
-                  row = row//quoted(wall%input%word(name))
+                  row = row//text_cell(wall%input%word(name), is_safe)
                else if (wall%input%has(name)) then
                   row = row//to_table(wall%input%number(name))
                end if
@@ -118,8 +106,8 @@ contains
          end do
          row = row//','//to_table(wall%alpha)//','//to_table(wall%mechanism%frequency_parameter())//','// &
             & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
-            & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','//quoted(member%group)//','// &
-            & to_table(member%p_occ)
+            & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','// &
+            & text_cell(member%group, is_safe)//','//to_table(member%p_occ)
       end associate
    end subroutine make_wall_row
 
@@ -181,7 +169,7 @@ contains
    end subroutine make_fragility_row
 
    !> A curve of the population at a level
-   pure subroutine make_typology_row(typology, im, level, threshold, row)
+   pure subroutine make_typology_row(typology, im, level, threshold, is_safe, row)
       type(typology_type), intent(in) :: typology
       !> Intensity measure
       character(len=*), intent(in) :: im
@@ -189,6 +177,8 @@ contains
       integer, intent(in) :: level
       !> EDP threshold
       real(wp), intent(in) :: threshold
+      !> Are texts to be no formulas in a spreadsheet?
+      logical, intent(in) :: is_safe
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
@@ -200,16 +190,16 @@ contains
       if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','//to_table(typology%beta_records)
       row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
          & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
-         & trim(typology%fit%status)//','//quoted(typology%group)//','//to_table(typology%fractile(1, level))//','// &
-         & to_table(typology%fractile(2, level))//','//to_table(typology%fractile(3, level))//','//dispersion//','// &
-         & to_table(typology%saturation)//','//to_table(threshold)
+         & trim(typology%fit%status)//','//text_cell(typology%group, is_safe)//','// &
+         & to_table(typology%fractile(1, level))//','//to_table(typology%fractile(2, level))//','// &
+         & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)
    end subroutine make_typology_row
 
    !> A history
    pure subroutine make_history_row(cells, record, polarity, im, level, scale, response, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
-      !> Name of the record
+      !> Name of the record, as a cell
       character(len=*), intent(in) :: record
       !> +1 as recorded, -1 reversed
       integer, intent(in) :: polarity
@@ -223,7 +213,7 @@ contains
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      row = cells//','//quoted(record)//','//trim(merge('reversed   ', 'as_recorded', polarity < 0))//','//im//','// &
+      row = cells//','//record//','//trim(merge('reversed   ', 'as_recorded', polarity < 0))//','//im//','// &
          & to_table(level)//','//to_table(scale)//','//to_table(response%edp)//','// &
          & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
          & to_table(response%time_of_peak)

@@ -174,7 +174,7 @@ contains
          do i = 1, size(results%typologies, 1)
             do j = 1, size(case%stripes%levels)
                call make_typology_row(results%typologies(i, k), case%stripes%scaling%name, j, &
-                  & case%stripes%thresholds(k), line)
+                  & case%stripes%thresholds(k), case%job%spreadsheet_safe, line)
                call files%line(line)
             end do
          end do

@@ -307,11 +307,14 @@ contains
 
       logical :: ok
 
+      ok = .true.
       if (self%ok) call self%writer%synchronize(self%ok)
       call self%writer%close(self%ok)
       associate (file => self%written(size(self%written)))
          if (self%ok .and. file%suffix /= run_suffix) call crc32_of_file(staged(self%prefix//trim(file%suffix), &
             & self%lock%run), file%checksum, file%bytes, ok, behind=self%body)
+         ! Without its checksum the table would be refused by every reader.
+         self%ok = self%ok .and. ok
          if (.not. self%ok) call raise_failure(error, self%prefix//trim(file%suffix)// &
             & ': cannot be written whole: is the disk full?')
       end associate

@@ -2,6 +2,7 @@
 !> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
+   use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_report_rows, only : fragility_head, history_head, make_fragility_row, make_history_row, &
@@ -46,7 +47,7 @@ contains
                call raise_failure(error, case%population_path()//': has changed while it was read')
             end if
             if (allocated(error) .or. .not. found) exit
-            row%histories = population%histories(i)
+            row%histories = population%histories(:, i)
             row%reached = population%reached(:, :, i)
             row%curve = population%curve(:, i)
             if (name == '_histories.csv') call read_histories(results, i, row, error)
@@ -110,7 +111,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_head(line)
+         call make_wall_head(list_lengths(case), line)
          call files%line(line)
       case ('_histories.csv')
          if (case%solver%solver%estimate_error) then
@@ -124,6 +125,19 @@ contains
          call files%line(fragility_head)
       end select
    end subroutine write_names
+
+   !> How many values each property of the walls has at most
+   function list_lengths(case) result(lengths)
+      type(case_type), intent(in) :: case
+      !> Their numbers, in the order of the table of properties
+      integer, allocatable :: lengths(:)
+
+      if (case%job%task == 'typology') then
+         lengths = case%survey%lengths
+      else
+         lengths = case%wall%input%lengths()
+      end if
+   end function list_lengths
 
    !> Lines of a wall, or of one of its mechanisms, in a table
    subroutine write_row(case, member, row, name, files, error)
@@ -140,7 +154,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_row(member, line)
+         call make_wall_row(member, list_lengths(case), case%job%spreadsheet_safe, line)
          call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)
@@ -168,12 +182,14 @@ contains
       call case%make_study(study)
       call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
+            if (.not. plan%ran(i, j)) cycle
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
-            call make_history_row(cells, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, &
+            call make_history_row(cells, text_cell(case%suite%records(plan%record(i))%name, &
+               & case%job%spreadsheet_safe), plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j), line)
             call files%line(line//last)
          end do
@@ -190,10 +206,10 @@ contains
       character(len=:), allocatable :: cells, line
       integer :: j, k
 
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
-            call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories, &
+            call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), &
                & row%reached(j, k), case%stripes%thresholds(k), line)
             call files%line(line)
          end do
@@ -210,7 +226,7 @@ contains
       character(len=:), allocatable :: cells, line
       integer :: k
 
-      call make_wall_cells(member%wall, cells)
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do k = 1, size(case%stripes%thresholds)
          call make_fragility_row(cells, case%stripes%scaling%name, row%curve(k), case%stripes%thresholds(k), line)
          call files%line(line)

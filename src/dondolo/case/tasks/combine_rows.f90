@@ -8,6 +8,7 @@ module dondolo_combine_rows
    use dondolo_population_counts, only : new_population_counts
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
+   use dondolo_study, only : study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_warnings, only : fit_warning_type, warn_of_records
    implicit none
@@ -19,21 +20,23 @@ contains
 
    !> Curves of the population, and what there is to warn of
    subroutine combine_rows(case, results, error)
-      type(case_type), intent(in) :: case
+      type(case_type), intent(in), target :: case
       !> Its results: the stores are there; counts, curves and warnings are set
       type(results_type), intent(inout) :: results
       !> What cannot be combined
       type(error_type), allocatable, intent(out) :: error
 
+      type(study_type) :: study
       type(typology_type), allocatable :: typologies(:)
       type(fit_warning_type) :: fits
       integer :: k, states
 
       states = size(case%stripes%thresholds)
       call new_population_counts(results%population, case%survey%roster, case%stripes%levels, states, error)
-      if (.not. allocated(error)) call gather(results, error)
+      call case%make_study(study)
+      if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
-      if (.not. allocated(error)) call cluster_rows(results, case%suite%clusters, error)
+      if (.not. allocated(error)) call cluster_rows(results, study, error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (allocated(error)) return
       do k = 1, states
@@ -49,9 +52,11 @@ contains
    end subroutine combine_rows
 
    !> Counts of all rows
-   subroutine gather(results, error)
+   subroutine gather(results, share, error)
       !> Results: the counts of the population are set
       type(results_type), intent(inout) :: results
+      !> Share of the records that run at each level
+      real(wp), intent(in) :: share(:)
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
@@ -63,7 +68,7 @@ contains
             do i = store%identity%first, store%identity%last
                call store%read(i, row, error)
                if (allocated(error)) exit
-               population%histories(i) = row%histories
+               population%histories(:, i) = nint(real(row%histories, wp)*share)
                population%reached(:, :, i) = row%reached(store%identity%shape)
             end do
             call store%close()
@@ -73,18 +78,23 @@ contains
    end subroutine gather
 
    !> Set the clustered standard errors of the curves of the rows
-   subroutine cluster_rows(results, clusters, error)
+   subroutine cluster_rows(results, study, error)
       type(results_type), intent(inout) :: results
-      !> Number of the cluster of each record
-      integer, intent(in) :: clusters(:)
+      type(study_type), intent(in) :: study
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       type(row_result_type) :: row
-      real(wp), dimension(size(results%population%levels), maxval(clusters)) :: counts, histories
-      real(wp) :: changes(2, maxval(clusters))
-      integer :: i, k, state
+      real(wp), dimension(size(study%levels), maxval(study%suite%clusters)) :: counts, histories
+      real(wp) :: changes(2, maxval(study%suite%clusters))
+      logical :: runs(size(study%suite%clusters), size(study%levels))
+      integer :: i, j, k, state
 
+      do j = 1, size(runs, 2)
+         do i = 1, size(runs, 1)
+            runs(i, j) = study%runs(i, j)
+         end do
+      end do
       do k = 1, size(results%stores)
          associate (store => results%stores(k), population => results%population)
             do i = store%identity%first, store%identity%last
@@ -92,7 +102,7 @@ contains
                call store%read(i, row, error)
                if (allocated(error)) exit
                do state = 1, size(population%curve, 1)
-                  call row%by_cluster(state, clusters, counts, histories)
+                  call row%by_cluster(state, study%suite%clusters, runs, counts, histories)
                   call cluster_errors(population%curve(state, i), population%levels, counts, histories, changes)
                end do
             end do

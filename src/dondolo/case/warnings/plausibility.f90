@@ -1,7 +1,8 @@
-!> Values of walls that no masonry has: correct input, but most likely typed in another unit.
+!> Values of walls that no masonry has, or that do not go together: correct input, but most likely a slip.
 module dondolo_plausibility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
+   use dondolo_property, only : is_list
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_warning, only : warning_type, warnings_type
@@ -10,15 +11,23 @@ module dondolo_plausibility
 
    public :: wall_warning_type
 
-   !> What there is to say of the values of walls: of those that are less than usual (1), and more (2)
+   !> Place behind the properties: what is said of values that do not go together
+   integer, parameter :: together = size(wall_properties) + 1
+
+   !> Codes of values that are less than usual, and more, and of those that do not go together
+   character(len=24), parameter :: beyond_codes(2) = [character(len=24) :: 'value_below_usual', 'value_above_usual'], &
+      & together_codes(2) = [character(len=24) :: 'height_below_thickness', 'load_place_without_load']
+
+   !> What there is to say of the values of walls: of those that are less than usual (1), and more (2); and of walls that
+   !> are thicker than high (1), and of the place of a load without a load (2)
    type :: wall_warning_type
       !> Walls looked at
       integer :: walls = 0
       !> Walls outside the usual range of each property
-      integer :: number(2, size(wall_properties)) = 0
+      integer :: number(2, together) = 0
       !> Name and value of the first of them
-      type(line_type) :: first(2, size(wall_properties))
-      real(wp) :: value(2, size(wall_properties)) = 0.0_wp
+      type(line_type) :: first(2, together)
+      real(wp) :: value(2, together) = 0.0_wp
    contains
       !> Look at a wall
       procedure :: look
@@ -34,26 +43,52 @@ contains
       class(wall_warning_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
 
-      real(wp) :: value
+      real(wp), allocatable :: values(:)
+      real(wp) :: low, high
       logical :: outside(2)
-      integer :: i, k
+      integer :: i
 
       self%walls = self%walls + 1
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
-            value = wall%input%number(property%name)
+            values = [wall%input%number(property%name)]
+            if (property%kind == is_list) values = wall%input%list(property%name)
             ! No overburden is no mistake
-            outside = value > 0.0_wp .and. [value < property%usual_least, value > property%usual_most]
-            do k = 1, 2
-               if (.not. outside(k)) cycle
-               self%number(k, i) = self%number(k, i) + 1
-               if (self%number(k, i) > 1) cycle
-               self%first(k, i)%text = wall%name()
-               self%value(k, i) = value
-            end do
+            low = minval(values, mask=values > 0.0_wp)
+            high = maxval(values)
+            call note(self, wall, i, [low < property%usual_least, .false.], low)
+            call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate
       end do
+      associate (input => wall%input)
+         outside(1) = input%number('height') < input%number('thickness')
+         outside(2) = (wall%bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
+            & .and. .not. input%number('overburden') > 0.0_wp
+         call note(self, wall, together, outside, 0.0_wp)
+      end associate
    end subroutine look
+
+   !> Note what there is to say of a wall
+   subroutine note(self, wall, i, outside, value)
+      class(wall_warning_type), intent(inout) :: self
+      type(wall_type), intent(in) :: wall
+      !> Number of a property, or `together`
+      integer, intent(in) :: i
+      !> What there is to say
+      logical, intent(in) :: outside(2)
+      !> A value of the wall
+      real(wp), intent(in) :: value
+
+      integer :: k
+
+      do k = 1, 2
+         if (.not. outside(k)) cycle
+         self%number(k, i) = self%number(k, i) + 1
+         if (self%number(k, i) > 1) cycle
+         self%first(k, i)%text = wall%name()
+         self%value(k, i) = value
+      end do
+   end subroutine note
 
    !> Warn, if there is reason to
    subroutine warn(self, warnings)
@@ -65,22 +100,24 @@ contains
       type(warning_type) :: warning
       integer :: i, k
 
-      do i = 1, size(wall_properties)
-         associate (property => wall_properties(i))
-            do k = 1, 2
-               if (self%number(k, i) == 0) cycle
-               warning = warning_type('value_below_usual')
-               if (k == 2) warning%code = 'value_above_usual'
-               call warning%about('wall', self%first(k, i)%text)
-               call warning%about('variable', trim(property%name))
-               call warning%about('unit', trim(property%unit))
-               call warning%with('value', self%value(k, i))
-               call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
-               call warning%with('walls_beyond', self%number(k, i))
-               call warning%with('walls', self%walls)
-               call warnings%add(warning)
-            end do
-         end associate
+      do i = 1, together
+         do k = 1, 2
+            if (self%number(k, i) == 0) cycle
+            warning = warning_type(beyond_codes(k))
+            if (i == together) warning%code = together_codes(k)
+            call warning%about('wall', self%first(k, i)%text)
+            if (i < together) then
+               associate (property => wall_properties(i))
+                  call warning%about('variable', trim(property%name))
+                  call warning%about('unit', trim(property%unit))
+                  call warning%with('value', self%value(k, i))
+                  call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
+               end associate
+            end if
+            call warning%with('walls_beyond', self%number(k, i))
+            call warning%with('walls', self%walls)
+            call warnings%add(warning)
+         end do
       end do
    end subroutine warn
 

@@ -21,12 +21,22 @@ contains
       !> Its sentence, without a full stop
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=:), allocatable :: record
+      character(len=:), allocatable :: record, im, wall
 
       call warning%get_word('record', record)
       select case (warning%code)
       case ('value_below_usual', 'value_above_usual')
          call say_implausible(warning, text)
+      case ('height_below_thickness', 'load_place_without_load')
+         call warning%get_word('wall', wall)
+         text = 'wall '''//wall//''': the height is less than the thickness: are they swapped?'
+         if (warning%code == 'load_place_without_load') text = 'wall '''//wall//''': a bearing or an eccentricity '// &
+            & 'without overburden changes nothing: is the overburden missing?'
+         call count_walls(warning, text)
+      case ('levels_above_usual')
+         call warning%get_word('im', im)
+         text = 'levels up to '//rounded(warning%value('largest'))//' of '//im//', more than '// &
+            & to_text(warning%value('limit'))//' g: are they in m/s2 or cm/s2?'
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
       case ('record_pga')
@@ -78,9 +88,18 @@ contains
             text = text//' is more than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_more)
          end if
       end associate
+      call count_walls(warning, text)
+   end subroutine say_implausible
+
+   !> Say of how many walls a warning is true
+   subroutine count_walls(warning, text)
+      type(warning_type), intent(in) :: warning
+      !> Sentence of the first of them, to extend
+      character(len=:), allocatable, intent(inout) :: text
+
       if (warning%value('walls') > 1.0_wp) text = text//' ('//to_text(warning%value('walls_beyond'))//' of '// &
          & to_text(warning%value('walls'))//' in all)'
-   end subroutine say_implausible
+   end subroutine count_walls
 
    !> Of the curve of one wall
    subroutine say_of_fit(warning, text)

@@ -19,8 +19,14 @@ module dondolo_warnings
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
 
-   !> What there is to say of scale factors
+   !> Levels that no ground motion has [g], of the PGA and of spectral accelerations
+   real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp
+
+   !> What there is to say of levels and scale factors
    type :: scale_warning_type
+      !> Largest level, its measure, and what is usual; 0: anything
+      real(wp) :: highest = 0.0_wp, usual = 0.0_wp
+      character(len=:), allocatable :: im
       !> Histories looked at
       integer(int64) :: histories = 0
       !> Histories with a large factor
@@ -73,8 +79,14 @@ contains
 
       integer :: at(2)
 
-      self%histories = self%histories + size(stripes%scale, kind=int64)
+      self%histories = self%histories + count(stripes%ran, kind=int64)
       self%large = self%large + count(stripes%scale > large_scale, kind=int64)
+      if (maxval(stripes%levels) > self%highest) then
+         self%highest = maxval(stripes%levels)
+         self%im = stripes%im
+         if (stripes%im == 'pga') self%usual = largest_pga
+         if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
+      end if
       at = maxloc(stripes%scale)
       if (.not. stripes%scale(at(1), at(2)) > self%largest) return
       self%largest = stripes%scale(at(1), at(2))
@@ -91,8 +103,15 @@ contains
 
       type(warning_type) :: warning
 
+      if (self%usual > 0.0_wp .and. self%highest > self%usual) then
+         warning%code = 'levels_above_usual'
+         call warning%about('im', self%im)
+         call warning%with('largest', self%highest)
+         call warning%with('limit', self%usual)
+         call warnings%add(warning)
+      end if
       if (self%large == 0) return
-      warning%code = 'scale_factors_large'
+      warning = warning_type('scale_factors_large')
       call warning%about('record', self%record)
       call warning%with('limit', large_scale)
       call warning%with('histories_beyond', self%large)
@@ -254,7 +273,7 @@ contains
          call warning%about('record', records(stripes%record(at(1)))%name)
          call warning%with('limit', largest_sure_error)
          call warning%with('histories_beyond', number)
-         call warning%with('histories', size(stripes%response))
+         call warning%with('histories', count(stripes%ran))
          call warning%with('largest', stripes%response(at(1), at(2))%edp_error)
          call warning%with('level', stripes%levels(at(2)))
          call warnings%add(warning)
@@ -263,7 +282,7 @@ contains
       if (number == 0) return
       warning = warning_type('collapse_in_doubt')
       call warning%with('histories_in_doubt', number)
-      call warning%with('histories', size(stripes%response))
+      call warning%with('histories', count(stripes%ran))
       call warnings%add(warning)
    end subroutine warn_of_errors
 

@@ -199,7 +199,8 @@ contains
 
       response%edp = self%peak/constants%capacity
       ! A peak that differs from the limit only by rounding is a collapse too.
-      response%collapsed = self%collapsed .or. response%edp >= constants%solver%edp_limit
+      response%collapsed = self%collapsed .or. response%edp >= constants%solver%edp_limit .or. &
+         & self%peak >= constants%limit
       if (response%collapsed) response%edp = constants%solver%edp_limit
       response%impacts = self%impacts
       response%time_of_peak = self%time_of_peak

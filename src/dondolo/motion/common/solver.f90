@@ -6,7 +6,7 @@ module dondolo_solver
    use dondolo_property, only : blank, check_number, check_word, choices_length, is_logical, is_text, most_choices, &
       & property_type
    use dondolo_settings, only : settings_type
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_wall_properties, only : gravity_property
    implicit none
    private
@@ -166,7 +166,7 @@ contains
 
       if (solver%edp_limit*mechanism%capacity < mechanism%geometric_end()) return
       call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be less than '// &
-         & to_text(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends')
+         & brief(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends')
    end subroutine check_limit
 
 end module dondolo_solver

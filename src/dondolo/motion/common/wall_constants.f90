@@ -34,7 +34,7 @@ contains
       constants%rest = new_rest(mechanism)
       constants%solver = solver
       constants%capacity = mechanism%capacity
-      constants%limit = solver%edp_limit*mechanism%capacity
+      constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
       constants%velocity_unit = mechanism%frequency_parameter()*mechanism%capacity
    end function new_wall_constants
 

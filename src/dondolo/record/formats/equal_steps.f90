@@ -7,7 +7,7 @@ module dondolo_equal_steps
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : to_text
+   use dondolo_text, only : brief, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -71,7 +71,7 @@ contains
          ! The step that differs most is where a sample is missing or doubled
          odd = maxloc(abs(time(2:) - time(:n - 1) - dt), dim=1) + 1
          call raise_at(error, text, begin + odd - 1, 'time '//to_text(time(odd))//' after '//to_text(time(odd - 1))// &
-            & ': times must be equally spaced, the mean step is '//to_text(dt))
+            & ': times must be equally spaced, the mean step is '//brief(dt))
          return
       end do
    end subroutine check_equal_steps

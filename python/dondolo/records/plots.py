@@ -1,0 +1,52 @@
+"""Figure of the response spectra of a set of records."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import increasing
+from dondolo.figures import style
+from dondolo.records.record_set import RecordSet
+from dondolo.records.target import TargetSpectrum
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_PERIODS = np.geomspace(0.05, 4.0, 100)
+
+
+def draw_spectra(records: RecordSet, target: TargetSpectrum | None, periods: ArrayLike | None, ax: Axes | None) -> Axes:
+    """Draw the spectra of records, their median and dispersion, and a target."""
+    ax = style.axes(ax)
+    if periods is None:
+        periods = _PERIODS if target is None else target.periods
+    t = increasing("periods", periods)
+    sa = records.spectra(t, damping=0.05 if target is None else target.damping)
+    for i, one in enumerate(sa):
+        ax.plot(t, one, color=style.GREY, linewidth=0.6, alpha=0.7, label=f"{len(sa)} records" if i == 0 else None)
+    mean, spread = np.log(sa).mean(axis=0), np.log(sa).std(axis=0, ddof=1) if len(sa) > 1 else np.zeros(len(t))
+    ax.plot(t, np.exp(mean), color=style.BLUE, linewidth=2.2, label="their median")
+    if len(sa) > 1:
+        for sign in (-1.0, 1.0):
+            label = "16 and 84 % of a lognormal" if sign > 0.0 else None
+            ax.plot(t, np.exp(mean + sign * spread), color=style.BLUE, linewidth=1.0, linestyle="--", label=label)
+    if target is not None:
+        ax.plot(target.periods, target.sa, color=style.RED, linewidth=2.2, label="target")
+        if target.covariance.any():
+            for sign in (-1.0, 1.0):
+                edge = target.sa * np.exp(sign * target.dispersion)
+                ax.plot(target.periods, edge, color=style.RED, linewidth=1.0, linestyle="--")
+        if target.anchor is not None:
+            ax.axvline(target.anchor, color=style.BLACK, linewidth=0.8, linestyle=":")
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlim(t[0], t[-1])
+    ax.set_xlabel("period [s]")
+    ax.set_ylabel("spectral acceleration [g]")
+    style.plain_ticks(ax.xaxis)
+    style.plain_ticks(ax.yaxis)
+    style.legend(ax, loc="lower left")
+    return ax

@@ -1,0 +1,404 @@
+"""Sets of records: a table of accelerograms, and which of them run at which levels of intensity."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dondolo._base.arguments import FloatArray, as_array, as_measures, as_number
+from dondolo._base.shown import Shown
+from dondolo._fortran.library import constants
+from dondolo._fortran.records import describe_measure
+from dondolo._storage import tables
+from dondolo._storage.saved import Saved
+from dondolo.errors import InputError
+from dondolo.records.expression import evaluate
+from dondolo.records.record import Record, as_records
+from dondolo.records.suite import intensities
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from dondolo.records.target import TargetSpectrum
+
+# Measures that a table shows unless told otherwise
+_MEASURES = ("pga", "pgv", "arias", "d5-95")
+
+
+class LevelRows(NamedTuple):
+    """Which records run at which levels, one row each.
+
+    Attributes
+    ----------
+    record : ndarray of int
+        Place of the record, from 1.
+    level : ndarray
+        In the unit of the measure; 0: every level.
+    factor : ndarray
+        Factor on the record; 0: computed from the measure.
+    """
+
+    record: NDArray[np.int32]
+    level: FloatArray
+    factor: FloatArray
+
+
+@dataclass(frozen=True, eq=False, repr=False, init=False)
+class RecordSet(Shown, Saved):
+    """A table of records: metadata, intensity measures, and the level and factor of each row where they are given.
+
+    A set is used wherever records are: it has a length and can be iterated. A record may have several rows, one for
+    each level at which it runs.
+
+    Parameters
+    ----------
+    records : Record or iterable of Record
+        The record of each row.
+    level : float or array_like, shape (rows,), optional
+        Level of intensity at which each row runs; NaN: every level.
+    factor : float or array_like, shape (rows,), optional
+        Factor on each record, positive; NaN: computed from the intensity measure.
+
+    Attributes
+    ----------
+    records : tuple of Record
+    level, factor : ndarray, shape (rows,), or None
+
+    Raises
+    ------
+    InputError
+        No records; as many levels or factors as records are needed; values that are not positive.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", count=3))
+    >>> len(records.filter("magnitude > 6 and pga > 0.01"))
+    3
+    """
+
+    records: tuple[Record, ...]
+    level: FloatArray | None
+    factor: FloatArray | None
+
+    def __init__(
+        self,
+        records: Record | Iterable[Record],
+        *,
+        level: ArrayLike | None = None,
+        factor: ArrayLike | None = None,
+    ) -> None:
+        several = as_records(records)
+        if len({record.name for record in several}) < len(several):
+            # A record with several rows is one object, also where it comes from a file.
+            known: dict[tuple[str, float, bytes], Record] = {}
+            keys = ((record.name, record.dt, record.acceleration.tobytes()) for record in several)
+            several = tuple(known.setdefault(key, record) for key, record in zip(keys, several, strict=True))
+        object.__setattr__(self, "records", several)
+        for what, given in (("level", level), ("factor", factor)):
+            values = None if given is None else _positive(what, given, len(several))
+            object.__setattr__(self, what, values)
+
+    @classmethod
+    def of_levels(cls, sets: Mapping[float, Record | Iterable[Record]]) -> RecordSet:
+        """Records of several levels as one set.
+
+        Parameters
+        ----------
+        sets : mapping of float to records
+            Level of intensity -> records that run at it; the factors of a `RecordSet` are kept.
+
+        Returns
+        -------
+        RecordSet
+            Its rows are in the order of the levels.
+
+        Raises
+        ------
+        InputError
+            A level that is not positive, or has no records.
+        """
+        if not isinstance(sets, Mapping) or not sets:
+            raise InputError("records: must be a mapping of levels to records, one level at least")
+        parts = []
+        for level in sorted(sets, key=lambda one: as_number("levels", one)):
+            several = sets[level]
+            if isinstance(several, Sequence) and not several:
+                raise InputError(f"levels = {level:g}: no record runs at this level")
+            part = several if isinstance(several, RecordSet) else RecordSet(several)
+            parts.append(RecordSet(part.records, level=float(level), factor=part.factor))
+        return sum(parts[1:], start=parts[0])
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self.records)
+
+    @overload
+    def __getitem__(self, which: int) -> Record: ...
+
+    @overload
+    def __getitem__(self, which: str) -> NDArray[Any]: ...
+
+    @overload
+    def __getitem__(self, which: slice | Sequence[int] | NDArray[Any]) -> RecordSet: ...
+
+    def __getitem__(self, which: Any) -> Any:
+        """A record by its number, some rows by a slice, numbers or a mask, or a column by its name."""
+        if isinstance(which, str):
+            return self._column(which)
+        if isinstance(which, (int, np.integer)):
+            return self.records[which]
+        try:
+            rows = np.arange(len(self))[which]
+        except (IndexError, TypeError, ValueError):
+            raise InputError(f"records[{which!r}]: must be a number, a slice, numbers, a mask or a column") from None
+        return self._rows(rows)
+
+    def __add__(self, other: Iterable[Record]) -> RecordSet:
+        """The rows of both."""
+        if not isinstance(other, RecordSet):
+            other = RecordSet(other)
+        pairs = {"level": (self.level, other.level), "factor": (self.factor, other.factor)}
+        joined = {
+            what: None if a is None and b is None else _joined(a, b, len(self), len(other))
+            for what, (a, b) in pairs.items()
+        }
+        return RecordSet((*self.records, *other.records), **joined)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns: of the table itself, and the keys of the metadata."""
+        keys = dict.fromkeys(key for record in self.records for key in record.metadata)
+        own = ["record", *(what for what in ("level", "factor") if getattr(self, what) is not None), "dt", "duration"]
+        return (*own, *(key for key in keys if key not in own))
+
+    def filter(self, expression: str) -> RecordSet:
+        """The rows for which an expression holds.
+
+        Parameters
+        ----------
+        expression : str
+            Columns (`columns`) and intensity measures as names, compared, combined by `and`, `or`, `not`, and with
+            arithmetic, as in ``"magnitude >= 6 and 0.1 < pga < 0.5"``. Names that are none in Python stand between
+            backticks: ``"`sa(0.5)` > 0.3"``. A row whose metadata lack a key does not meet a condition on it.
+
+        Returns
+        -------
+        RecordSet
+
+        Raises
+        ------
+        InputError
+            The expression cannot be read, has an unknown name, or holds for no record.
+        """
+        mask = evaluate(expression, self._column, len(self))
+        if not mask.any():
+            raise InputError(f"filter: no record meets {expression!r}")
+        return self._rows(np.flatnonzero(mask))
+
+    def sort(self, by: str, *, descending: bool = False) -> RecordSet:
+        """The rows in the order of a column or an intensity measure; rows without a value come last.
+
+        Parameters
+        ----------
+        by : str
+            A column or an intensity measure.
+        descending : bool
+            The largest first?
+
+        Returns
+        -------
+        RecordSet
+        """
+        values = self._column(by)
+        if descending and values.dtype.kind == "f":
+            return self._rows(np.argsort(-values, kind="stable"))
+        order = np.argsort(values, kind="stable")
+        return self._rows(order[::-1] if descending else order)
+
+    def spectra(self, periods: ArrayLike, *, damping: float = 0.05) -> FloatArray:
+        """Pseudo-spectral accelerations of the rows, times their factors.
+
+        Parameters
+        ----------
+        periods : array_like, shape (periods,)
+            0.01 to 20 [s].
+        damping : float
+            Damping ratio.
+
+        Returns
+        -------
+        ndarray, shape (rows, periods)
+            [g]
+        """
+        found: dict[int, FloatArray] = {}
+        for record in self.records:
+            if id(record) not in found:
+                found[id(record)] = record.spectrum(periods, damping=damping).pseudo_acceleration / constants().gravity
+        factor = np.ones(len(self)) if self.factor is None else np.nan_to_num(self.factor, nan=1.0)
+        return factor[:, None] * np.stack([found[id(record)] for record in self.records])
+
+    def to_frame(self, ims: str | Iterable[str] = _MEASURES) -> Any:
+        """The table as a pandas DataFrame, with intensity measures of the records as they stand.
+
+        Parameters
+        ----------
+        ims : str or iterable of str
+            Intensity measures, as for `Record.intensity`; their columns are named with the unit, as 'pga [g]'.
+        """
+        table: tables.Table = {name: self._column(name) for name in self.columns}
+        for im in as_measures(ims):
+            measure = describe_measure(im, of_record=True)
+            table[f"{measure.name} [{measure.unit}]"] = self._column(im)
+        return tables.frame(table)
+
+    def to_catalogue(self, path: str | os.PathLike[str]) -> None:
+        """Write a catalogue that the executable and `read_catalogue` read, and the accelerograms beside it.
+
+        Parameters
+        ----------
+        path : path
+            The catalogue, a CSV file; an earlier one that dondolo wrote is replaced. The accelerograms are written to a
+            folder of its name without the suffix, with all digits and with the metadata.
+
+        Raises
+        ------
+        InputError
+            The path is that of another file; different records have the same name.
+        DondoloError
+            The files cannot be written.
+        """
+        from dondolo.records.catalogues import write_catalogue
+
+        write_catalogue(self, path)
+
+    def plot(
+        self, *, target: TargetSpectrum | None = None, periods: ArrayLike | None = None, ax: Axes | None = None
+    ) -> Axes:
+        """Draw the response spectra of the rows, times their factors, their mean and dispersion, and a target.
+
+        Parameters
+        ----------
+        target : TargetSpectrum, optional
+            Drawn too.
+        periods : array_like, optional
+            [s]; those of the target, or 100 from 0.05 to 4 s, if left out.
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Spectral acceleration against period, both logarithmic.
+        """
+        from dondolo.records.plots import draw_spectra
+
+        return draw_spectra(self, target, periods, ax)
+
+    def _column(self, name: str) -> NDArray[Any]:
+        """A column: numbers where every value is one, else texts."""
+        if name == "record":
+            return np.array([record.name for record in self.records])
+        if name in ("level", "factor"):
+            values = getattr(self, name)
+            return np.full(len(self), np.nan) if values is None else np.asarray(values)
+        if name in ("dt", "duration"):
+            return np.array([getattr(record, name) for record in self.records])
+        if any(name in record.metadata for record in self.records):
+            return _numbers([record.metadata.get(name, "") for record in self.records])
+        try:
+            # A record may have several rows, and a suite must not hold it twice.
+            places = {id(record): i for i, record in enumerate(dict.fromkeys(self.records))}
+            found = intensities(tuple(dict.fromkeys(self.records)), name)
+        except InputError as error:
+            raise InputError(
+                f"{name!r}: is neither a column ({', '.join(self.columns)}) nor a measure ({error})"
+            ) from None
+        return found[[places[id(record)] for record in self.records]]
+
+    def _rows(self, rows: NDArray[np.int64]) -> RecordSet:
+        if not len(rows):
+            raise InputError("records: none are left")
+        level, factor = (None if values is None else values[rows] for values in (self.level, self.factor))
+        return RecordSet([self.records[i] for i in rows], level=level, factor=factor)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [("rows", str(len(self)))]
+        if self.level is not None:
+            levels = np.unique(self.level[~np.isnan(self.level)])
+            facts.append(("levels", " ".join(f"{level:g}" for level in levels)))
+        if self.factor is not None:
+            facts.append(("factors", f"{np.nanmin(self.factor):.3g} to {np.nanmax(self.factor):.3g}"))
+        return facts
+
+
+def records_at_levels(
+    records: Any, levels: ArrayLike | None
+) -> tuple[tuple[Record, ...], FloatArray, LevelRows | None]:
+    """What an analysis takes for records and levels: each record once, the levels, and the rows of each level.
+
+    Parameters
+    ----------
+    records : Record, iterable of Record, RecordSet or mapping
+        A set with levels, or a mapping of levels to records, chooses the records of each level.
+    levels : array_like or None
+        Left out where the records have levels.
+
+    Returns
+    -------
+    records : tuple of Record
+    levels : ndarray
+    rows : LevelRows or None
+        None: every record runs at every level.
+    """
+    if isinstance(records, Mapping):
+        records = RecordSet.of_levels(records)
+    if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
+        if levels is None:
+            raise InputError("levels: must be given")
+        return as_records(records), as_array("levels", levels).copy(), None
+    if records.level is None:
+        raise InputError("records: have factors and no levels: must be given as {level: records}")
+    each = tuple(dict.fromkeys(records.records))
+    place = {id(record): i + 1 for i, record in enumerate(each)}
+    level = np.nan_to_num(records.level, nan=0.0)
+    factor = np.zeros(len(records)) if records.factor is None else np.nan_to_num(records.factor, nan=0.0)
+    if levels is None:
+        levels = np.unique(level[level > 0.0])
+        if not len(levels):
+            raise InputError("levels: must be given")
+    number = np.array([place[id(record)] for record in records.records], dtype=np.int32)
+    return each, as_array("levels", levels).copy(), LevelRows(number, level, factor)
+
+
+def _positive(name: str, given: ArrayLike, length: int) -> FloatArray:
+    """Positive numbers, one for each row; NaN where there is none."""
+    values = np.full(length, as_number(name, given)) if np.ndim(given) == 0 else as_array(name, given).copy()
+    if len(values) != length:
+        raise InputError(f"{name}: {len(values)} values for {length} records: must be as many")
+    wrong = ~(np.isnan(values) | ((values > 0.0) & (values < np.inf)))
+    if wrong.any():
+        raise InputError(f"{name} = {values[wrong][0]:g}: must be positive")
+    values.flags.writeable = False
+    return values
+
+
+def _joined(one: FloatArray | None, other: FloatArray | None, first: int, second: int) -> FloatArray:
+    """A column of two sets; NaN where one lacks it."""
+    parts = ((one, first), (other, second))
+    return np.concatenate([np.full(length, np.nan) if values is None else values for values, length in parts])
+
+
+def _numbers(texts: list[str]) -> NDArray[Any]:
+    """Texts as numbers, NaN where there is nothing, if all others are numbers."""
+    try:
+        return np.array([float(text) if text else np.nan for text in texts])
+    except ValueError:
+        return np.array(texts)

@@ -1,0 +1,179 @@
+"""What comes in and goes out: encodings, line ends, limits of sizes, and names that spreadsheets take for formulas."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+from costs import growth
+
+import dondolo as dd
+
+SAMPLES = "0.0\n1.5\n-2.0\n0.5\n"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", "\r\r\n"])
+def test_a_record_in_any_encoding(encoding, end, tmp_path):
+    path = tmp_path / "record.txt"
+    text = "# station: Trévi\n# units: m/s2\n# dt: 0.01\n" + SAMPLES
+    path.write_bytes(text.replace("\n", end).encode(encoding))
+    record = dd.read_record(path)
+    assert record.acceleration.tolist() == [0.0, 1.5, -2.0, 0.5]
+    assert record.metadata["station"] == "Trévi"
+
+
+@pytest.mark.parametrize("encoding", ["utf-16-le", "utf-16-be"])
+def test_a_record_without_its_mark(encoding, tmp_path):
+    path = tmp_path / "record.txt"
+    path.write_bytes(SAMPLES.encode(encoding))
+    with pytest.raises(dd.InputError, match=r"record\.txt: line 1: byte \d is NUL"):
+        dd.read_record(path, dt=0.01, units="g")
+
+
+def test_characters_that_two_parts_of_a_file_share(tmp_path):
+    """Tables are read in parts, whose ends cut characters of several bytes and line ends."""
+    names = [f"{'wàll 🏛' * (1 + i % 7)} {i}" for i in range(12_000)]
+    rows = "".join(f"{name},one_sided,3,0.25\n" for name in names)
+    for encoding, end in (("utf-8", "\n"), ("utf-16", "\r\n"), ("utf-8", "\r")):
+        text = f"name,mechanism,height,thickness\n{rows}".replace("\n", end)
+        (tmp_path / "walls.csv").write_bytes(text.encode(encoding))
+        assert [wall.name for wall in dd.read_population(tmp_path / "walls.csv").walls] == names
+
+
+@pytest.mark.parametrize(
+    ("table", "content", "sentence"),
+    [
+        ("walls.csv", "name,mechanism\n" + "x" * 2**20 + ",one_sided\n", "line 2: longer than 1048576 bytes"),
+        ("walls.csv", "name" + ",name" * 10_000, "line 1: more than 10000 cells"),
+        (
+            "walls.csv",
+            f"name,mechanism,height,thickness\n{'é' * 501},one_sided,3,0.3\n",
+            "line 2: name = 'é{30}...': must have at most 1000 bytes",
+        ),
+        ("hazard.csv", "pga,annual_frequency\n" + "1,1\n" * 500_001, "line 500002: more than 1000000 numbers"),
+        ("records.csv", "file\n" + "x\n" * 100_001, "more than 100000 records"),
+        ("case.nml", "&job\n" + "!" * 2**20, "has 1048581 bytes: must be at most 1048576"),
+        ("case.nml", "&job a = " + "1 " * 250_000, "line 1: a case may have at most 200000 words, values and signs"),
+        ("case.nml", f"&job title = '{'x' * 1001}' /", "title = 'x{59}...: must have at most 1000 bytes"),
+    ],
+)
+def test_limits(table, content, sentence, tmp_path):
+    path = tmp_path / table
+    path.write_text(content)
+    readers = {
+        "walls.csv": dd.read_population,
+        "hazard.csv": dd.HazardCurve.from_csv,
+        "records.csv": dd.read_catalogue,
+        "case.nml": dd.read_case,
+    }
+    with pytest.raises(dd.InputError, match=sentence) as caught:
+        readers[table](path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert len(str(caught.value)) < len(str(path)) + 200
+
+
+def test_limits_of_records(tmp_path):
+    with pytest.raises(dd.InputError, match="number of samples = 10000001: must be at most 10000000"):
+        dd.Record(np.zeros(10_000_001), 0.01)
+    with pytest.raises(dd.InputError, match=r"name = 'x{60}'\.\.\.: must have at most 1000 bytes"):
+        dd.Record([0.0, 1.0], 0.01, name="x" * 1001)
+    # A file of 1 GiB and a byte, of which nothing is on the disk
+    path = tmp_path / "huge.txt"
+    with path.open("wb") as file:
+        file.truncate(2**30 + 1)
+    with pytest.raises(dd.InputError, match=r"huge\.txt: has 1073741825 bytes: must be at most 1073741824"):
+        dd.read_record(path, dt=0.01, units="g")
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
+def test_records_take_linear_time(encoding, tmp_path):
+    for count in (4000, 32_000):
+        text = "# station: Trévi\r" + "0.5\r-0.5\r" * count
+        (tmp_path / f"{count}.txt").write_bytes(text.encode(encoding))
+    assert growth(lambda n: dd.read_record(tmp_path / f"{n}.txt", dt=0.01, units="g"), 4000, 32_000) < 24.0
+
+
+FORMULAS = ["=1+1", "+39", "-5", "@SUM(A1)", "'=x", "''", "'s Hertogenbosch", "plain", '=HYPERLINK("a,b")']
+
+
+def test_names_that_spreadsheets_take_for_formulas(tmp_path):
+    walls = [dd.TwoBlockWall(3.0, 0.3, name=name, overburden=1e4, eccentricity=-0.05) for name in FORMULAS]
+    people = dd.Population(walls, groups=FORMULAS)
+    for safe in (False, True):
+        people.to_csv(tmp_path / "walls.csv", spreadsheet_safe=safe)
+        back = dd.read_population(tmp_path / "walls.csv")
+        assert [wall.name for wall in back.walls] == FORMULAS
+        assert list(back.groups) == FORMULAS
+        assert back.walls == people.walls
+        rows = list(csv.DictReader(io.StringIO((tmp_path / "walls.csv").read_text())))
+        assert [row["eccentricity"] for row in rows] == ["-0.05"] * len(FORMULAS)
+        if safe:
+            assert not any(row["name"].startswith(("=", "+", "-", "@")) for row in rows)
+
+
+def test_results_that_spreadsheets_open(run, few, tmp_path):
+    """The executable writes the same cells as Python does, and both are read back as they were."""
+    rows = "".join(f'"{name.replace(chr(34), 2 * chr(34))}",one_sided,3,0.3\n' for name in FORMULAS[:4])
+    (tmp_path / "walls.csv").write_text("name,mechanism,height,thickness\n" + rows)
+    (tmp_path / "=r.txt").write_text(SAMPLES)
+    (tmp_path / "records.csv").write_text("file,dt_s,units\n=r.txt,0.1,m/s2\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology' output = 'x' histories = .true. spreadsheet_safe = .true. /\n"
+        "&population file = 'walls.csv' /\n&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.4 /\n"
+    )
+    done = run("--quiet", "case.nml")
+    assert done.returncode == 0, done.stderr
+    for table in ("walls", "histories", "stripes", "fragility"):
+        lines = (line for line in (tmp_path / f"x_{table}.csv").read_text().splitlines() if line[0] != "#")
+        cells = list(csv.DictReader(lines))
+        assert {row["wall"] for row in cells} == {f"'{name}" for name in FORMULAS[:4]}
+        assert {row.get("record") for row in cells} <= {None, "'=r"}
+    stored = dd.read_results(tmp_path / "x")
+    assert [wall.name for wall in stored.typology.population.walls] == FORMULAS[:4]
+    stored.typology.write_results(tmp_path / "y", spreadsheet_safe=True)
+    assert [wall.name for wall in dd.read_results(tmp_path / "y").typology.population.walls] == FORMULAS[:4]
+
+
+def test_what_a_spreadsheet_saves_is_read(few, tmp_path):
+    """Results that were opened and saved: a byte order mark, CRLF, UTF-16."""
+    dd.typology([dd.OneSidedWall(3.0, 0.3, name="é")], few, [0.2, 0.4], progress=False).write_results(tmp_path / "x")
+    path = tmp_path / "x_walls.csv"
+    text = path.read_text(encoding="utf-8")
+    for encoding in ("utf-8-sig", "utf-16"):
+        path.write_bytes(text.replace("\n", "\r\n").encode(encoding))
+        assert dd.read_results(tmp_path / "x").typology.population[0].name == "é"
+    path.write_bytes(text.encode("latin-1"))
+    with pytest.raises(dd.InputError, match=r"x_walls\.csv: line \d+: byte \d+ is not UTF-8: save it as UTF-8"):
+        dd.read_results(tmp_path / "x")
+
+
+def test_hints(tmp_path):
+    path = tmp_path / "hazard.csv"
+    path.write_text("Sa(0,5);annual_frequency\n0,1;0,01\n0,2;0,001\n")
+    with pytest.warns(dd.DondoloWarning, match="decimal commas"):
+        assert dd.HazardCurve.from_csv(path).im == "sa(0.5)"
+    (tmp_path / "r.txt").write_text(SAMPLES)
+    catalogue = tmp_path / "records.csv"
+    catalogue.write_text("file,dt,units\nr.txt,0.01,g\n")
+    with pytest.raises(dd.InputError, match="column 'dt': the time step must stand in the column dt_s"):
+        dd.read_catalogue(catalogue)
+    catalogue.write_text("file,units\nr.txt,g\n")
+    with pytest.raises(dd.InputError, match="dt must be given, dt_s in a catalogue"):
+        dd.read_catalogue(catalogue)
+    with pytest.raises(dd.InputError, match=r"eccentricity = 1: must lie between -0\.15 and 0\.15 \(half"):
+        dd.TwoBlockWall(3.0, 0.1 + 0.2, overburden=1.0, eccentricity=1.0)
+
+
+@pytest.mark.parametrize(
+    ("make", "levels", "code"),
+    [
+        (lambda: dd.OneSidedWall(0.25, 3.0), [0.2], "height_below_thickness"),
+        (lambda: dd.TwoBlockWall(3.0, 0.3, eccentricity=0.1), [0.2], "load_place_without_load"),
+        (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
+    ],
+)
+def test_slips_are_warned_of(make, levels, code, few):
+    with pytest.warns(dd.DondoloWarning) as caught:
+        dd.multiple_stripe(make(), few, levels, progress=False)
+    assert code in [warning.message.code for warning in caught]

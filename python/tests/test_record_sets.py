@@ -1,0 +1,157 @@
+"""Sets of records, records of their own at each level, and selection to a target spectrum."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dondolo.records.target import correlation
+
+import dondolo as dd
+
+PERIODS = [0.1, 0.3, 0.6, 1.0, 2.0, 3.0]
+
+
+@pytest.fixture(scope="module")
+def records():
+    return dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", count=12))
+
+
+@pytest.fixture(scope="module")
+def sets(records):
+    return {0.6: records[:6], 0.8: records[4:], 1.0: dd.RecordSet(records[2:5], factor=2.0)}
+
+
+@pytest.fixture(scope="module")
+def parapet():
+    return dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+
+
+def test_table(records):
+    assert len(records.filter("magnitude > 6 and site in ['shallow'] and not pga < 0")) == 12
+    few = records.filter("`sa(0.5)` > 0.5 or realisation == 0")
+    high = [record.intensity("sa(0.5)") > 0.5 or record.metadata["realisation"] == "0" for record in records]
+    assert [record.name for record in few] == [one.name for one, here in zip(records, high, strict=True) if here]
+    assert list(records.sort("pga", descending=True)["pga"]) == sorted(records["pga"], reverse=True)
+    assert len(records[:3] + records[3:]) == 12
+    for wrong in ("pga >", "nothing > 1", "pga", "open('x')", "pga > 1e9"):
+        with pytest.raises(dd.InputError):
+            records.filter(wrong)
+    with pytest.raises(dd.InputError, match=r"factor = -1: must be positive"):
+        dd.RecordSet(records, factor=-1.0)
+
+
+def test_each_level_runs_its_records_alone(records, sets, parapet):
+    whole = dd.multiple_stripe(parapet, records, [0.6, 0.8, 1.0], polarity="both", progress=False)
+    some = dd.multiple_stripe(parapet, sets, polarity="both", progress=False)
+    assert list(some.histories) == [12, 16, 6]
+    assert some.work.histories == 34
+    assert np.array_equal(some.edp[0, :6], whole.edp[0, :6])
+    assert np.isnan(some.edp[0, 6:12]).all()
+    assert np.all(some.scale[2][some.ran[2]] == 2.0)
+    curve = some.fit()
+    again = dd.fit_fragility(some.levels, some.collapses, some.histories)
+    assert (curve.theta, curve.beta) == (again.theta, again.beta)
+    assert np.isfinite(curve.bootstrap(n_resamples=50).theta).any()
+    some.plot()
+
+
+def test_stripes_are_joined_and_cut(records, parapet):
+    whole = dd.multiple_stripe(parapet, records, [0.6, 0.8], progress=False)
+    one = dd.multiple_stripe(parapet, records[:5], [0.6, 0.8], progress=False)
+    other = dd.multiple_stripe(parapet, records[5:], [0.6, 0.8, 1.0], progress=False)
+    both = one + other
+    assert list(both.histories) == [12, 12, 7]
+    assert np.array_equal(both[:2].edp, whole.edp)
+    assert np.array_equal(whole[whole.levels > 0.7, :4].edp, whole.edp[1:, :4])
+    with pytest.raises(dd.InputError, match="runs in both stripes"):
+        whole + one
+    with pytest.raises(dd.InputError, match="must be of one"):
+        one + dd.multiple_stripe(dd.OneSidedWall(2.0, 0.25), records[:2], [0.6], progress=False)
+
+
+def test_the_executable_runs_the_catalogue(sets, parapet, tmp_path):
+    dd.RecordSet.of_levels(sets).to_catalogue(tmp_path / "sets.csv")
+    back = dd.read_catalogue(tmp_path / "sets.csv")
+    mine = dd.multiple_stripe(parapet, sets, polarity="both", progress=False)
+    assert np.array_equal(
+        dd.multiple_stripe(parapet, back, polarity="both", progress=False).edp, mine.edp, equal_nan=True
+    )
+    (tmp_path / "a.nml").write_text(
+        f"&job output = '{tmp_path}/out' /\n"
+        "&wall name = 'parapet' mechanism = 'one_sided' height = 1.5 thickness = 0.25 /\n"
+        "&records catalogue = 'sets.csv' polarity = 'both' /\n&stripes levels = 0.6, 0.8, 1.0 /\n"
+    )
+    executable = Path(sys.executable).parent / "dondolo"
+    subprocess.run([executable, tmp_path / "a.nml"], check=True, capture_output=True)
+    assert np.array_equal(dd.read_results(tmp_path / "out").stripes.edp, mine.edp, equal_nan=True)
+
+
+def test_bad_levels(records, parapet):
+    with pytest.raises(dd.InputError, match=r"levels = 0\.8: no record runs at this level"):
+        dd.multiple_stripe(parapet, {0.6: records[:2], 0.8: []})
+    with pytest.raises(dd.InputError, match=r"levels: do not include 0\.7"):
+        dd.multiple_stripe(parapet, {0.7: records[:2]}, [0.6])
+    with pytest.raises(dd.InputError, match="levels: must be given"):
+        dd.multiple_stripe(parapet, records)
+
+
+def test_spectra_of_the_codes():
+    # By hand: soil C, S_S = 1.7 - 0.6 2.4 0.2 = 1.412, T_C = 1.05 0.32^0.67 = 0.48940 s, T_D = 2.4 s
+    ntc = dd.ntc_spectrum(0.2, 2.4, 0.32, soil="C", periods=PERIODS)
+    a, tc = 0.2 * 1.412, 1.05 * 0.32**0.67
+    expected = [
+        a * (1.0 + 0.3 / tc * 1.4),
+        a * 2.4,
+        *(a * 2.4 * tc / t for t in PERIODS[2:5]),
+        a * 2.4 * tc * 2.4 / 9.0,
+    ]
+    np.testing.assert_allclose(ntc.sa, expected, rtol=1e-12)
+    np.testing.assert_allclose(dd.ntc_spectrum(0.2, 2.4, 0.32, topography="T4", periods=PERIODS).sa[1], 0.2 * 1.4 * 2.4)
+    # EC8, type 1, ground C: S = 1.15, T_B = 0.2, T_C = 0.6, T_D = 2 s
+    ec8 = dd.ec8_spectrum(0.25, soil="C", periods=PERIODS)
+    np.testing.assert_allclose(
+        ec8.sa[[0, 1, 3, 5]], 0.2875 * np.array([1.75, 2.5, 1.5, 2.5 * 0.6 * 2.0 / 9.0]), rtol=1e-12
+    )
+    with pytest.raises(dd.InputError, match=r"f0 = 2: must be at least 2\.2"):
+        dd.ntc_spectrum(0.2, 2.0, 0.3)
+
+
+def test_conditional_spectrum():
+    # Baker and Jayaram (2008): 1 - cos(pi/2 - 0.366 ln(1/0.2)) for 0.2 and 1 s
+    rho = correlation(np.array([0.2]), np.array([1.0]))[0, 0]
+    assert rho == pytest.approx(1.0 - np.cos(np.pi / 2.0 - 0.366 * np.log(5.0)))
+    plain = dd.TargetSpectrum([0.2, 0.5, 1.0], [0.6, 0.4, 0.2], dispersion=0.6)
+    given = plain.conditional(0.2, 0.9)
+    assert given.sa[0] == pytest.approx(0.9)
+    assert given.sa[2] == pytest.approx(0.2 * np.exp(rho * np.log(1.5)))
+    assert given.dispersion[0] == 0.0
+    assert given.dispersion[2] == pytest.approx(0.6 * np.sqrt(1.0 - rho**2))
+
+
+def test_selection(records):
+    target = dd.ec8_spectrum(0.35, soil="B", periods=PERIODS)
+    found = dd.select_records(records, target, 5)
+    assert len({record.name for record in found.records}) == 5
+    scaled = found.records.spectra(PERIODS)
+    np.testing.assert_allclose(found.sa, scaled, rtol=1e-12)
+    # No exchange of one record for another lowers the cost
+    cost = np.sum(np.log(found.median / target.sa) ** 2) + 0.1 * np.sum(found.dispersion**2)
+    ln_sa = np.log(dd.RecordSet(records).spectra(PERIODS))
+    ln_sa += (np.log(target.sa) - ln_sa).mean(axis=1)[:, None]
+    names, taken = [record.name for record in records], [record.name for record in found.records]
+    for i in range(5):
+        for name in set(names) - set(taken):
+            other = ln_sa[[names.index(name if k == i else one) for k, one in enumerate(taken)]]
+            changed = np.sum((other.mean(axis=0) - np.log(target.sa)) ** 2) + 0.1 * np.sum(
+                other.std(axis=0, ddof=1) ** 2
+            )
+            assert changed > cost * (1.0 - 1e-9)
+    found.plot()
+    at = dd.TargetSpectrum(PERIODS, target.sa, dispersion=0.5).conditional(0.5, 0.6)
+    chosen = dd.select_records(records, at, 4, max_factor=10.0)
+    here = list(at.periods).index(0.5)
+    np.testing.assert_allclose(chosen.sa[:, here], 0.6, rtol=1e-12)
+    with pytest.raises(dd.InputError, match="records can be scaled"):
+        dd.select_records(records, dd.ec8_spectrum(30.0, periods=PERIODS), 5, max_factor=1.5)

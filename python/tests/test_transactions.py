@@ -1,0 +1,139 @@
+"""Two runs at one output, kills at random moments, and sets of files that do not belong together."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import time
+
+import pytest
+from dondolo._base.transactions import publishing
+
+import dondolo as dd
+
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+
+CASE = """&job task = 'stripes', output = 'out/x' /
+&wall mechanism = 'one_sided', height = {height}, thickness = 0.25, name = '{name}' /
+&records catalogue = '{root}/data/records/synthetic44.csv' /
+&stripes first = 0.02, last = 2.0, count = {count} /
+"""
+FILES = ["x_fragility.csv", "x_histories.csv", "x_run.json", "x_stripes.csv", "x_walls.csv"]
+
+
+@pytest.fixture
+def folder(tmp_path, root):
+    """Two cases with one output."""
+    for name, height in (("a", 1.5), ("b", 2.5)):
+        (tmp_path / f"{name}.nml").write_text(CASE.format(name=name, height=height, root=root, count=50))
+    return tmp_path
+
+
+def start(executable, folder, name):
+    """Begin a run."""
+    return subprocess.Popen(
+        [executable, "--quiet", f"{name}.nml"],
+        cwd=folder,
+        stderr=subprocess.PIPE,
+        text=True,
+        # What a shell has let a process in the background ignore it goes on to ignore.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+
+
+def whose(folder):
+    """The wall of the results."""
+    return dd.read_results(folder / "out/x").population.walls[0].name
+
+
+def test_two_runs_at_one_output(executable, folder):
+    """One whole study, and one clear refusal unless the second began when the first had ended."""
+    refused = 0
+    for _ in range(20):
+        shutil.rmtree(folder / "out", ignore_errors=True)
+        runs = {name: start(executable, folder, name) for name in "ab"}
+        said = {name: run.communicate()[1] for name, run in runs.items()}
+        codes = {name: run.returncode for name, run in runs.items()}
+        assert sorted(codes.values()) in ([0, 0], [0, 2]), said
+        if 2 in codes.values():
+            refused += 1
+            assert codes[whose(folder)] == 0
+            assert "out/x: is being written by another run" in said["a" if codes["a"] == 2 else "b"]
+        assert sorted(os.listdir(folder / "out")) == FILES
+    assert refused
+
+
+def test_kills_leave_the_old_set_or_the_new(executable, folder):
+    began = time.monotonic()
+    assert start(executable, folder, "a").wait() == 0
+    lasts = time.monotonic() - began
+    for turn in range(8):
+        run = start(executable, folder, "ba"[turn % 2])
+        time.sleep(random.uniform(0.3, 1.1) * lasts)
+        run.kill()
+        run.communicate()
+        assert whose(folder) in "ab"
+    assert start(executable, folder, "b").wait() == 0
+    assert (whose(folder), sorted(os.listdir(folder / "out"))) == ("b", FILES)
+
+
+def test_published_files_are_found_under_either_name(executable, folder):
+    """A run that was killed when it had published its set, and renamed half of the files."""
+    assert start(executable, folder, "a").wait() == 0
+    run = dd.read_results(folder / "out/x").run.run
+    for name in FILES[:2] + FILES[-1:]:
+        (folder / "out" / name).rename(folder / f"out/{name}.{run}.part")
+    (folder / "out/x_walls.csv").write_text("# dondolo 0.1.0\n# run: 20260101T000000Z-0123456789abcdef\nwall\na\n")
+    assert whose(folder) == "a"
+    # The next run ends what it had begun.
+    with publishing(folder / "out/x"):
+        pass
+    assert sorted(os.listdir(folder / "out")) == FILES
+
+
+def test_files_of_two_runs_are_refused(executable, folder):
+    for name in "ab":
+        assert start(executable, folder, name).wait() == 0
+        shutil.copytree(folder / "out", folder / name)
+    shutil.copy(folder / "a/x_histories.csv", folder / "b/x_histories.csv")
+    with pytest.raises(
+        dd.InputError, match=r"b/x_histories\.csv: is of run .*, .*b/x_run\.json of run .*: they are not"
+    ):
+        dd.read_results(folder / "b/x")
+    table = folder / "a/x_histories.csv"
+    table.write_bytes(table.read_bytes()[:-3])
+    with pytest.raises(dd.InputError, match=r"x_histories\.csv: "):
+        dd.read_results(folder / "a/x")
+    with pytest.raises(dd.InputError, match=r"must be what the names begin with, '.*a/x'"):
+        dd.read_results(folder / "a/x_walls.csv")
+
+
+def test_nothing_of_the_user_is_replaced(executable, folder):
+    (folder / "out").mkdir()
+    (folder / "out/x.lock").write_text("mine")
+    run = start(executable, folder, "a")
+    assert "out/x.lock: exists, and is no lock of dondolo" in run.communicate()[1]
+    assert run.returncode == 2
+    assert (folder / "out/x.lock").read_text() == "mine"
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_signals_end_a_run_in_order(executable, folder, root, number):
+    """And --status says who runs; Python shares the lock."""
+    (folder / "a.nml").write_text(CASE.format(name="a", height=1.5, root=root, count=1000))
+    run = start(executable, folder, "a")
+    lock = folder / "out/x.lock"
+    while run.poll() is None and not (lock.exists() and lock.stat().st_size):
+        time.sleep(0.01)
+    status = subprocess.run([executable, "--status", "out/x"], cwd=folder, capture_output=True, text=True, check=True)
+    assert f"out/x: running: process {run.pid} on " in status.stdout
+    with (
+        pytest.raises(dd.InputError, match=rf"written by another run \(process {run.pid} on"),
+        publishing(folder / "out/x"),
+    ):
+        pass
+    run.send_signal(number)
+    assert "dondolo: interrupted" in run.communicate()[1]
+    assert run.returncode == -number
+    assert not (folder / "out").exists()

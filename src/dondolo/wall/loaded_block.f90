@@ -1,0 +1,413 @@
+!> One rigid body with a hinge at some depth and with what it carries: loads, pushed masses, thrusts, springs.
+!>
+!> A point at depth d and height z, e = d - u and f = z - a from the hinge, moves by (docs/theory.md, section 2)
+!>
+!>     X = dx/dq = a + f cos q + e sin q        Y = dy/dq = e cos q - f sin q        y = X
+!>
+!> Every term is a sum over points that is linear or quadratic in e and f, so that a few sums made once hold any number of
+!> things; only a thrust that decays is asked one by one.
+module dondolo_loaded_block
+   use dondolo_carried, only : actions_type, spring_type
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_rigid_body, only : rigid_body_type
+   use dondolo_text, only : rounded, to_text
+   implicit none
+   private
+
+   public :: loaded_block_type, new_loaded_block
+
+   !> Sums over points with weights w, which are masses, forces or stiffnesses
+   type :: sums_type
+      !> Sums of w, w f, w e, w f^2, w e^2 and w f e
+      real(wp) :: w = 0.0_wp, f = 0.0_wp, e = 0.0_wp, ff = 0.0_wp, ee = 0.0_wp, fe = 0.0_wp
+   contains
+      !> Add a point
+      procedure :: add
+      !> Sum of w X, and of w y
+      procedure :: x
+      !> Sum of w Y
+      procedure :: y
+      !> Sum of w X^2
+      procedure :: xx
+   end type sums_type
+
+   !> A thrust that decays
+   type :: fading_type
+      !> Force at rest [N/m], travel over which it falls to 1/e of it, and place from the hinge [m]
+      real(wp) :: force, decay, e, f
+   end type fading_type
+
+   !> One block with what it carries
+   type, extends(mechanism_type) :: loaded_block_type
+      private
+      !> Gravity [m/s2]
+      real(wp) :: gravity = 0.0_wp
+      !> Radius of the edge a [m]
+      real(wp) :: edge = 0.0_wp
+      !> Centroid of the masonry from the hinge [m]
+      real(wp) :: e = 0.0_wp, f = 0.0_wp
+      !> Part of J that does not change [kg m2]
+      real(wp) :: inertia = 0.0_wp
+      !> Masses that move with the wall, that are only pushed and that are only lifted [kg/m]
+      type(sums_type) :: whole, pushed, lifted
+      !> Dead weights and constant thrusts [N/m], stiffnesses [N/m per m]
+      type(sums_type) :: dead, thrust, spring
+      !> Thrusts that decay
+      type(fading_type), allocatable :: fading(:)
+   contains
+      procedure :: terms
+      procedure :: potential
+      procedure :: geometric_end
+      !> Horizontal travel D of a point
+      procedure, private :: travel
+      !> Restoring moment G - Q
+      procedure, private :: moment
+   end type loaded_block_type
+
+contains
+
+   !> Add a point
+   pure subroutine add(self, w, e, f)
+      class(sums_type), intent(inout) :: self
+      !> Weight
+      real(wp), intent(in) :: w
+      !> Place from the hinge [m]
+      real(wp), intent(in) :: e, f
+
+      self%w = self%w + w
+      self%f = self%f + w*f
+      self%e = self%e + w*e
+      self%ff = self%ff + w*f**2
+      self%ee = self%ee + w*e**2
+      self%fe = self%fe + w*f*e
+   end subroutine add
+
+   !> Sum of w X, and of w y
+   elemental real(wp) function x(self, a, s, c)
+      class(sums_type), intent(in) :: self
+      !> Edge radius [m], sine and cosine of the rotation
+      real(wp), intent(in) :: a, s, c
+
+      x = a*self%w + c*self%f + s*self%e
+   end function x
+
+   !> Sum of w Y
+   elemental real(wp) function y(self, s, c)
+      class(sums_type), intent(in) :: self
+      !> Sine and cosine of the rotation
+      real(wp), intent(in) :: s, c
+
+      y = c*self%e - s*self%f
+   end function y
+
+   !> Sum of w X^2
+   elemental real(wp) function xx(self, a, s, c)
+      class(sums_type), intent(in) :: self
+      !> Edge radius [m], sine and cosine of the rotation
+      real(wp), intent(in) :: a, s, c
+
+      xx = a*(a*self%w + 2.0_wp*(c*self%f + s*self%e)) + c**2*self%ff + 2.0_wp*s*c*self%fe + s**2*self%ee
+   end function xx
+
+   !> Make the mechanism
+   subroutine new_loaded_block(mechanism, body, actions, gravity, two_sided, error)
+      type(loaded_block_type), intent(out) :: mechanism
+      !> The masonry
+      type(rigid_body_type), intent(in) :: body
+      !> What acts on it, checked
+      type(actions_type), intent(in) :: actions
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Does it rock to both sides?
+      logical, intent(in) :: two_sided
+      !> The wall does not stand at rest, or does not fall over however far it rotates
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: e, f, both
+      integer :: i
+
+      mechanism%two_sided = two_sided
+      mechanism%gravity = gravity
+      mechanism%edge = actions%edge
+      mechanism%e = body%depth - actions%hinge
+      mechanism%f = body%height - actions%edge
+      call mechanism%whole%add(body%mass, mechanism%e, mechanism%f)
+      do i = 1, size(actions%carried)
+         associate (thing => actions%carried(i))
+            e = thing%depth - actions%hinge
+            f = thing%height - actions%edge
+            both = min(thing%pushed, thing%lifted)
+            call mechanism%whole%add(both, e, f)
+            call mechanism%pushed%add(thing%pushed - both, e, f)
+            call mechanism%lifted%add(thing%lifted - both, e, f)
+            call mechanism%dead%add(thing%dead, e, f)
+         end associate
+      end do
+      ! X^2 + Y^2 = a^2 + e^2 + f^2 + 2 a (f cos q + e sin q): without an edge J stays the same to the bit.
+      associate (whole => mechanism%whole)
+         mechanism%inertia = body%inertia + whole%ff + whole%ee + actions%edge**2*whole%w
+      end associate
+      allocate (mechanism%fading(0))
+      do i = 1, size(actions%thrusts)
+         associate (thrust => actions%thrusts(i))
+            e = thrust%depth - actions%hinge
+            f = thrust%height - actions%edge
+            if (thrust%decay < huge(thrust%decay)) then
+               mechanism%fading = [mechanism%fading, fading_type(thrust%force, thrust%decay, e, f)]
+            else
+               call mechanism%thrust%add(thrust%force, e, f)
+            end if
+         end associate
+      end do
+      do i = 1, size(actions%springs)
+         call add_spring(mechanism%spring, actions%springs(i), actions)
+      end do
+      call check_rest(mechanism, body, actions, error)
+      if (.not. allocated(error)) call find_capacity(mechanism, error)
+      if (.not. allocated(error)) call find_unseating(mechanism, actions)
+   end subroutine new_loaded_block
+
+   !> Add a spring or a bed, whose sums are integrals over its height
+   pure subroutine add_spring(sums, spring, actions)
+      type(sums_type), intent(inout) :: sums
+      type(spring_type), intent(in) :: spring
+      !> Says where the hinge is
+      type(actions_type), intent(in) :: actions
+
+      real(wp) :: e, below, above, first, second
+
+      e = spring%depth - actions%hinge
+      below = spring%bottom - actions%edge
+      above = spring%top - actions%edge
+      if (.not. above > below) then
+         call sums%add(spring%stiffness, e, above)
+         return
+      end if
+      first = spring%stiffness*(above - below)
+      second = spring%stiffness*(above**2 - below**2)/2.0_wp
+      sums%w = sums%w + first
+      sums%f = sums%f + second
+      sums%e = sums%e + e*first
+      sums%ff = sums%ff + spring%stiffness*(above**3 - below**3)/3.0_wp
+      sums%ee = sums%ee + e**2*first
+      sums%fe = sums%fe + e*second
+   end subroutine add_spring
+
+   !> Terms of the equation of motion
+   pure subroutine terms(self, q, j, c, g, l, load)
+      class(loaded_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> Inertia J [kg m2]
+      real(wp), intent(out) :: j
+      !> C = 1/2 dJ/dq [kg m2]
+      real(wp), intent(out) :: c
+      !> Restoring moment G of all that moves up and down with the wall [N m]
+      real(wp), intent(out) :: g
+      !> Excitation lever L [kg m]
+      real(wp), intent(out) :: l
+      !> Generalised force Q of dead weights, thrusts and springs [N m]
+      real(wp), intent(out) :: load
+
+      real(wp) :: s, k, v, double, cross
+      integer :: i
+
+      s = sin(q)
+      k = cos(q)
+      associate (a => self%edge, whole => self%whole, pushed => self%pushed, lifted => self%lifted, spring => self%spring)
+         double = k**2 - s**2
+         cross = s*k
+         j = self%inertia + 2.0_wp*a*(k*whole%f + s*whole%e) + pushed%xx(a, s, k) &
+            & + (k**2*lifted%ee - 2.0_wp*cross*lifted%fe + s**2*lifted%ff)
+         c = a*(whole%y(s, k) + pushed%y(s, k)) + double*(pushed%fe - lifted%fe) &
+            & + cross*((pushed%ee - pushed%ff) - (lifted%ee - lifted%ff))
+         g = self%gravity*(whole%y(s, k) + lifted%y(s, k))
+         l = whole%x(a, s, k) + pushed%x(a, s, k)
+         load = self%thrust%x(a, s, k) - self%dead%y(s, k)
+         if (spring%w > 0.0_wp) then
+            v = versine(q)
+            load = load - (a*q*spring%x(a, s, k) + s*(a*spring%f + k*spring%ff + s*spring%fe) &
+               & + v*(a*spring%e + k*spring%fe + s*spring%ee))
+         end if
+         do i = 1, size(self%fading)
+            associate (fading => self%fading(i))
+               load = load + fading%force*exp(-self%travel(q, fading%e, fading%f)/fading%decay) &
+                  & *(a + fading%f*k + fading%e*s)
+            end associate
+         end do
+      end associate
+   end subroutine terms
+
+   !> Potential energy of all weights above the base, and of thrusts and springs from rest
+   pure function potential(self, q) result(v)
+      class(loaded_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> V [J]
+      real(wp) :: v
+
+      real(wp) :: s, k, t, r
+      integer :: i
+
+      s = sin(q)
+      k = cos(q)
+      associate (a => self%edge, thrust => self%thrust, spring => self%spring)
+         r = a*q
+         t = versine(q)
+         v = self%gravity*(self%whole%x(a, s, k) + self%lifted%x(a, s, k)) + self%dead%x(a, s, k) &
+            & - (r*thrust%w + s*thrust%f + t*thrust%e)
+         if (spring%w > 0.0_wp) v = v + 0.5_wp*(r**2*spring%w + s**2*spring%ff + t**2*spring%ee) &
+            & + r*s*spring%f + r*t*spring%e + s*t*spring%fe
+      end associate
+      do i = 1, size(self%fading)
+         associate (fading => self%fading(i))
+            v = v - fading%force*fading%decay*(1.0_wp - exp(-self%travel(q, fading%e, fading%f)/fading%decay))
+         end associate
+      end do
+   end function potential
+
+   !> The rotation at which the centroid of the masonry is level with the ground
+   pure function geometric_end(self) result(q)
+      class(loaded_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp) :: q
+
+      q = atan2(self%e, self%f) + acos(max(-1.0_wp, -self%edge/hypot(self%e, self%f)))
+   end function geometric_end
+
+   !> Horizontal travel D of a point: a q + f sin q + e (1 - cos q)
+   elemental real(wp) function travel(self, q, e, f)
+      class(loaded_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> Place from the hinge [m]
+      real(wp), intent(in) :: e, f
+
+      travel = self%edge*q + f*sin(q) + e*versine(q)
+   end function travel
+
+   !> 1 - cos q, without the cancellation of small rotations
+   elemental real(wp) function versine(q)
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      versine = 2.0_wp*sin(0.5_wp*q)**2
+   end function versine
+
+   !> Restoring moment G - Q
+   elemental real(wp) function moment(self, q)
+      class(loaded_block_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      real(wp) :: j, c, g, l, load
+
+      call self%terms(q, j, c, g, l, load)
+      moment = g - load
+   end function moment
+
+   !> Check that the wall stands
+   subroutine check_rest(mechanism, body, actions, error)
+      type(loaded_block_type), intent(in) :: mechanism
+      !> The masonry
+      type(rigid_body_type), intent(in) :: body
+      !> What acts on it
+      type(actions_type), intent(in) :: actions
+      !> It does not; both moments are in the message
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: holds
+
+      if (mechanism%moment(0.0_wp) > 0.0_wp) return
+      associate (carried => actions%carried, thrusts => actions%thrusts)
+         holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
+         call raise_input(error, 'thrust: the wall does not stand at rest; its weights hold it with '//rounded(holds)// &
+            & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)))
+      end associate
+   end subroutine check_rest
+
+   !> The rotation at which the restoring moment vanishes: in closed form, or where forces change with the rotation by
+   !> bisection of the first change of sign
+   subroutine find_capacity(mechanism, error)
+      type(loaded_block_type), intent(inout) :: mechanism
+      !> There is none, or more than one
+      type(error_type), allocatable, intent(out) :: error
+
+      integer, parameter :: parts = 2000
+      real(wp) :: holding, turning, below, above, end_of_all
+      logical :: falls(0:parts)
+      integer :: i
+
+      end_of_all = mechanism%geometric_end()
+      if (.not. mechanism%spring%w > 0.0_wp .and. size(mechanism%fading) == 0) then
+         associate (m => mechanism)
+            holding = m%gravity*(m%whole%e + m%lifted%e) + m%dead%e - m%thrust%f
+            turning = m%gravity*(m%whole%f + m%lifted%f) + m%dead%f + m%thrust%e
+            if (m%edge*m%thrust%w > 0.0_wp) then
+               mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning)) - atan2(turning, holding)
+            else
+               mechanism%capacity = atan2(holding, turning)
+            end if
+         end associate
+         return
+      end if
+      falls = [(.not. mechanism%moment(end_of_all*real(i, wp)/real(parts, wp)) > 0.0_wp, i=0, parts)]
+      i = findloc(falls, .true., dim=1) - 1
+      if (i < 0) then
+         call raise_input(error, 'spring: holds the wall at every rotation up to '//to_text(end_of_all)// &
+            & ' rad, where it lies on the ground; there is no capacity')
+         return
+      end if
+      if (.not. all(falls(i:))) then
+         call raise_input(error, 'thrust_decay, spring: the wall is held again beyond the rotation at which it falls; '// &
+            & 'two positions of rest are not covered')
+         return
+      end if
+      below = end_of_all*real(i - 1, wp)/real(parts, wp)
+      above = end_of_all*real(i, wp)/real(parts, wp)
+      do
+         mechanism%capacity = 0.5_wp*(below + above)
+         if (mechanism%capacity <= below .or. mechanism%capacity >= above) exit
+         if (mechanism%moment(mechanism%capacity) > 0.0_wp) then
+            below = mechanism%capacity
+         else
+            above = mechanism%capacity
+         end if
+      end do
+   end subroutine find_capacity
+
+   !> The rotation at which the first load loses its seat
+   pure subroutine find_unseating(mechanism, actions)
+      type(loaded_block_type), intent(inout) :: mechanism
+      !> What acts on the wall
+      type(actions_type), intent(in) :: actions
+
+      real(wp), parameter :: right_angle = acos(0.0_wp)
+      real(wp) :: e, f, below, above, half
+      integer :: i
+
+      do i = 1, size(actions%carried)
+         associate (thing => actions%carried(i))
+            e = thing%depth - actions%hinge
+            f = thing%height - actions%edge
+            ! Beyond this rotation X < 0, and the load comes back.
+            above = atan2(e, f) + right_angle
+            if (.not. mechanism%travel(above, e, f) > thing%seat) cycle
+            below = 0.0_wp
+            do
+               half = 0.5_wp*(below + above)
+               if (half <= below .or. half >= above) exit
+               if (mechanism%travel(half, e, f) > thing%seat) then
+                  above = half
+               else
+                  below = half
+               end if
+            end do
+            mechanism%unseating = min(mechanism%unseating, half)
+         end associate
+      end do
+   end subroutine find_unseating
+
+end module dondolo_loaded_block

@@ -1,0 +1,64 @@
+!> The masonry of a wall as one rigid body: mass, centroid and inertia of its storeys, per metre of wall length.
+module dondolo_rigid_body
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: rigid_body_type, section_type, body_of_sections
+
+   !> What rocks, without what it carries
+   type :: rigid_body_type
+      !> Mass M [kg/m]
+      real(wp) :: mass = 0.0_wp
+      !> Centroid: depth d_c behind the outer face and height z_c above the base [m]
+      real(wp) :: depth = 0.0_wp, height = 0.0_wp
+      !> Inertia about the centroid I_c [kg m2/m]
+      real(wp) :: inertia = 0.0_wp
+   end type rigid_body_type
+
+   !> A storey of a wall
+   type :: section_type
+      !> Height and thickness [m]
+      real(wp) :: height = 0.0_wp, thickness = 0.0_wp
+      !> Part of it that is masonry, 1 without openings
+      real(wp) :: fill = 1.0_wp
+      !> Depth of its outer face behind that of the lowest section [m]
+      real(wp) :: offset = 0.0_wp
+      !> Width of its elevation at its bottom and at its top / width that all values per metre refer to
+      real(wp) :: base_width = 1.0_wp, top_width = 1.0_wp
+   end type section_type
+
+contains
+
+   !> The body of sections that stand on one another; widths change linearly over a section, 1 and 0 are a gable
+   pure function body_of_sections(sections, density) result(body)
+      !> From the bottom
+      type(section_type), intent(in) :: sections(:)
+      !> Density of the masonry [kg/m3]
+      real(wp), intent(in) :: density
+      !> The body
+      type(rigid_body_type) :: body
+
+      real(wp), dimension(size(sections)) :: mass, depth, height, inertia
+      real(wp) :: bottom, area, centroid
+      integer :: i
+
+      bottom = 0.0_wp
+      do i = 1, size(sections)
+         associate (part => sections(i), w0 => sections(i)%base_width, w1 => sections(i)%top_width)
+            area = density*part%fill*part%thickness*part%height
+            mass(i) = area*(w0 + w1)/2.0_wp
+            centroid = part%height*(w0 + 2.0_wp*w1)/(3.0_wp*(w0 + w1))
+            inertia(i) = area*part%height**2*(w0 + 3.0_wp*w1)/12.0_wp + mass(i)*(part%thickness**2/12.0_wp - centroid**2)
+            height(i) = bottom + centroid
+            depth(i) = part%offset + 0.5_wp*part%thickness
+            bottom = bottom + part%height
+         end associate
+      end do
+      body%mass = sum(mass)
+      body%depth = sum(mass*depth)/body%mass
+      body%height = sum(mass*height)/body%mass
+      body%inertia = sum(inertia + mass*((depth - body%depth)**2 + (height - body%height)**2))
+   end function body_of_sections
+
+end module dondolo_rigid_body

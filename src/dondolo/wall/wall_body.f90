@@ -1,0 +1,498 @@
+!> What a user says of a wall of one block, as sections, a rigid body and what acts on it.
+module dondolo_wall_body
+   use dondolo_carried, only : actions_type, carried_type, spring_type, thrust_type
+   use dondolo_error, only : problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : number_of_words, word_of
+   use dondolo_rigid_body, only : body_of_sections, rigid_body_type, section_type
+   use dondolo_text, only : rounded, to_text
+   use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
+   implicit none
+   private
+
+   public :: wall_body_type, is_bare, take_sections, read_wall_body
+
+   !> A wall of one block
+   type :: wall_body_type
+      !> Its storeys from the bottom
+      type(section_type), allocatable :: sections(:)
+      !> The masonry as one body
+      type(rigid_body_type) :: body
+      !> What acts on it
+      type(actions_type) :: actions
+   end type wall_body_type
+
+   !> Lengths that differ by this part of the wall are the same
+   real(wp), parameter :: same = 1.0e-9_wp
+
+contains
+
+   !> Is a wall nothing but a rectangle that turns about its edge?
+   pure logical function is_bare(input)
+      !> What is said of the wall, defaults filled in
+      type(wall_input_type), intent(in) :: input
+
+      is_bare = .not. input%gives(is_beyond_bare)
+   end function is_bare
+
+   !> Height and thickness of a wall of sections, and the mean density of a body whose mass is given
+   subroutine take_sections(problems, input)
+      !> Takes what does not agree
+      type(problems_type), intent(inout) :: problems
+      !> What is said of the wall
+      type(wall_input_type), intent(inout) :: input
+
+      real(wp), allocatable :: heights(:), thicknesses(:)
+
+      heights = input%list('section_height')
+      thicknesses = input%list('section_thickness')
+      if (size(heights) > 0 .and. size(thicknesses) > 0) then
+         call follow('height', sum(heights), 'the sum of section_height')
+         call follow('thickness', thicknesses(1), 'that of the lowest section')
+      end if
+      if (input%has('mass') .and. input%number('height')*input%number('thickness') > 0.0_wp) call follow('density', &
+         & input%number('mass')/(input%number('height')*input%number('thickness')), 'that of the mass')
+
+   contains
+
+      !> Set what follows from something else, or check it
+      subroutine follow(name, value, from)
+         !> Name of the property
+         character(len=*), intent(in) :: name
+         !> Its value
+         real(wp), intent(in) :: value
+         !> What it follows from
+         character(len=*), intent(in) :: from
+
+         if (.not. input%has(name)) then
+            call input%set(name, value)
+         else if (abs(input%number(name) - value) > same*abs(value)) then
+            call problems%note(name//' = '//to_text(input%number(name))//': must be '//to_text(value)//', '//from// &
+               & '; leave it out')
+         end if
+      end subroutine follow
+
+   end subroutine take_sections
+
+   !> Read sections, body and actions, and check what belongs together
+   subroutine read_wall_body(input, gravity, problems, wall)
+      !> What is said of the wall, defaults filled in, ranges checked
+      type(wall_input_type), intent(in) :: input
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> The wall; undefined if something is wrong
+      type(wall_body_type), intent(out) :: wall
+
+      integer :: before
+
+      before = problems%count
+      call read_sections(input, problems, wall%sections)
+      call read_loads(input, gravity, problems, wall%actions%carried)
+      call read_thrusts(input, wall%sections, problems, wall%actions%thrusts)
+      call read_springs(input, problems, wall%actions%springs)
+      if (problems%count > before) return
+      wall%body = body_of_sections(wall%sections, input%number('density'))
+      call read_mass(input, problems, wall%body)
+      if (problems%count > before) return
+      call read_hinge(input, gravity, problems, wall)
+      call check_places(input, problems, wall)
+      if (problems%count > before) return
+      if (input%has('mass')) call take_inertia(input, problems, wall)
+      if (input%word('mechanism') == 'free_standing') call check_symmetry(input, problems, wall)
+   end subroutine read_wall_body
+
+   !> Values of a list that goes with another, one for each or one for all
+   subroutine take(input, problems, name, of, values, default)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> Name of the list that it goes with
+      character(len=*), intent(in) :: of
+      !> Its values, as many as that list has
+      real(wp), allocatable, intent(out) :: values(:)
+      !> Value where it is not given; absent: it must be given
+      real(wp), intent(in), optional :: default
+
+      real(wp), allocatable :: given(:)
+      integer :: needed
+
+      needed = size(input%list(of))
+      given = input%list(name)
+      allocate (values(needed), source=0.0_wp)
+      if (size(given) == 1 .and. needed > 0) then
+         values = given(1)
+      else if (size(given) > 0 .and. needed == 0) then
+         call problems%note(name//': only with '//of)
+      else if (size(given) == needed) then
+         values = given
+      else if (size(given) > 0) then
+         call problems%note(name//': has '//to_text(size(given))//' values, must have '//to_text(needed)//' as '//of// &
+            & ', or one for all')
+      else if (present(default)) then
+         values = default
+      else
+         call problems%note(name//': must be given with '//of)
+      end if
+   end subroutine take
+
+   !> The storeys
+   subroutine read_sections(input, problems, sections)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> From the bottom; one if none is given
+      type(section_type), allocatable, intent(out) :: sections(:)
+
+      real(wp), allocatable :: thickness(:), fill(:), offset(:), base(:), top(:)
+
+      call take(input, problems, 'section_thickness', 'section_height', thickness)
+      call take(input, problems, 'section_fill', 'section_height', fill, 1.0_wp)
+      call take(input, problems, 'section_offset', 'section_height', offset, 0.0_wp)
+      call take(input, problems, 'section_base_width', 'section_height', base, 1.0_wp)
+      call take(input, problems, 'section_top_width', 'section_height', top, -1.0_wp)
+      if (.not. input%has('section_height')) then
+         sections = [section_type(input%number('height'), input%number('thickness'))]
+         return
+      end if
+      where (top < 0.0_wp) top = base
+      allocate (sections(size(thickness)))
+      sections%height = input%list('section_height')
+      sections%thickness = thickness
+      sections%fill = fill
+      sections%offset = offset
+      sections%base_width = base
+      sections%top_width = top
+      if (any(.not. base + top > 0.0_wp)) call problems%note('section_top_width: must be positive where '// &
+         & 'section_base_width is 0')
+      if (abs(offset(1)) > 0.0_wp) call problems%note('section_offset = '//to_text(offset(1))// &
+         & ': must be 0 for the lowest section, from whose outer face depths are measured')
+   end subroutine read_sections
+
+   !> Mass and centroid where they are given
+   subroutine read_mass(input, problems, body)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> The body of the sections; out: as given
+      type(rigid_body_type), intent(inout) :: body
+
+      character(len=*), parameter :: names(4) = [character(len=16) :: 'mass', 'centroid_depth', 'centroid_height', &
+         & 'hinge_inertia']
+      logical :: given(4)
+      integer :: i
+
+      given = [(input%has(trim(names(i))), i=1, 4)]
+      if (.not. any(given)) return
+      do i = 1, 4
+         if (.not. given(i)) call problems%note(trim(names(i))//': must be given with '// &
+            & trim(names(findloc(given, .true., dim=1))))
+      end do
+      if (input%has('section_height')) call problems%note('mass: not with section_height, from which it follows')
+      body = rigid_body_type(input%number('mass'), input%number('centroid_depth'), input%number('centroid_height'))
+   end subroutine read_mass
+
+   !> The inertia of a body about its centroid from that about the hinge
+   subroutine take_inertia(input, problems, wall)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> The wall, its hinge known
+      type(wall_body_type), intent(inout) :: wall
+
+      real(wp) :: least
+
+      associate (body => wall%body)
+         least = body%mass*((body%depth - wall%actions%hinge)**2 + body%height**2)
+         body%inertia = input%number('hinge_inertia') - least
+         if (body%inertia < 0.0_wp) call problems%note('hinge_inertia = '//to_text(input%number('hinge_inertia'))// &
+            & ': must be at least '//to_text(least)//', which the mass has at its centroid')
+      end associate
+   end subroutine take_inertia
+
+   !> Loads, and masses that are pushed alone
+   subroutine read_loads(input, gravity, problems, carried)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Loads and masses
+      type(carried_type), allocatable, intent(out) :: carried(:)
+
+      real(wp), allocatable :: load(:), depth(:), height(:), seat(:), mass(:), mass_depth(:), mass_height(:)
+      integer :: words, i
+
+      load = input%list('load')
+      call take(input, problems, 'load_depth', 'load', depth)
+      call take(input, problems, 'load_height', 'load', height)
+      call take(input, problems, 'load_seat', 'load', seat, huge(1.0_wp))
+      mass = input%list('inertia_mass')
+      call take(input, problems, 'inertia_depth', 'inertia_mass', mass_depth)
+      call take(input, problems, 'inertia_height', 'inertia_mass', mass_height)
+      words = number_of_words(input%word('load_inertia'))
+      if (size(load) > 0 .and. words == 0) then
+         call problems%note('load_inertia: must be given with load: ''none'' (a dead force), ''vertical'' (a mass that '// &
+            & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too)')
+      else if (size(load) == 0 .and. words > 0) then
+         call problems%note('load_inertia: only with load')
+      else if (words > 1 .and. words /= size(load)) then
+         call problems%note('load_inertia: has '//to_text(words)//' values, must have '//to_text(size(load))// &
+            & ' as load, or one for all')
+      end if
+      allocate (carried(size(load) + size(mass)))
+      do i = 1, size(load)
+         carried(i) = carried_type(depth(i), height(i), load(i), seat=seat(i))
+         select case (word_of(input%word('load_inertia'), merge(1, i, words == 1)))
+         case ('none')
+            carried(i)%dead = load(i)
+         case ('vertical')
+            carried(i)%lifted = load(i)/gravity
+         case ('both')
+            carried(i)%lifted = load(i)/gravity
+            carried(i)%pushed = load(i)/gravity
+         end select
+      end do
+      do i = 1, size(mass)
+         carried(size(load) + i) = carried_type(mass_depth(i), mass_height(i), pushed=mass(i))
+      end do
+   end subroutine read_loads
+
+   !> Thrusts; their depth is that of the inner face unless it is given
+   subroutine read_thrusts(input, sections, problems, thrusts)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Its storeys
+      type(section_type), intent(in) :: sections(:)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Thrusts
+      type(thrust_type), allocatable, intent(out) :: thrusts(:)
+
+      real(wp), allocatable :: depth(:), height(:), decay(:)
+      real(wp) :: faces(2)
+      integer :: i
+
+      call take(input, problems, 'thrust_height', 'thrust', height)
+      call take(input, problems, 'thrust_depth', 'thrust', depth, -huge(1.0_wp))
+      call take(input, problems, 'thrust_decay', 'thrust', decay, huge(1.0_wp))
+      do i = 1, size(depth)
+         if (depth(i) > -huge(1.0_wp)) cycle
+         faces = faces_at(sections, height(i))
+         depth(i) = faces(2)
+      end do
+      allocate (thrusts(size(depth)))
+      thrusts%depth = depth
+      thrusts%height = height
+      thrusts%force = input%list('thrust')
+      thrusts%decay = decay
+   end subroutine read_thrusts
+
+   !> Springs and beds
+   subroutine read_springs(input, problems, springs)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Both
+      type(spring_type), allocatable, intent(out) :: springs(:)
+
+      real(wp), allocatable :: depth(:), height(:), bed_depth(:), bottom(:), top(:)
+
+      call take(input, problems, 'spring_depth', 'spring', depth)
+      call take(input, problems, 'spring_height', 'spring', height)
+      call take(input, problems, 'bed_depth', 'bed', bed_depth)
+      call take(input, problems, 'bed_bottom', 'bed', bottom)
+      call take(input, problems, 'bed_top', 'bed', top)
+      if (any(.not. top > bottom)) call problems%note('bed_top: must be above bed_bottom')
+      allocate (springs(size(depth) + size(bed_depth)))
+      springs%depth = [depth, bed_depth]
+      springs%bottom = [height, bottom]
+      springs%top = [height, top]
+      springs%stiffness = [input%list('spring'), input%list('bed')]
+   end subroutine read_springs
+
+   !> The depth of the hinge: given, from the strength of the masonry under all weights, or where the edge begins
+   subroutine read_hinge(input, gravity, problems, wall)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> The wall, its loads known
+      type(wall_body_type), intent(inout) :: wall
+
+      real(wp), parameter :: usual_block = 0.85_wp
+      real(wp) :: hinge, edge, depth, block
+      character(len=:), allocatable :: name
+      integer :: i
+
+      hinge = input%number('hinge_depth')
+      edge = input%number('edge_radius')
+      name = 'hinge_depth'
+      block = usual_block
+      if (input%has('stress_block')) block = input%number('stress_block')
+      if (input%has('stress_block') .and. .not. input%has('compressive_strength')) call problems%note('stress_block: only '// &
+         & 'with compressive_strength')
+      if (input%has('compressive_strength')) then
+         if (hinge > 0.0_wp) call problems%note('hinge_depth = '//to_text(hinge)// &
+            & ': give either hinge_depth or compressive_strength')
+         hinge = (gravity*wall%body%mass + sum(wall%actions%carried%weight)) &
+            & /(2.0_wp*block*input%number('compressive_strength'))
+         name = 'compressive_strength'
+      end if
+      if (edge > 0.0_wp) then
+         if (hinge > 0.0_wp) call problems%note('edge_radius = '//to_text(edge)//': not with '//name// &
+            & ', the hinge is where the edge begins')
+         hinge = edge
+         name = 'edge_radius'
+      end if
+      wall%actions%hinge = hinge
+      wall%actions%edge = edge
+      if (.not. hinge < wall%body%depth) call problems%note(name//': puts the hinge at depth '//rounded(hinge)// &
+         & ' m, must be less deep than the centroid of the wall, '//rounded(wall%body%depth)//' m')
+      if (.not. edge < wall%body%height) call problems%note('edge_radius = '//to_text(edge)// &
+         & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m')
+      do i = 1, size(wall%actions%carried)
+         depth = wall%actions%carried(i)%depth
+         if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. hinge < depth .or. depth < 0.0_wp) cycle
+         call problems%note(name//': puts the hinge at depth '//rounded(hinge)//' m, must be less deep than load '// &
+            & to_text(i)//', load_depth = '//to_text(depth))
+      end do
+   end subroutine read_hinge
+
+   !> Outer and inner face at a height; where sections meet, the outermost and the innermost
+   pure function faces_at(sections, height) result(faces)
+      !> From the bottom
+      type(section_type), intent(in) :: sections(:)
+      !> Height above the base [m]
+      real(wp), intent(in) :: height
+      !> Depths of both faces [m]; the first is greater than the second beyond the wall
+      real(wp) :: faces(2)
+
+      real(wp) :: bottom, slack
+      integer :: i
+
+      faces = [huge(1.0_wp), -huge(1.0_wp)]
+      slack = same*sum(sections%height)
+      bottom = 0.0_wp
+      do i = 1, size(sections)
+         associate (part => sections(i))
+            if (height >= bottom - slack .and. height <= bottom + part%height + slack) then
+               faces(1) = min(faces(1), part%offset)
+               faces(2) = max(faces(2), part%offset + part%thickness)
+            end if
+            bottom = bottom + part%height
+         end associate
+      end do
+   end function faces_at
+
+   !> Check that everything acts within the wall
+   subroutine check_places(input, problems, wall)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what does not
+      type(problems_type), intent(inout) :: problems
+      type(wall_body_type), intent(in) :: wall
+
+      integer :: i, loads, springs
+
+      loads = size(input%list('load'))
+      springs = size(input%list('spring'))
+      associate (actions => wall%actions)
+         do i = 1, size(actions%carried)
+            associate (thing => actions%carried(i))
+               if (i <= loads) call inside('load', i, thing%depth, thing%height)
+               if (i > loads) call inside('inertia', i - loads, thing%depth, thing%height)
+            end associate
+         end do
+         do i = 1, size(actions%thrusts)
+            call inside('thrust', i, actions%thrusts(i)%depth, actions%thrusts(i)%height)
+         end do
+         do i = 1, size(actions%springs)
+            associate (thing => actions%springs(i))
+               if (i <= springs) call inside('spring', i, thing%depth, thing%top)
+               if (i > springs) call inside('bed', i - springs, thing%depth, thing%top)
+               if (i > springs) call inside('bed', i - springs, thing%depth, thing%bottom)
+            end associate
+         end do
+      end associate
+
+   contains
+
+      !> Check one place
+      subroutine inside(what, number, depth, height)
+         !> What acts there, and which of its kind
+         character(len=*), intent(in) :: what
+         integer, intent(in) :: number
+         !> Where [m]
+         real(wp), intent(in) :: depth, height
+
+         real(wp) :: faces(2), tall
+
+         tall = sum(wall%sections%height)
+         faces = faces_at(wall%sections, height)
+         if (faces(1) > faces(2)) then
+            call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
+               & to_text(tall)//' m, the wall')
+         else if (depth < faces(1) - same*tall .or. depth > faces(2) + same*tall) then
+            call problems%note(what//' '//to_text(number)//': its depth '//to_text(depth)//' must lie between '// &
+               & to_text(faces(1))//' and '//to_text(faces(2))//' m, the faces of the wall at its height')
+         end if
+      end subroutine inside
+
+   end subroutine check_places
+
+   !> Check that a wall that rocks to both sides is the same from both
+   subroutine check_symmetry(input, problems, wall)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is not
+      type(problems_type), intent(inout) :: problems
+      type(wall_body_type), intent(in) :: wall
+
+      real(wp) :: centre
+
+      centre = 0.5_wp*wall%sections(1)%thickness
+      associate (sections => wall%sections, actions => wall%actions)
+         if (any(is_off(sections%offset + 0.5_wp*sections%thickness))) call refuse('section_offset', 'sections')
+         if (is_off(wall%body%depth)) call refuse('centroid_depth', 'a body')
+         if (any(is_off(actions%carried%depth))) call refuse(trim(merge('load_depth   ', 'inertia_depth', &
+            & input%has('load'))), 'loads and masses')
+         if (any(is_off(actions%springs%depth))) call refuse(trim(merge('spring_depth', 'bed_depth   ', &
+            & input%has('spring'))), 'springs')
+         if (size(actions%thrusts) > 0) call problems%note('thrust: not for mechanism = ''free_standing'', which rocks to '// &
+            & 'both sides')
+      end associate
+
+   contains
+
+      !> Is a depth not the middle of the wall?
+      elemental logical function is_off(depth)
+         !> Depth [m]
+         real(wp), intent(in) :: depth
+
+         is_off = abs(depth - centre) > same*centre
+      end function is_off
+
+      !> Note what is not in the middle
+      subroutine refuse(name, what)
+         !> Name of the property, and what it places
+         character(len=*), intent(in) :: name, what
+
+         call problems%note(name//': a wall of mechanism = ''free_standing'' has '//what//' at half its thickness, '// &
+            & to_text(centre)//', since it rocks to both sides')
+      end subroutine refuse
+
+   end subroutine check_symmetry
+
+end module dondolo_wall_body

@@ -1,0 +1,63 @@
+"""A run of Python whose calls fail, or that is killed, or whose workers are.
+
+    python python_run.py typology|save|pool|dask|mpi FOLDER
+
+It reads FOLDER/new and writes FOLDER/out/study. It has a checkpoint, except for ``save``, which saves another result.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+
+import dondolo as dd
+
+
+@contextmanager
+def executor(what: str) -> Iterator[Executor | None]:
+    """Two workers, or none."""
+    if what == "pool":
+        with ProcessPoolExecutor(2) as pool:
+            yield pool
+    elif what == "dask":
+        from distributed import Client, LocalCluster
+
+        with (
+            LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client.get_executor()
+    elif what == "mpi":
+        from mpi4py.futures import MPIPoolExecutor
+
+        with MPIPoolExecutor() as pool:
+            yield pool
+    else:
+        yield None
+
+
+def main() -> None:
+    """Run, and write."""
+    what, folder = sys.argv[1], Path(sys.argv[2])
+    warnings.simplefilter("ignore")
+    records = dd.read_catalogue(folder / "new/records.csv")
+    people = dd.read_population(folder / "new/walls.csv")
+    checkpoint = None if what == "save" else folder / "out/study.counts"
+    given = {"levels": [0.1, 0.2, 0.3, 0.5, 0.9], "checkpoint": checkpoint, "block": 2, "progress": False}
+    with executor(what) as workers:
+        typology = dd.typology(people, records, executor=workers, threads=1, **given)
+    typology.write_results(folder / "out/study")
+    if what == "save":
+        dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10]).save(folder / "out/curve.npz")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except dd.DondoloError as error:
+        print(f"dondolo: {error}", file=sys.stderr)
+        sys.exit(2)
