@@ -90,8 +90,8 @@ EDITS = [
     ),
     Edit(
         "the two polarities of a record are not drawn together",
-        "of_record = reached.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)",
-        "of_record = reached.reshape(rows, levels, self.records, -1).sum(axis=3, dtype=np.float64)",
+        "of_record = flags.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)",
+        "of_record = flags.reshape(rows, levels, self.records, -1).sum(axis=3, dtype=np.float64)",
         "test_typology_bootstrap.py::test_brute_force",
     ),
     Edit(

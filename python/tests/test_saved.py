@@ -213,8 +213,9 @@ def test_arrays_are_read_only_and_stored_once(results, tmp_path):
 
 def comparison(interval):
     """A result with any values."""
-    names = ("ratio", "p_value", "beta_ratio", "beta_interval", "beta_p_value", "curves_p_value", "degrees_of_freedom")
-    return dd.Comparison(pairing="paired", shared=3, ratio_interval=interval, **dict.fromkeys(names, 0.5))
+    names = ("ratio", "p_value", "beta_ratio", "beta_p_value", "curves_p_value", "degrees_of_freedom")
+    numbers = dict.fromkeys(names, 0.5)
+    return dd.Comparison(pairing="paired", shared=3, ratio_interval=interval, beta_interval=(0.5, 2.0), **numbers)
 
 
 def test_values_that_json_lacks(tmp_path):

@@ -107,7 +107,7 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     polarity = np.repeat(order, len(joint)).astype(one.polarity.dtype)
     polarity.flags.writeable = False
     work = Work.total([one.work, other.work])
-    of_records = {name: _of_records(name, (one, other), joint) for name in _OF_RECORDS}
+    of_records: dict[str, Any] = {name: _of_records(name, (one, other), joint) for name in _OF_RECORDS}
     names_twice = tuple(joint) * len(order)
     return dataclasses.replace(joined, record_names=names_twice, polarity=polarity, work=work, **of_records)
 
