@@ -9,6 +9,7 @@ program test_case
    use dondolo_namelist_group, only : group_type
    use dondolo_population, only : member_type, read_population
    use dondolo_reports, only : check_reports, write_reports
+   use dondolo_result_files, only : published_run, result_files_type
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
@@ -410,7 +411,7 @@ contains
    subroutine test_output()
       type(case_type) :: case
       type(results_type) :: results
-      type(lines_type) :: paths
+      type(result_files_type) :: files, second
       type(error_type), allocatable :: error
       logical :: exists
 
@@ -420,14 +421,20 @@ contains
       call check_reports(case, error)
       call check_ok(error, 'a folder that can be made')
       call check(.not. is_folder(scratch//'/out'), 'the trial leaves no folder')
+      call files%claim(case%job%output, error)
+      call check_ok(error, 'an output that nobody writes')
+      call second%claim(case%job%output, error)
+      call check_error(error, 'x: ', 'an output that another run writes')
       call run_case(case, results, error, threads=1)
-      call write_reports(case, results, paths, error)
+      call write_reports(case, results, files, error)
       call check_ok(error, 'reports')
-      call check(paths%count == 5, 'five files')
+      call check(size(files%written) == 5, 'five files')
+      call check(published_run(case%job%output) == files%lock%run, 'the set is that of the run')
       inquire (file=scratch//'/out/x_fragility.csv', exist=exists)
-      call check(exists, 'the last one is there')
-      inquire (file=scratch//'/out/x_fragility.csv.part', exist=exists)
+      call check(exists, 'a table is there')
+      inquire (file=scratch//'/out/x_fragility.csv.'//files%lock%run//'.part', exist=exists)
       call check(.not. exists, 'and its part is not')
+      call files%close()
       call check(same_file(scratch//'/out/x_walls.csv', scratch//'/out/../out/x_walls.csv'), 'two paths of one file')
       call check(.not. same_file(scratch//'/out/x_walls.csv', scratch//'/out/x_stripes.csv'), 'two files')
       call check(.not. same_file(scratch//'/none', scratch//'/none'), 'no file')
