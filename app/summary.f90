@@ -2,6 +2,7 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
+   use dondolo_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -165,8 +166,6 @@ contains
       end do
       if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
       call print_fit(case, results%row%curve(size(results%row%curve)))
-      if (any(results%row%curve%has_fit())) write (output_unit, '(a)') 'note: standard errors assume '// &
-         & 'independent stripes, although these share their records; bootstrap() in Python does not assume it'
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes
@@ -178,13 +177,40 @@ contains
 
       if (curve%has_fit()) then
          write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
-            & ' (standard error of ln theta '//rounded(curve%se_ln_theta())//'), beta = '//rounded(curve%beta)// &
-            & ' (standard error '//rounded(curve%se_beta())//'), status '//trim(curve%status), &
-            & case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '//trim(fractiles(case, curve, 1.0_wp))
+            & ', beta = '//rounded(curve%beta)//', status '//trim(curve%status)
+         call print_errors(curve)
+         write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
+            & trim(fractiles(case, curve, 1.0_wp))
       else
          write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
       end if
    end subroutine print_fit
+
+   !> Print the standard errors and intervals of a curve, or why it has none
+   subroutine print_errors(curve)
+      type(fragility_type), intent(in) :: curve
+
+      real(wp) :: bounds(2, 2)
+      character(len=24) :: upper
+
+      select case (curve%errors)
+      case ('few_clusters')
+         write (output_unit, '(a)') 'no standard errors: '//counted(curve%clusters, 'cluster')// &
+            & ' of records, at least '//to_text(fewest_clusters)//' are needed'
+      case ('one_cluster')
+         write (output_unit, '(a)') 'no standard errors: one cluster of records determines the curve'
+      case default
+         bounds = parameter_intervals(curve)
+         upper = 'no bound'
+         if (bounds(2, 2) < huge(bounds)) upper = rounded(bounds(2, 2))
+         write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
+            & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
+            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper), &
+            & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
+            & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
+            & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
+      end select
+   end subroutine print_errors
 
    !> Levels at which 16, 50 and 84 % collapse
    pure function fractiles(case, curve, saturation) result(text)

@@ -26,7 +26,7 @@ program synthetic44_program
    open (newunit=catalogue, file=folder//'/'//name//'.csv', action='write')
    write (catalogue, '(a)') &
       & '# Synthetic accelerograms (no recordings), model of Sabetta and Pugliese (1996): see dondolo_synthetic', &
-      & 'file,dt_s,units,scenario,magnitude,distance_km,site,component,pga_m_s2'
+      & 'file,dt_s,units,event,magnitude,distance_km,site,component,pga_m_s2'
    do scenario = 1, size(synthetic44)
       chosen = synthetic44(scenario)
       do component = 1, 2

@@ -114,7 +114,8 @@ check "stripes: header of histories" equal "$(header out/deep/wall_histories.csv
 check "stripes: header of stripes" equal "$(header out/deep/wall_stripes.csv)" \
    "wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold"
 check "stripes: header of fragility" equal "$(header out/deep/wall_fragility.csv)" \
-   "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high,edp_threshold"
+   "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high,edp_threshold,\
+theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,naive_se_ln_theta,naive_se_beta"
 check "stripes: rows of walls" equal "$(rows out/deep/wall_walls.csv)" 1
 check "stripes: rows of histories" equal "$(rows out/deep/wall_histories.csv)" 40
 check "stripes: rows of stripes" equal "$(rows out/deep/wall_stripes.csv)" 5
@@ -153,9 +154,13 @@ check "stripes: nothing left half written" equal "$(find . -name '*.part')" ""
 check "stripes: summary names a file" contains stdout 'written: out/deep/wall_fragility.csv'
 check "stripes: summary has the median between the levels at 16 and 84 %" equal \
    "$(sed -n 's/^pga at a probability of 16, 50, 84 %: [0-9.]*, \(.*\), [0-9.]* g$/\1/p' stdout)" \
-   "$(sed -n 's/^theta = \([0-9.]*\) g .*/\1/p' stdout)"
-check "stripes: summary says what the standard errors assume" grep -q \
-   '^note: standard errors assume independent stripes' stdout
+   "$(sed -n 's/^theta = \([0-9.]*\) g, .*/\1/p' stdout)"
+check "stripes: summary says what the standard errors assume" grep -qE \
+   '^\(4 clusters of records, 3 degrees of freedom; naive standard errors, as if all histories were independent: ' stdout
+check "stripes: the file of the run has the clusters" python3 -c 'import json
+run = json.load(open("out/deep/wall_run.json", encoding="utf-8"))
+assert run["standard_errors"]["clusters"] == len(run["records"]) == 4, run["records"]
+assert len({one["checksum"] for one in run["records"]}) == 4'
 check "stripes: summary says where the records are applied" grep -q \
    '^note: records are applied at the base of the wall; ground records underestimate the demand on parapets, gables' stdout
 check "stripes: summary names the engine" grep -qE ' threads, engine lanes \([a-z0-9]+\)$' stdout

@@ -2,11 +2,13 @@
 program test_fragility
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_clustered, only : cluster_errors, parameter_intervals
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_student, only : student_cdf, student_quantile
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
@@ -18,6 +20,8 @@ program test_fragility
    call test_statuses()
    call test_invariances()
    call test_wrong_counts()
+   call test_clusters()
+   call test_student()
    call finish()
 
 contains
@@ -181,5 +185,70 @@ contains
       call fit_fragility(curve, one, [ieee_value(0.0_wp, ieee_quiet_nan)], one, error)
       call check_error(error, 'collapses = NaN', 'not a number')
    end subroutine test_wrong_counts
+
+   !> Clustered standard errors: changes are those of fits without each cluster, copies add nothing, and what has no
+   !> standard errors says why
+   subroutine test_clusters()
+      integer, parameter :: clusters = 400
+      real(wp), parameter :: x(4) = [0.3_wp, 0.5_wp, 0.8_wp, 1.2_wp]
+      real(wp) :: z(4, clusters), n(4, clusters), changes(2, clusters), twice(2, 2*clusters), few(2, 2), bounds(2, 2), capacity
+      type(fragility_type) :: curve, other
+      integer :: g, j
+
+      call suite('clustered standard errors')
+      n = 1.0_wp
+      do g = 1, clusters
+         ! A capacity of each, and chance in every fifth stripe
+         capacity = 0.6_wp*exp(0.4_wp*sin(37.0_wp*real(g, wp)) + 0.2_wp*cos(11.0_wp*real(g, wp)))
+         do j = 1, 4
+            z(j, g) = merge(1.0_wp, 0.0_wp, (x(j) >= capacity) .neqv. modulo(3*g + 7*j, 20) == 0)
+         end do
+      end do
+      curve = fitted(x, sum(z, 2), sum(n, 2), 'all clusters')
+      call check_text(curve%errors, 'naive', 'without clusters')
+      call cluster_errors(curve, x, z, n, changes)
+      call check_text(curve%errors, 'clustered', 'errors')
+      call check(curve%clusters == clusters, 'number of clusters')
+      do g = 1, clusters, 57
+         other = fitted(x, sum(z, 2) - z(:, g), sum(n, 2) - n(:, g), 'one left out')
+         call check_close(changes(1, g), log(other%theta/curve%theta), 0.02_wp, 'change of ln theta', atol=2.0e-5_wp)
+         call check_close(changes(2, g), other%beta - curve%beta, 0.02_wp, 'change of beta', atol=4.0e-5_wp)
+      end do
+      call check(curve%se_ln_theta() > sqrt(curve%naive(1, 1)), 'wider than if stripes were independent')
+
+      ! Every history twice in its cluster: no new evidence, though the naive errors say so
+      other = fitted(x, 2.0_wp*sum(z, 2), 2.0_wp*sum(n, 2), 'twice')
+      call cluster_errors(other, x, 2.0_wp*z, 2.0_wp*n, changes)
+      call check_close(other%se_ln_theta(), curve%se_ln_theta(), 1.0e-9_wp, 'copies in a cluster')
+      call check_close(other%naive(1, 1), 0.5_wp*curve%naive(1, 1), 1.0e-9_wp, 'naive variance of copies')
+      other = curve
+      call cluster_errors(other, x, reshape([z, 0.0_wp*z], [4, 2*clusters]), reshape([n, 0.0_wp*n], [4, 2*clusters]), twice)
+      call check(other%clusters == clusters, 'clusters without histories do not count')
+      call check_close(other%se_beta(), curve%se_beta(), 1.0e-12_wp, 'clusters without histories')
+
+      bounds = parameter_intervals(curve)
+      call check_close(sqrt(bounds(1, 1)*bounds(2, 1)), curve%theta, 1.0e-12_wp, 'interval of theta about it')
+      call check_close(0.5_wp/bounds(1, 2) + 0.5_wp/bounds(2, 2), 1.0_wp/curve%beta, 1.0e-12_wp, 'interval of 1/beta about it')
+      call check_close(log(bounds(2, 1)/curve%theta)/curve%se_ln_theta(), 1.9659_wp, 1.0e-3_wp, 'quantile of Student')
+
+      call cluster_errors(other, x, z(:, :2), n(:, :2), few)
+      call check_text(other%errors, 'few_clusters', 'two clusters')
+      call check(.not. other%has_errors(), 'two clusters have no standard errors')
+      n(2:, 2:) = 0.0_wp
+      z(2:, 2:) = 0.0_wp
+      call cluster_errors(other, x, z, n, changes)
+      call check_text(other%errors, 'one_cluster', 'one cluster has all but one stripe')
+      call check(all(changes == 0.0_wp) .and. all(other%covariance == 0.0_wp), 'no number without standard errors')
+   end subroutine test_clusters
+
+   !> Tables of Student's t
+   subroutine test_student()
+      call suite('Student''s t')
+      call check_close(student_quantile(0.975_wp, 1), 12.7062047362_wp, 1.0e-10_wp, 'one degree')
+      call check_close(student_quantile(0.975_wp, 2), 4.30265272991_wp, 1.0e-10_wp, 'two degrees')
+      call check_close(student_quantile(0.975_wp, 21), 2.07961384473_wp, 1.0e-10_wp, '21 degrees')
+      call check_close(student_quantile(0.995_wp, 10), 3.16927267_wp, 1.0e-8_wp, 'ten degrees')
+      call check_close(student_cdf(1.96_wp, 100000), normal_cdf(1.96_wp), 2.0e-6_wp, 'many degrees')
+   end subroutine test_student
 
 end program test_fragility

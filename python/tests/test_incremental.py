@@ -33,9 +33,8 @@ def made(stripes, collapsed, edp=None):
     n = collapsed.shape[1]
     names = tuple(f"r{i}" for i in range(n))
     levels = LEVELS[: len(collapsed)]
-    return replace(
-        stripes, levels=levels, collapsed=collapsed, edp=edp, record_names=names, polarity=np.ones(n, dtype=np.int32)
-    )
+    plain = {"levels": levels, "record_names": names, "polarity": np.ones(n, dtype=np.int32)}
+    return replace(stripes, collapsed=collapsed, edp=edp, events=(), checksums=(), **plain)
 
 
 def test_first_collapses_and_resurrections(stripes):
@@ -81,7 +80,8 @@ def capacities(stripes, values, levels):
     collapsed = levels[:, None] >= values
     edp, names = np.where(collapsed, 1.0, 0.5), tuple(f"r{i}" for i in range(len(values)))
     polarity = np.ones(len(values), dtype=np.int32)
-    return replace(stripes, levels=levels, collapsed=collapsed, edp=edp, record_names=names, polarity=polarity)
+    plain = {"levels": levels, "record_names": names, "polarity": polarity, "events": (), "checksums": ()}
+    return replace(stripes, collapsed=collapsed, edp=edp, **plain)
 
 
 def cost_of(first, levels):
@@ -138,7 +138,16 @@ def test_likelihood(wall, records, levels):
         for j in range(2):
             ei, ej = h * np.eye(2)[i], h * np.eye(2)[j]
             bend[i, j] = sum(a * b * cost(best.x + a * ei + b * ej) for a in (1, -1) for b in (1, -1)) / (4.0 * h**2)
-    np.testing.assert_allclose(curve.covariance, np.linalg.inv(bend), rtol=1e-4)
+    np.testing.assert_allclose(curve.naive_covariance, np.linalg.inv(bend), rtol=1e-4)
+    # To first order the clustered covariance is the sum over fits that leave out an event each
+    assert (curve.errors, curve.clusters) == ("clustered", 22)
+    changes = []
+    for event in dict.fromkeys(stripes.events):
+        kept = np.array([own != event for own in stripes.events])[stripes.record_index]
+        one = optimize.minimize(cost_of(ida.first_collapse[kept], levels), best.x, method="Nelder-Mead").x
+        changes.append(one - best.x)
+    expected = np.transpose(changes) @ np.array(changes)
+    np.testing.assert_allclose(np.diag(curve.covariance), np.diag(expected), rtol=0.2)
     assert stripes.fit().theta != curve.theta
 
 
@@ -184,12 +193,10 @@ def test_status(stripes, table, status):
 
 def test_what_the_curve_cannot_do(stripes):
     curve = dd.incremental(stripes).fit()
-    with pytest.raises(dd.DondoloError, match="first collapses"):
-        curve.interval(0.5, method="profile")
     with pytest.raises(dd.DondoloError, match="needs the stripes"):
         curve.bootstrap()
-    with pytest.raises(dd.DondoloError, match="not to first collapses"):
-        dd.compare(curve, stripes.fit())
+    # The same records make both curves
+    assert dd.compare(curve, stripes.fit()).pairing == "paired"
     with pytest.raises(dd.InputError, match="list is no Stripes"):
         dd.incremental([])
 

@@ -219,7 +219,7 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_rows", "run_scaled", "fit_curves", "probability",
-        "in_series",
+        "in_series", "cluster_curves",
     }  # fmt: skip
 
 
@@ -367,10 +367,6 @@ def test_no_name_hides_a_module():
         (lambda wall, sine: sine.correct_baseline("Linear"), "'constant', 'linear', 'velocity'"),
         (lambda wall, sine: dd.synthetic_records(6.0, 10.0, "Rock"), "'rock', 'shallow', 'deep'"),
         (lambda wall, sine: dd.sample_population("One_Sided", 2, 1), "'one_sided', 'free_standing', 'two_block'"),
-        (
-            lambda wall, sine: dd.fit_fragility([0.2, 0.4], [11, 33], 44).interval(0.3, method="Delta"),
-            "'delta', 'profile'",
-        ),
     ],
 )
 def test_words_of_options_are_exact(call, words, wall, sine):

@@ -213,7 +213,7 @@ def test_numbers_of_a_wall(stripes, pages):
     assert table["collapses"] == [str(z) for z in stripes.collapses]
     assert table["fitted curve"] == chances(curve(stripes.levels))
     table = page.table("95 % intervals")
-    assert table["θ from"][1] == four([curve.parameter_interval(method="profile")["theta"][0]])[0]
+    assert table["θ from"][0] == four([curve.parameter_interval()["theta"][0]])[0]
     table = page.table("Records, and collapses")
     assert table["record"] == list(stripes.record_names)
     # The intensity of a record is a level over its factor.

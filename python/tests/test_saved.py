@@ -55,7 +55,6 @@ def results(stripes, few, wall):
         ),
         "intensities": dd.compare_intensities(wall, few, ims=["pga", "pgv"], progress=False),
         "comparison": dd.compare(curve, gone.fit()) if gone.fit().has_fit else dd.compare(curve, curve),
-        "comparison by bootstrap": dd.compare(curve, curve, method="bootstrap", n_resamples=20),
         "bootstrap": curve.bootstrap(n_resamples=20),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),
@@ -214,7 +213,9 @@ def test_arrays_are_read_only_and_stored_once(results, tmp_path):
 
 def comparison(interval):
     """A result with any values."""
-    return dd.Comparison(method="likelihood", p_value=0.5, ratio=1.0, ratio_interval=interval, statistic=0.0)
+    names = ("ratio", "p_value", "beta_ratio", "beta_p_value", "curves_p_value", "degrees_of_freedom")
+    numbers = dict.fromkeys(names, 0.5)
+    return dd.Comparison(pairing="paired", shared=3, ratio_interval=interval, beta_interval=(0.5, 2.0), **numbers)
 
 
 def test_values_that_json_lacks(tmp_path):

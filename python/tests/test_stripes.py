@@ -219,7 +219,7 @@ def test_interruption_is_quick(records):
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
     with pytest.raises(dd.Interrupted) as caught:
-        dd.multiple_stripe(wall, records * 50, np.linspace(0.2, 2.0, 500), progress=False)
+        dd.multiple_stripe(wall, list(records) * 50, np.linspace(0.2, 2.0, 500), progress=False)
     timer.cancel()
     partial = caught.value.partial
     assert partial is None or len(partial.levels) < 250

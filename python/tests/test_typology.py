@@ -91,7 +91,7 @@ def test_the_counts_behind_the_fit(typology):
     for group in typology.groups:
         again = dd.fit_fragility(group.fit.levels, group.fit.collapses, group.fit.histories)
         assert (again.theta, again.beta) == pytest.approx((group.fit.theta, group.fit.beta), rel=1e-12)
-    low, high = typology["all"].fit.interval(0.6, method="profile")
+    low, high = typology["all"].fit.interval(0.6)
     assert low < typology["all"].fit(0.6) < high
 
 
@@ -253,7 +253,7 @@ def test_a_partial_population_keeps_its_weights_and_origin():
     walls = [dd.OneSidedWall(3.0, 0.3, name=name) for name in "abc"]
     people = dd.Population(walls, [0.0, 2.0, 3.0], origin=["surveyed"])
     counts = np.array([1, 5, 9], dtype=np.int32)[None, :, None].repeat(3, axis=2)
-    sizes = np.full(3, 10, dtype=np.int32)
+    sizes = np.full((3, 3), 10, dtype=np.int32)
     given = people, "pga", np.array([0.2, 0.4, 0.8]), np.array([1.0]), counts, sizes
     with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
         combine(*given, np.array([True, False, False]), dd.Work())

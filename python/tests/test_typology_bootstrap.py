@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import study
 from costs import growth
+from dondolo.curves.sample import cluster_labels
 from dondolo.populations import bootstrap
 from dondolo.populations.bootstrap import resample_population
 from dondolo.populations.flags import Flags
@@ -22,7 +23,8 @@ def flags_of(reached):
     histories = np.array([row.shape[-1] for row in reached], dtype=np.int32)
     records = int(histories.min())
     levels = reached[0].shape[1]
-    flags = Flags.empty(histories, levels, len(reached[0]), np.ones((records, levels)))
+    runs = np.ones((records, levels))
+    flags = Flags.empty(histories, levels, len(reached[0]), runs, cluster_labels(records))
     for i, row in enumerate(reached):
         flags.bits[flags.place(i, 1)] = np.packbits(row)
     return flags
@@ -164,7 +166,19 @@ def test_of_a_typology():
         samples.se_ln_theta, rel=0.2
     )
     curve = typology["all"].fit
-    assert samples.se_ln_theta > 2.0 * curve.se_ln_theta
+    # The sandwich estimates the same, with the records and the walls apart
+    assert (curve.errors, [part.kind for part in curve.parts]) == ("clustered", ["records", "walls"])
+    assert samples.se_ln_theta > 2.0 * np.sqrt(curve.naive_covariance[0, 0])
+    for part, over in zip(curve.parts, ("records", "walls"), strict=True):
+        drawn = typology["all"].bootstrap(n_resamples=1000, over=over)
+        own = np.sqrt(np.diag(part.covariance))
+        assert own == pytest.approx([drawn.se_ln_theta, drawn.se_beta], rel=0.25)
+    row = next(curve for curve in typology.curves if curve.has_fit)
+    alone = dd.multiple_stripe(
+        row.wall, given["records"], given["levels"], polarity=given["polarity"], progress=False
+    ).fit()
+    np.testing.assert_allclose(row.covariance, alone.covariance, rtol=1e-9)
+    assert (row.clusters, row.degrees_of_freedom) == (alone.clusters, alone.degrees_of_freedom)
     records, walls = (
         typology["all"].bootstrap(n_resamples=300, over="records"),
         typology["all"].bootstrap(n_resamples=300, over="walls"),

@@ -2,8 +2,9 @@
 module curves
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report, split_lines
+   use dondolo_clustered, only : cluster_errors
    use dondolo_error, only : error_type
-   use dondolo_fragility, only : fit_fragility, fragility_type, status_names
+   use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
    use dondolo_handles, only : find_walls
    use dondolo_lines, only : lines_type
    use dondolo_members, only : choose_members, members_type, population_probabilities
@@ -20,7 +21,8 @@ module curves
    implicit none
    private
 
-   public :: fit_curves, probability, in_series, warn_of_curve, fit_walls, curve_of_population
+   public :: fit_curves, cluster_curves, cluster_changes, probability, in_series, warn_of_curve, fit_walls
+   public :: curve_of_population
 
 contains
 
@@ -64,6 +66,61 @@ contains
       end do
       !$omp end parallel do
    end subroutine fit_curves
+
+   !> Clustered covariances (var ln theta, covariance, var beta) of k fitted curves from the collapses and histories of each of
+   !> g clusters at each of m levels; the histories are the same for all curves if h is 1, else h is k. errors are places among
+   !> the names, and clusters count those that have histories
+   subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, stat, &
+         & message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: m, g, k, h, statuses(k)
+      real(c_double), intent(in) :: levels(m), collapses(m, g, k), histories(m, g, h), curves(8, k)
+      real(c_double), intent(out) :: covariances(3, k)
+      integer(c_int), intent(out) :: errors(k), clusters(k), stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve
+      type(error_type), allocatable :: error
+      real(c_double) :: changes(2, g)
+      integer :: i
+
+      covariances = 0
+      errors = 0
+      clusters = 0
+      call check_room(error, reals=40.0_c_double*m)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      !$omp parallel do default(none) private(curve, changes) &
+      !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
+      !$omp & shared(errors, clusters)
+      do i = 1, k
+         curve = fragility_type(status=status_names(statuses(i)), theta=curves(1, i), beta=curves(2, i))
+         call cluster_errors(curve, levels, collapses(:, :, i), histories(:, :, min(i, h)), changes)
+         covariances(:, i) = [curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2)]
+         errors(i) = findloc(error_names, curve%errors, dim=1)
+         clusters(i) = curve%clusters
+      end do
+      !$omp end parallel do
+   end subroutine cluster_curves
+
+   !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors as cluster_curves
+   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, stat, message)
+      integer(c_int), intent(in) :: m, g
+      real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
+      real(c_double), intent(out) :: changes(2, g)
+      integer(c_int), intent(out) :: errors, stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve
+      type(error_type), allocatable :: error
+
+      changes = 0
+      errors = 0
+      call check_room(error, reals=40.0_c_double*m)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      curve = fragility_type(status='ok', theta=theta, beta=beta)
+      call cluster_errors(curve, levels, collapses, histories, changes)
+      errors = findloc(error_names, curve%errors, dim=1)
+   end subroutine cluster_changes
 
    !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
    subroutine probability(theta, beta, x, n, p)

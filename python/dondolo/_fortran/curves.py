@@ -73,6 +73,35 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
     return curves.T, [names[code - 1] for code in codes]
 
 
+def cluster_changes(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, theta: float, beta: float
+) -> tuple[FloatArray, str]:
+    """Changes (clusters, 2) of ln theta and beta if each cluster is left out, and what standard errors there are.
+
+    Collapses and histories are (clusters, levels).
+    """
+    changes, code, stat, message = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
+    check(stat, message)
+    return changes.T, constants().errors[code - 1]
+
+
+def cluster_curves(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
+) -> tuple[FloatArray, list[str], NDArray[np.int32]]:
+    """Covariances (curves, 2, 2) of many curves, what standard errors each has, and its number of clusters.
+
+    Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
+    """
+    names, known = constants().statuses, constants().errors
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
+    codes = np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], numbers.T, codes)
+    covariances, errors, clusters, stat, message = found
+    check(stat, message)
+    return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
+
+
 def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
     """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
 

@@ -11,7 +11,7 @@ module library
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
    use dondolo_boundary, only : report
    use dondolo_error, only : error_type, raise_input
-   use dondolo_fragility, only : status_names
+   use dondolo_fragility, only : error_names, status_names
    use dondolo_handles, only : release
    use dondolo_interrupt, only : begin => listen, finish => end_listening
    use dondolo_lane_variants, only : build_variant, check_variant
@@ -30,11 +30,11 @@ module library
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(defaults, version, statuses)
+   subroutine constants(defaults, version, statuses, errors)
       ! rtol, atol, edp_limit, gravity
       real(c_double), intent(out) :: defaults(4)
       character(len=32), intent(out) :: version
-      character(len=256), intent(out) :: statuses
+      character(len=256), intent(out) :: statuses, errors
       type(solver_type) :: solver
       integer :: i
 
@@ -43,6 +43,10 @@ contains
       statuses = ''
       do i = 1, size(status_names)
          statuses = trim(statuses)//' '//status_names(i)
+      end do
+      errors = ''
+      do i = 1, size(error_names)
+         errors = trim(errors)//' '//error_names(i)
       end do
    end subroutine constants
 

@@ -35,6 +35,7 @@ class Constants(NamedTuple):
     gravity: float
     version: str
     statuses: tuple[str, ...]
+    errors: tuple[str, ...]
 
 
 class Property(NamedTuple):
@@ -86,7 +87,7 @@ class Parcel(NamedTuple):
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    defaults, version, statuses = _core.library.constants()
+    defaults, version, statuses, errors = _core.library.constants()
     rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
         rtol,
@@ -95,6 +96,7 @@ def constants() -> Constants:
         gravity,
         version=version.decode().strip(),
         statuses=tuple(statuses.decode().split()),
+        errors=tuple(errors.decode().split()),
     )
 
 

@@ -57,6 +57,8 @@ class RunFile:
         Group -> variable -> value, all in force.
     inputs : tuple of mapping
         Files of the case: role, path, bytes, crc32.
+    records : tuple of mapping
+        Records of the case: name, event (label of its cluster, '' for none), checksum of its samples.
     work : mapping
         Counts of what was computed, by name; empty for a time history.
     history : HistoryResult or None
@@ -82,6 +84,7 @@ class RunFile:
     real_bits: int = 64
     settings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     inputs: tuple[Mapping[str, Any], ...] = ()
+    records: tuple[Mapping[str, str], ...] = ()
     work: Mapping[str, int] = field(default_factory=dict)
     history: HistoryResult | None = None
     notes: tuple[str, ...] = ()
@@ -103,7 +106,7 @@ class RunFile:
         """The text of the file."""
         content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
-        content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape}
+        content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape, "records": self.records}
         content["files"] = [file._asdict() for file in self.files]
         if self.work:
             content["work"] = self.work
@@ -148,6 +151,10 @@ def read_run_file(path: str) -> RunFile:
             _member(content, "real_bits", int, 64),
             {group: _member(content["settings"], group, dict) for group in _member(content, "settings", dict)},
             tuple(_all(content, "inputs", dict)),
+            tuple(
+                {key: _member(one, key, str) for key in ("name", "event", "checksum")}
+                for one in _all(content, "records", dict)
+            ),
             {name: _member(work, name, int) for name in work},
             _history(history) if history else None,
             tuple(_all(content, "notes", str)),

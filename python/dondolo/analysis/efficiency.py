@@ -167,7 +167,7 @@ def compare_intensities(
     seed : int, Generator or None
         Of these samples.
     events : sequence, optional
-        A label for each record; those with the same label are drawn together, as in `Fragility.bootstrap`.
+        A label for each record in place of its event; records with the same label depend on each other.
     threads, progress
         As for `multiple_stripe`.
 
@@ -191,14 +191,14 @@ def compare_intensities(
         analyses.append(
             multiple_stripe(wall, several, grid, im=im, polarity=polarity, threads=threads, progress=progress)
         )
-        curves.append(analyses[-1].fit())
+        curves.append(analyses[-1].fit(events=events))
         if not curves[-1].has_fit:
             raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
     power = np.array([describe_measure(im).power for im in names], dtype=np.float64)
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    times = draw_records(len(several), n_resamples, seed, events)
+    times = draw_records(analyses[0]._sample(events).clusters, n_resamples, seed)
     drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
     interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
     return IntensityComparison(

@@ -50,8 +50,9 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.fragility import Fragility, extrapolation
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.curves.clusters import FEWEST, Clusters, errors_of_parts, no_errors
+from dondolo.curves.fragility import Fragility, extrapolation, with_errors
+from dondolo.errors import DondoloWarning, InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,13 +67,10 @@ _MOST_STEPS = 100
 class FirstCollapseFragility(Fragility):
     """A lognormal fitted to first collapses.
 
-    As `Fragility`, but its covariance is that of a sample of capacities, and its collapses count each history at all
-    levels from its first collapse on. It has no binomial likelihood: `log_likelihood` is NaN, and there are no
-    intervals by the profile.
+    As `Fragility`, but its covariance is that of a sample of capacities, clustered as that of stripes, and its
+    collapses count each history at all levels from its first collapse on. It has no binomial likelihood:
+    `log_likelihood` is NaN.
     """
-
-    def _likelihood(self) -> Any:
-        raise DondoloError("method = 'profile': is for curves fitted to stripes; this one is fitted to first collapses")
 
     def _facts(self) -> list[tuple[str, str]]:
         return [fact for fact in super()._facts() if fact[0] != "log likelihood"]
@@ -146,6 +144,7 @@ class Incremental(Shown, Saved):
         levels, n = self.levels, len(self.first_collapse)
         theta = beta = np.nan
         covariance = np.full((2, 2), np.nan)
+        sample, errors = self.stripes._sample(), None
         if self.counted[-1] == 0:
             status = "no_collapse"
         elif self.counted[0] == n:
@@ -157,8 +156,20 @@ class Incremental(Shown, Saved):
         elif np.count_nonzero((self.counted > 0) & (self.counted < n)) < 2:
             status = "separated"
         else:
-            mean, beta, covariance = _censored(np.log(levels), np.diff(self.counted, prepend=0, append=n))
+            labels = tuple(dict.fromkeys(sample.clusters))
+            # Histories of each cluster between two levels, below the lowest and above the highest
+            place = np.searchsorted(levels, self.first_collapse)
+            number = np.array([labels.index(label) for label in sample.clusters])[sample.record_index]
+            counts = np.zeros((len(labels), len(levels) + 1))
+            np.add.at(counts, (number, place), 1.0)
+            mean, beta, covariance, changes = _censored(np.log(levels), counts)
             theta = float(np.exp(mean))
+            if len(labels) < FEWEST:
+                errors = no_errors("few_clusters", len(labels))
+            elif changes is None:
+                errors = no_errors("one_cluster", len(labels))
+            else:
+                errors = errors_of_parts([Clusters("records", labels, changes)])
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
@@ -174,13 +185,14 @@ class Incremental(Shown, Saved):
             histories=np.full(len(levels), float(n)),
             im=self.stripes.im,
             wall=self.stripes.wall,
+            naive_covariance=covariance,
         )
         if status == "extrapolated":
             warn([extrapolation(curve)])
         elif status != "ok":
             sentence = f"no curve of first collapses is fitted (status '{status}')"
             warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
-        return curve
+        return curve if errors is None else with_errors(curve, errors)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw a line for each history, and their fractiles, bold.
@@ -297,16 +309,19 @@ def fractiles(values: FloatArray) -> FloatArray:
     return np.quantile(values, SHARES, axis=-1, method="inverted_cdf")
 
 
-def _censored(x: FloatArray, counts: np.ndarray[Any, np.dtype[np.int64]]) -> tuple[float, float, FloatArray]:
+def _censored(x: FloatArray, by_cluster: FloatArray) -> tuple[float, float, FloatArray, FloatArray | None]:
     """Mean and deviation of a normal sample of which only the intervals are known, and their covariance.
 
-    Between the values x, which increase, below and above them lie so many of the sample. In c = 1/deviation and
+    Between the values x, which increase, below and above them lie so many of each cluster (clusters, intervals).
+    Besides the covariance of independent values comes the change of mean and deviation if each cluster is left out, to
+    first order; None if one of them alone determines them. In c = 1/deviation and
     a = mean/deviation the logarithm of the likelihood, sum(n ln(Phi(z_j) - Phi(z_(j-1)))) with z = c x - a, is concave.
     By hand, since SciPy's fit to censored data stops after some four digits and gives no covariance.
     """
     from scipy.special import log_ndtr
 
-    some = counts > 0
+    counts = by_cluster.sum(axis=0)
+    some = counts > 0.0
     n, shift = counts[some], float(np.average(x, weights=counts[:-1]))
     y = x - shift
     ends = np.stack([np.append(-np.inf, y)[some], np.append(y, np.inf)[some]])
@@ -327,19 +342,20 @@ def _censored(x: FloatArray, counts: np.ndarray[Any, np.dtype[np.int64]]) -> tup
     def height(p: FloatArray) -> float:
         return float(n @ intervals(p)[0]) if p[1] > 0.0 else -np.inf
 
+    # Of each interval
     def slope_and_curvature(p: FloatArray) -> tuple[FloatArray, FloatArray]:
         _, (low, high), (below, above) = intervals(p)
-        slope = np.array([n @ (below - above), n @ (above * y[1] - below * y[0])])
+        slope = np.array([below - above, above * y[1] - below * y[0]])
         # Minus the second derivatives of ln(Phi(high) - Phi(low)) with respect to the ends
-        ll, hh, lh = n * below * (below - low), n * above * (above + high), -n * below * above
-        across = -(ll * y[0] + hh * y[1] + lh * (y[0] + y[1])).sum()
-        steep = (ll * y[0] ** 2 + hh * y[1] ** 2 + 2.0 * lh * y[0] * y[1]).sum()
-        return slope, np.array([[(ll + hh + 2.0 * lh).sum(), across], [across, steep]])
+        ll, hh, lh = below * (below - low), above * (above + high), -below * above
+        across = -(ll * y[0] + hh * y[1] + lh * (y[0] + y[1]))
+        steep = ll * y[0] ** 2 + hh * y[1] ** 2 + 2.0 * lh * y[0] * y[1]
+        return slope, np.array([[ll + hh + 2.0 * lh, across], [across, steep]])
 
     # Newton's method; a step that does not rise is halved
     p = np.array([0.0, 1.0 / (x[-1] - x[0])])
     for _ in range(_MOST_STEPS):
-        slope, curvature = slope_and_curvature(p)
+        slope, curvature = (part @ n for part in slope_and_curvature(p))
         step = np.linalg.solve(curvature, slope)
         for _ in range(_MOST_STEPS):
             if height(p + step) >= height(p) + 1e-4 * float(slope @ step) - 1e-13 * abs(height(p)):
@@ -351,5 +367,11 @@ def _censored(x: FloatArray, counts: np.ndarray[Any, np.dtype[np.int64]]) -> tup
     a, c = p
     # (mean, deviation) = (a/c, 1/c)
     jacobian = np.array([[1.0 / c, -a / c**2], [0.0, -1.0 / c**2]])
-    covariance = jacobian @ np.linalg.inv(slope_and_curvature(p)[1]) @ jacobian.T
-    return float(a / c) + shift, float(1.0 / c), covariance
+    slopes, curvatures = slope_and_curvature(p)
+    own = by_cluster[:, some]
+    rest = np.moveaxis(curvatures @ (n - own).T, -1, 0)
+    changes = None
+    if np.all(np.linalg.det(rest) > 1e-12 * np.linalg.det(curvatures @ n)):
+        changes = -np.linalg.solve(rest, (own @ slopes.T)[..., None])[..., 0] @ jacobian.T
+    covariance = jacobian @ np.linalg.inv(curvatures @ n) @ jacobian.T
+    return float(a / c) + shift, float(1.0 / c), covariance, changes

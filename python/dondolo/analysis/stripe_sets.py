@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +25,8 @@ _MATRICES = {
     "edp_error": np.nan,
     "ran": False,
 }
+# Fields with a text for each record, or with none
+_OF_RECORDS = ("events", "checksums")
 # What must be the same for stripes to be joined
 _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
 
@@ -104,7 +107,19 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     polarity = np.repeat(order, len(joint)).astype(one.polarity.dtype)
     polarity.flags.writeable = False
     work = Work.total([one.work, other.work])
-    return dataclasses.replace(joined, record_names=tuple(joint) * len(order), polarity=polarity, work=work)
+    of_records: dict[str, Any] = {name: _of_records(name, (one, other), joint) for name in _OF_RECORDS}
+    names_twice = tuple(joint) * len(order)
+    return dataclasses.replace(joined, record_names=names_twice, polarity=polarity, work=work, **of_records)
+
+
+def _of_records(what: str, parts: Sequence[Stripes], joint: Sequence[str]) -> tuple[str, ...]:
+    """A text of each record of two runs."""
+    found: dict[str, str] = {}
+    for part in parts:
+        for name, text in zip(part.record_names, getattr(part, what), strict=False):
+            if found.setdefault(name, text) != text:
+                raise InputError(f"stripes: record '{name}' differs ({what}), so that they cannot be joined")
+    return tuple(found.get(name, "") for name in joint) if found else ()
 
 
 def _with(stripes: Stripes, levels: NDArray[Any], change: Any, columns: NDArray[np.bool_] | None = None) -> Stripes:
@@ -117,6 +132,10 @@ def _with(stripes: Stripes, levels: NDArray[Any], change: Any, columns: NDArray[
         fields["polarity"] = stripes.polarity[columns]
         chosen = zip(stripes.record_names, columns, strict=True)
         fields["record_names"] = tuple(name for name, here in chosen if here)
+        kept = np.unique(stripes.record_index[columns]).tolist()
+        for name in _OF_RECORDS:
+            texts = getattr(stripes, name)
+            fields[name] = tuple(texts[i] for i in kept) if texts else ()
     for values in fields.values():
         if isinstance(values, np.ndarray):
             values.flags.writeable = False

@@ -24,7 +24,7 @@ from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_sets import cut, in_matrix, join, span
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fit
-from dondolo.curves.sample import Sample
+from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall, upload, walls_table
@@ -71,6 +71,10 @@ class Stripes(Shown, Saved):
         What was computed, and what was not, by the runs that the stripes come from.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
+    events : tuple of str, length records
+        `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
+    checksums : tuple of str, length records
+        `Record.checksum` of each.
     """
 
     wall: Wall
@@ -90,6 +94,8 @@ class Stripes(Shown, Saved):
     edp_limit: float
     work: Work
     edp_error: FloatArray | None = None
+    events: tuple[str, ...] = ()
+    checksums: tuple[str, ...] = ()
 
     def __getitem__(self, which: Any) -> Stripes:
         """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
@@ -152,13 +158,16 @@ class Stripes(Shown, Saved):
         counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
         return counts
 
-    def fit(self, edp_threshold: float | None = None) -> Fragility:
-        """Fit a fragility curve by maximum likelihood.
+    def fit(self, edp_threshold: float | None = None, *, events: Sequence[Any] | None = None) -> Fragility:
+        """Fit a fragility curve by maximum likelihood, with standard errors that are clustered by record or by event.
 
         Parameters
         ----------
         edp_threshold : float, optional
             Rotation / capacity that makes a damage state; collapse if left out.
+        events : sequence, optional
+            A label for each record, such as its recording or its earthquake, in place of `events`: records with the
+            same label depend on each other.
 
         Returns
         -------
@@ -178,7 +187,7 @@ class Stripes(Shown, Saved):
             im=self.im,
             wall=self.wall,
             edp_threshold=state.edp_limit,
-            sample=state._sample(),
+            sample=state._sample(events),
         )
         low, high = curve.bracket
         numbers = np.zeros(8)
@@ -238,14 +247,18 @@ class Stripes(Shown, Saved):
         edp, collapsed = np.minimum(self.edp, edp_threshold), self.edp >= edp_threshold
         return dataclasses.replace(self, edp=edp, collapsed=collapsed, edp_limit=edp_threshold)
 
-    def _sample(self) -> Sample:
+    def _sample(self, events: Sequence[Any] | None = None) -> Sample:
         """The histories as a curve keeps them."""
+        names = self.record_names[: self.n_records]
         return Sample(
             levels=self.levels,
             collapsed=self.collapsed,
             ran=self.ran,
             record_index=self.record_index,
-            record_names=self.record_names[: self.n_records],
+            record_names=names,
+            clusters=cluster_labels(len(names), self.events, self.checksums)
+            if events is None
+            else given_labels(len(names), events),
         )
 
     def _tables(self) -> dict[_Table, Any]:
@@ -385,6 +398,8 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
+        events=tuple(record.event for record in request.records),
+        checksums=tuple(record.checksum for record in request.records),
         **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -107,37 +107,21 @@ class Bootstrap(Saved):
         return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
 
 
-def draw_records(number: int, n_resamples: int, seed: Any, events: Sequence[Any] | None = None) -> FloatArray:
+def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArray:
     """How often each record comes in each of some samples drawn with replacement: (samples, records).
 
-    Records with the same label in `events` are drawn together. Each sample has as many records as there are.
+    Records with the same label are drawn together. Each sample has as many records as there are.
     """
     n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
-    labels = _labels(number, events)
     places: dict[Any, int] = {}
     place = [places.setdefault(label, len(places)) for label in labels]
     if len(places) < 2:
-        what = "records" if events is None else "events"
+        what = "records" if len(labels) < 2 else "events"
         raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
     drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n_resamples)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
-    times: FloatArray = drawn * (number / drawn.sum(axis=1, keepdims=True))
+    times: FloatArray = drawn * (len(labels) / drawn.sum(axis=1, keepdims=True))
     return times
-
-
-def _labels(number: int, events: Sequence[Any] | None) -> list[Any]:
-    """The label of each record; none may be missing, for all that are would be one event."""
-    if events is None:
-        return list(range(number))
-    if isinstance(events, str) or not isinstance(events, Iterable):
-        raise InputError(f"events = {events!r}: must be labels, one for each record")
-    labels = list(events)
-    if len(labels) != number:
-        raise InputError(f"events: {len(labels)} labels for {number} records: must be as many")
-    for i, label in enumerate(labels):
-        if label is None or label == "" or label != label or not isinstance(label, Hashable):
-            raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
-    return labels
 
 
 def resample(sample: Sample, times: FloatArray) -> Bootstrap:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import as_generator, instance_of, one_of, tails
-from dondolo._fortran.library import warn
+from dondolo._base.arguments import FloatArray, instance_of, tails
 from dondolo._storage.saved import Saved
-from dondolo.curves import fragility
-from dondolo.curves.bootstrap import draw_records, resample
+from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import InputError
+
+Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,142 +22,168 @@ class Comparison(Saved):
 
     Attributes
     ----------
-    method : str
-        'likelihood' or 'bootstrap'.
-    p_value : float
-        Probability of a difference at least as large if the curves were one and the same ('likelihood'), or if their
-        medians were ('bootstrap').
+    pairing : str
+        'paired', both curves have the same clusters of records; 'partly', some of them; 'unpaired', none; 'naive', all
+        histories of both are taken for independent.
+    shared : int
+        Clusters of records that both curves have.
     ratio : float
         Median of the first / median of the second.
     ratio_interval : (float, float)
         Confidence interval of the ratio.
-    statistic : float
-        Twice the gain in log likelihood of two curves over one, chi-squared with 2 degrees of freedom if there is but
-        one; NaN for 'bootstrap'.
+    p_value : float
+        Probability of a ratio at least as far from 1 if the medians were equal.
+    beta_ratio : float
+        Dispersion of the first / dispersion of the second.
+    beta_interval : (float, float)
+        Confidence interval of that ratio.
+    beta_p_value : float
+        Probability of a ratio at least as far from 1 if the dispersions were equal.
+    curves_p_value : float
+        Probability of differences at least as large, in both together, if the curves were one and the same
+        (Hotelling's test); NaN where they determine only one of them.
+    degrees_of_freedom : float
+        Of Student's t for the ratio of the medians; inf for 'naive'.
     """
 
-    method: str
-    p_value: float
+    pairing: str
+    shared: int
     ratio: float
-    ratio_interval: tuple[float, float]
-    statistic: float
+    ratio_interval: Interval
+    p_value: float
+    beta_ratio: float
+    beta_interval: Interval
+    beta_p_value: float
+    curves_p_value: float
+    degrees_of_freedom: float
 
 
-def compare(
-    first: Fragility,
-    second: Fragility,
-    *,
-    method: Literal["likelihood", "bootstrap"] = "likelihood",
-    confidence: float = 0.95,
-    n_resamples: int = 2000,
-    seed: int | np.random.Generator | None = 0,
-    events: Sequence[Any] | None = None,
-) -> Comparison:
+def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) -> Comparison:
     """Compare two fragility curves of the same intensity measure.
+
+    The covariance of the differences of ln theta and ln beta takes in what the curves share: records that are the same,
+    by their content, and records of the same event depend on each other in both. Records that only one of the curves
+    has are independent of the other curve.
 
     Parameters
     ----------
     first, second : Fragility
-        Curves with a fit.
-    method : {'likelihood', 'bootstrap'}
-        Likelihood ratio test of equal theta and beta, for curves from independent records; or bootstrap over records of
-        the ratio of the medians, which draws the same records for both where both have the same, and so keeps what they
-        share.
+        Curves with standard errors; both clustered, or both naive.
     confidence : float
-        Confidence of the interval of the ratio.
-    n_resamples, seed
-        Number of samples of the bootstrap, and seed of its random numbers.
-    events : sequence, optional
-        A label for each record of the first curve, for the bootstrap of curves from the same records: those with the
-        same label are drawn together, as in `Fragility.bootstrap`.
+        Of the intervals.
 
     Returns
     -------
     Comparison
+        `pairing` says what the curves share.
 
     Raises
     ------
     InputError
-        No curves, or curves of different measures; no such method; events where they mean nothing.
+        No curves, or curves of different measures; one clustered and one naive; curves whose records are not known.
     DondoloError
-        A curve without a fit, or without what the method needs.
-
-    Warns
-    -----
-    DondoloWarning
-        The curves are of populations, whose walls share their records.
+        A curve without a fit or without standard errors.
     """
-    one_of("method", method, ("likelihood", "bootstrap"))
     for curve in (first, second):
         instance_of("curves", curve, Fragility, "no fragility curve")
-    if events is not None and method == "likelihood":
-        raise InputError("events: is for method = 'bootstrap'")
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):
-        curve._need_fit()
-    if any(curve.wall is None and curve.edp_threshold is not None for curve in (first, second)):
-        sentence = "walls of a population share their records: the comparison is too sure; its bootstrap tells more"
-        warn([DondoloWarning(sentence, "records_shared")])
-    if method == "likelihood":
-        return _by_likelihood(first, second, confidence)
-    return _by_bootstrap(first, second, confidence, n_resamples, seed, events)
+        curve._quantile(confidence)
+        if curve.errors == "clustered" and not curve.parts:
+            raise InputError(
+                "curves: one wall of a population does not know its records: compare curves of Stripes.fit"
+            )
+    if first.errors != second.errors:
+        raise InputError(f"standard errors: {first.errors} and {second.errors}: both must be of one kind")
+    # In ln theta and ln beta
+    scales = np.array([1.0, 1.0 / first.beta]), np.array([1.0, 1.0 / second.beta])
+    if first.errors == "naive":
+        covariance = sum(
+            np.outer(scale, scale) * curve.covariance for curve, scale in zip((first, second), scales, strict=True)
+        )
+        return _comparison(first, second, ("naive", 0), np.asarray(covariance), (np.inf, np.inf), confidence)
+    parts: list[tuple[FloatArray, int]] = []
+    pairing, shared = "unpaired", 0
+    for kind in dict.fromkeys(part.kind for curve in (first, second) for part in curve.parts):
+        several = [
+            (part.labels, sign * part.changes * scale)
+            for curve, scale, sign in zip((first, second), scales, (1.0, -1.0), strict=True)
+            for part in curve.parts
+            if part.kind == kind
+        ]
+        common = set.intersection(*(set(labels) for labels, _ in several)) if len(several) == 2 else set()
+        if kind == "records":
+            shared = len(common)
+            same = all(shared == len(labels) for labels, _ in several)
+            pairing = "paired" if same else "partly" if shared else "unpaired"
+        if common:
+            # No more degrees of freedom than the curve with fewer clusters has
+            parts.append((_joint(several), min(len(labels) for labels, _ in several) - 1))
+        else:
+            parts += [(changes.T @ changes, len(labels) - 1) for labels, changes in several]
+    covariance = np.sum([part for part, _ in parts], axis=0)
+    degrees = [freedom([(float(part[i, i]), number) for part, number in parts]) for i in range(2)]
+    return _comparison(first, second, (pairing, shared), covariance, degrees, confidence)
 
 
-def _by_likelihood(first: Fragility, second: Fragility, confidence: float) -> Comparison:
-    if np.isnan([first.log_likelihood, second.log_likelihood]).any():
-        raise DondoloError("method = 'likelihood': is for curves fitted to counts, not to first collapses")
-    pairs = zip(
-        (first.levels, first.collapses, first.histories),
-        (second.levels, second.collapses, second.histories),
-        strict=True,
-    )
-    together = fragility.fit(*(np.concatenate(pair) for pair in pairs))
-    together._need_fit()
-    statistic = max(0.0, 2.0 * (first.log_likelihood + second.log_likelihood - together.log_likelihood))
-    ratio = first.theta / second.theta
-    half = fragility._quantile(confidence) * np.hypot(first.se_ln_theta, second.se_ln_theta)
-    # The survival function of chi-squared with 2 degrees of freedom is exp(-x/2).
-    return Comparison(
-        method="likelihood",
-        p_value=float(np.exp(-0.5 * statistic)),
-        ratio=ratio,
-        ratio_interval=fragility._spread(ratio, half),
-        statistic=statistic,
-    )
+def _joint(several: Sequence[tuple[tuple[str, ...], FloatArray]]) -> FloatArray:
+    """Covariance of a sum of changes, of which those of the same cluster come together."""
+    place = {
+        label: number for number, label in enumerate(dict.fromkeys(one for labels, _ in several for one in labels))
+    }
+    changes = np.zeros((len(place), 2))
+    for labels, own in several:
+        changes[[place[label] for label in labels]] += own
+    covariance: FloatArray = changes.T @ changes
+    return covariance
 
 
-def _by_bootstrap(
-    first: Fragility, second: Fragility, confidence: float, n_resamples: int, seed: Any, events: Sequence[Any] | None
+def _comparison(
+    first: Fragility,
+    second: Fragility,
+    pairing: tuple[str, int],
+    covariance: FloatArray,
+    degrees: Sequence[float],
+    confidence: float,
 ) -> Comparison:
-    if first.sample is None or second.sample is None:
-        raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-    random = as_generator(seed)
-    count = first.sample.n_records
-    times = draw_records(count, n_resamples, random, events)
-    # The same records, by position or, where names are unique, by name
-    names = [sample.record_names for sample in (first.sample, second.sample)]
-    if names[0] == names[1]:
-        others = times
-    elif sorted(names[0]) == sorted(names[1]) and len(set(names[0])) == count:
-        others = times[:, [names[0].index(name) for name in names[1]]]
-    elif events is not None:
-        raise InputError("events: is for curves from the same records")
-    else:
-        others = draw_records(second.sample.n_records, n_resamples, random)
-    difference = np.log(resample(first.sample, times).theta)
-    difference = difference - np.log(resample(second.sample, others).theta)
-    difference = difference[~np.isnan(difference)]
-    if not len(difference):
-        raise DondoloError("none of the samples of the bootstrap has a fit")
-    low, high = np.exp(np.quantile(difference, tails(confidence)))
-    below = (np.sum(difference <= 0.0) + 1.0) / (len(difference) + 1.0)
-    above = (np.sum(difference >= 0.0) + 1.0) / (len(difference) + 1.0)
-    p_value = float(min(1.0, 2.0 * min(below, above)))
+    from scipy.special import stdtr, stdtrit
+
+    difference = np.log([first.theta / second.theta, first.beta / second.beta])
+    found: list[tuple[float, Interval, float]] = []
+    for value, variance, freedom_ in zip(difference, np.diag(covariance), degrees, strict=True):
+        # Student's t with more than 1e15 degrees of freedom is the normal distribution to rounding.
+        number = min(freedom_, 1e15)
+        error = float(np.sqrt(variance))
+        half = float(stdtrit(number, tails(confidence)[1])) * error
+        # Curves of the same histories do not differ at all.
+        p_value = float(2.0 * stdtr(number, -abs(value) / error)) if error > 0.0 else float(value == 0.0)
+        found.append((float(np.exp(value)), (float(np.exp(value - half)), float(np.exp(value + half))), p_value))
+    (ratio, interval, p_value), (beta_ratio, beta_interval, beta_p_value) = found
     return Comparison(
-        method="bootstrap",
+        pairing=pairing[0],
+        shared=pairing[1],
+        ratio=ratio,
+        ratio_interval=interval,
         p_value=p_value,
-        ratio=first.theta / second.theta,
-        ratio_interval=(float(low), float(high)),
-        statistic=np.nan,
+        beta_ratio=beta_ratio,
+        beta_interval=beta_interval,
+        beta_p_value=beta_p_value,
+        curves_p_value=_hotelling(difference, covariance, min(degrees)),
+        degrees_of_freedom=degrees[0],
     )
+
+
+def _hotelling(difference: FloatArray, covariance: FloatArray, degrees: float) -> float:
+    """Probability of differences at least as large if there were none, by Hotelling's T squared."""
+    from scipy.special import fdtrc
+
+    if not difference.any():
+        return 1.0
+    if np.linalg.matrix_rank(covariance, hermitian=True) != 2 or degrees <= 1.0:
+        return np.nan
+    squared = float(difference @ np.linalg.solve(covariance, difference))
+    # Without an end to the degrees of freedom it is chi-squared with two of them.
+    if np.isinf(degrees):
+        return float(np.exp(-0.5 * squared))
+    return float(fdtrc(2.0, degrees - 1.0, squared * (degrees - 1.0) / (2.0 * degrees)))

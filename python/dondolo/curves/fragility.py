@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, one_of, shaped, tails
+from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, fit_curves, probability
 from dondolo._fortran.library import warn
@@ -18,7 +19,8 @@ from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
-from dondolo.curves.sample import Sample
+from dondolo.curves.clusters import Clusters, Errors, errors_of_sample
+from dondolo.curves.sample import Sample, given_labels
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures import style
 from dondolo.walls.wall import Wall
@@ -28,8 +30,15 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 
-#: How an interval is found
-Method = Literal["delta", "profile"]
+_Curve = TypeVar("_Curve", bound="Fragility")
+
+_BOUNDS = ("theta_low", "theta_high", "beta_low", "beta_high")
+
+_WHY = {
+    "naive": "as if all histories were independent",
+    "few_clusters": "less than three clusters of records",
+    "one_cluster": "one cluster of records determines the curve",
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -41,7 +50,7 @@ class Fragility(Shown, Saved):
     theta, beta : float
         Median, in the unit of the levels, and dispersion (standard deviation of the logarithm); NaN without a fit.
     covariance : ndarray, shape (2, 2)
-        Covariance of ln theta and beta from the Fisher information.
+        Covariance of ln theta and beta, of the kind that `errors` says; NaN without standard errors.
     status : str
         'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level',
         'decreasing' or 'not_converged'; the first two have a curve.
@@ -60,6 +69,19 @@ class Fragility(Shown, Saved):
         are then those of the walls in which one can, and the probability is that of all.
     sample : Sample or None
         The histories behind it, which `bootstrap` draws from; None where only counts were given.
+    errors : str
+        'clustered': histories of one record or event (of typological curves also: of one wall) depend on each other
+        (Mancl and DeRouen 2001); 'naive': all histories are taken for independent, for curves fitted to counts. There
+        are no standard errors for 'few_clusters', less than three, and 'one_cluster', which alone determines the curve.
+    clusters : int
+        Number of clusters of records; 0 for 'naive'.
+    degrees_of_freedom : float
+        Of Student's t in intervals: clusters - 1; inf for 'naive'.
+    naive_covariance : ndarray, shape (2, 2)
+        Covariance of ln theta and beta from the Fisher information, as if all histories were independent.
+    parts : tuple of Clusters
+        The clusters with the change of the parameters if each is left out; () for 'naive', and for the walls of a
+        population.
     """
 
     theta: float
@@ -76,6 +98,11 @@ class Fragility(Shown, Saved):
     edp_threshold: float | None = None
     saturation: float = 1.0
     sample: Sample | None = field(default=None, repr=False)
+    errors: str = "naive"
+    clusters: int = 0
+    degrees_of_freedom: float = np.inf
+    naive_covariance: FloatArray = field(default_factory=lambda: np.full((2, 2), np.nan))
+    parts: tuple[Clusters, ...] = ()
 
     @property
     def has_fit(self) -> bool:
@@ -115,8 +142,10 @@ class Fragility(Shown, Saved):
         values = as_levels(x)
         return shaped(self.saturation * probability(self.theta, self.beta, values.ravel()), values)
 
-    def interval(self, x: ArrayLike, *, confidence: float = 0.95, method: Method = "delta") -> tuple[Any, Any]:
+    def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
         """Confidence interval of the probability at levels (of each on its own, not of the curve as a whole).
+
+        From the covariance, on the scale of the normal quantile of the probability.
 
         Parameters
         ----------
@@ -124,9 +153,6 @@ class Fragility(Shown, Saved):
             Levels of intensity, positive.
         confidence : float
             Confidence, between 0 and 1.
-        method : {'delta', 'profile'}
-            From the covariance, on the scale of the normal quantile of the probability; or from the profile likelihood,
-            which is slower and right for small counts too.
 
         Returns
         -------
@@ -135,65 +161,50 @@ class Fragility(Shown, Saved):
         Raises
         ------
         DondoloError
-            There is no curve.
+            There is no curve, or it has no standard errors.
         InputError
-            Levels that are not positive, a confidence beyond 0 and 1, no such method.
+            Levels that are not positive, a confidence beyond 0 and 1.
         """
-        one_of("method", method, get_args(Method))
-        self._need_fit()
-        quantile = _quantile(confidence)
+        quantile = self._quantile(confidence)
         values = as_levels(x)
         if not np.all(values > 0.0):
             raise InputError(f"x = {values.min():g}: must be positive")
-        at = np.log(values.ravel() / self.theta)
-        probit = at / self.beta
+        probit = np.log(values.ravel() / self.theta) / self.beta
         # Gradient of the probit with respect to (ln theta, beta)
-        gradient = np.stack([np.full_like(at, -1.0 / self.beta), -probit / self.beta])
+        gradient = np.stack([np.full_like(probit, -1.0 / self.beta), -probit / self.beta])
         half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, self.covariance, gradient))
-        if method == "delta":
-            low, high = probit - half, probit + half
-        else:
-            low, high = self._likelihood().probit_interval(at, half, 0.5 * quantile**2)
         from scipy.special import ndtr
 
-        return shaped(self.saturation * ndtr(low), values), shaped(self.saturation * ndtr(high), values)
+        low, high = self.saturation * ndtr(probit - half), self.saturation * ndtr(probit + half)
+        return shaped(low, values), shaped(high, values)
 
-    def parameter_interval(self, *, confidence: float = 0.95, method: Method = "delta") -> dict[str, Interval]:
+    def parameter_interval(self, *, confidence: float = 0.95) -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
+
+        From the covariance, symmetric in ln theta and in 1/beta, the slope of the probit regression.
 
         Parameters
         ----------
         confidence : float
             Confidence, between 0 and 1.
-        method : {'delta', 'profile'}
-            From the covariance, on logarithmic scales; or from the profile likelihood, where 0 and inf are bounds that
-            the data leave open.
 
         Returns
         -------
         dict
-            'theta' and 'beta': (low, high).
+            'theta' and 'beta': (low, high); inf where the data leave beta open.
 
         Raises
         ------
         DondoloError
-            There is no curve.
+            There is no curve, or it has no standard errors.
         InputError
-            A confidence beyond 0 and 1, no such method.
+            A confidence beyond 0 and 1.
         """
-        one_of("method", method, get_args(Method))
-        self._need_fit()
-        quantile = _quantile(confidence)
-        if method == "delta":
-            theta = _spread(self.theta, quantile * self.se_ln_theta)
-            return {"theta": theta, "beta": _spread(self.beta, quantile * self.se_beta / self.beta)}
-        likelihood = self._likelihood()
-        drop = 0.5 * quantile**2
-        low, high = likelihood.median_interval(quantile * self.se_ln_theta, drop)
-        flat, steep = likelihood.slope_interval(quantile * self.se_beta / self.beta**2, drop)
-        with np.errstate(over="ignore"):
-            theta = (self.theta * float(np.exp(low)), self.theta * float(np.exp(high)))
-        return {"theta": theta, "beta": (1.0 / steep, 1.0 / flat if flat > 0.0 else np.inf)}
+        quantile = self._quantile(confidence)
+        width = np.exp(quantile * self.se_ln_theta)
+        half = quantile * self.se_beta / self.beta
+        beta = (self.beta / (1.0 + half), self.beta / (1.0 - half) if half < 1.0 else np.inf)
+        return {"theta": (float(self.theta / width), float(self.theta * width)), "beta": beta}
 
     def bootstrap(
         self,
@@ -204,8 +215,9 @@ class Fragility(Shown, Saved):
     ) -> Bootstrap:
         """Fit the curve again to records drawn with replacement.
 
-        A record stays whole: it brings its histories at all levels and of both polarities, so that their dependence is
-        kept, which the covariance neglects. All fits are one call of Fortran.
+        A record stays whole: it brings its histories at all levels and of both polarities, and records of one event
+        are drawn together, so that their dependence is kept, as the clustered covariance does. All fits are one call of
+        Fortran.
 
         Parameters
         ----------
@@ -214,7 +226,7 @@ class Fragility(Shown, Saved):
         seed : int, Generator or None
             Of the random numbers; None: different every time.
         events : sequence, optional
-            A label for each record, such as its recording or its earthquake: records with the same label are drawn
+            A label for each record in place of those that the curve has: records with the same label are drawn
             together. The two horizontal components of a recording are alike; drawn one by one they look like twice as
             much evidence as they are.
 
@@ -232,7 +244,8 @@ class Fragility(Shown, Saved):
         self._need_fit()
         if self.sample is None:
             raise DondoloError("bootstrap: needs the stripes, so it is for curves that come from Stripes.fit")
-        return resample(self.sample, draw_records(self.sample.n_records, n_resamples, seed, events))
+        labels = self.sample.clusters if events is None else given_labels(self.sample.n_records, events)
+        return resample(self.sample, draw_records(labels, n_resamples, seed))
 
     def plot(
         self,
@@ -293,10 +306,15 @@ class Fragility(Shown, Saved):
                 f"no curve was fitted (status '{self.status}'): the median lies between {low:g} and {high:g}"
             )
 
-    def _likelihood(self) -> Any:
-        from dondolo.curves.likelihood import Likelihood
+    def _quantile(self, level: float) -> float:
+        """Quantile of Student's t for an interval."""
+        from scipy.special import ndtri, stdtrit
 
-        return Likelihood(self.levels, self.collapses, self.histories, self.theta, self.beta)
+        self._need_fit()
+        upper = tails(level)[1]
+        if self.errors not in ("naive", "clustered"):
+            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+        return float(stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper))
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)
@@ -305,12 +323,23 @@ class Fragility(Shown, Saved):
             return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
         ends = [("saturation", f"{self.saturation:.6g}")] if self.saturation < 1.0 else []
         return [
-            ("theta", f"{self.theta:.6g}{unit} (standard error of ln theta {self.se_ln_theta:.3g})"),
-            ("beta", f"{self.beta:.6g} (standard error {self.se_beta:.3g})"),
+            ("theta", f"{self.theta:.6g}{unit}" + self._shown_error("standard error of ln theta", self.se_ln_theta)),
+            ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
+            ("standard errors", self._kind()),
             *ends,
             ("log likelihood", f"{self.log_likelihood:.6g}"),
             ("status", self.status),
         ]
+
+    def _shown_error(self, what: str, error: float) -> str:
+        return f" ({what} {error:.3g})" if np.isfinite(error) else ""
+
+    def _kind(self) -> str:
+        """What the standard errors are, in words."""
+        if self.errors == "clustered":
+            kinds = " and ".join(f"{len(part.labels)} clusters of {part.kind}" for part in self.parts)
+            return kinds or f"{self.clusters} clusters of records"
+        return _WHY[self.errors]
 
 
 def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, *, im: str = "") -> Fragility:
@@ -366,9 +395,18 @@ def extrapolation(curve: Fragility) -> DondoloWarning:
 
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
-    """Fit without a warning."""
+    """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
     curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
-    return curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    curve = curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    if curve.has_fit and curve.sample is not None:
+        return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))
+    return curve
+
+
+def with_errors(curve: _Curve, errors: Errors) -> _Curve:
+    """A curve with other standard errors."""
+    errors.covariance.flags.writeable = False
+    return dataclasses.replace(curve, **errors._asdict())
 
 
 def curve_of(
@@ -379,16 +417,18 @@ def curve_of(
     if data.status not in ("ok", "extrapolated"):
         theta = beta = var_theta = both = var_beta = height = np.nan
     largest = np.finfo(np.float64).max
+    covariance = np.array([[var_theta, both], [both, var_beta]])
     return Fragility(
         theta=theta,
         beta=beta,
-        covariance=np.array([[var_theta, both], [both, var_beta]]),
+        covariance=covariance,
         status=data.status,
         log_likelihood=height,
         bracket=(low, np.inf if high >= largest else high),
         levels=levels,
         collapses=collapses,
         histories=histories,
+        naive_covariance=covariance,
         **origin,
     )
 
@@ -403,16 +443,6 @@ def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tu
     if not len(x) == len(z) == len(n):
         raise InputError(f"{len(x)} levels, {len(z)} collapses, {len(n)} histories: must be as many")
     return x, z, n
-
-
-def _quantile(confidence: float) -> float:
-    from scipy.special import ndtri
-
-    return float(ndtri(tails(confidence)[1]))
-
-
-def _spread(value: float, log_width: float) -> Interval:
-    return value * float(np.exp(-log_width)), value * float(np.exp(log_width))
 
 
 def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -> tables.Table:
@@ -430,4 +460,23 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
         "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
         "edp_threshold": [curve.edp_threshold for curve in curves],
+        **{name: [row[name] for row in map(_bounds, curves)] for name in _BOUNDS},
+        "errors": [curve.errors if curve.has_fit else None for curve in curves],
+        "clusters": [curve.clusters if curve.has_fit else None for curve in curves],
+        "degrees_of_freedom": [
+            (curve.degrees_of_freedom if curve.errors == "clustered" else max(curve.clusters - 1, 0))
+            if curve.has_fit
+            else None
+            for curve in curves
+        ],
+        "naive_se_ln_theta": [float(np.sqrt(curve.naive_covariance[0, 0])) for curve in curves],
+        "naive_se_beta": [float(np.sqrt(curve.naive_covariance[1, 1])) for curve in curves],
     }
+
+
+def _bounds(curve: Fragility) -> dict[str, float | None]:
+    """Bounds of the 95 % intervals; None where there are none."""
+    if not (curve.has_fit and np.isfinite(curve.se_beta)):
+        return dict.fromkeys(_BOUNDS)
+    ends = [end for name in ("theta", "beta") for end in curve.parameter_interval()[name]]
+    return {name: end if np.isfinite(end) else None for name, end in zip(_BOUNDS, ends, strict=True)}

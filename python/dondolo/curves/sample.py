@@ -1,7 +1,9 @@
-"""Which histories a curve was fitted to: what a bootstrap draws from."""
+"""Which histories a curve was fitted to: what its standard errors and a bootstrap follow from."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +11,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._storage.saved import part_of_results
+from dondolo.errors import InputError
 
 
 @part_of_results
@@ -28,6 +31,8 @@ class Sample:
         Record of each history, from 0.
     record_names : tuple of str
         Names of the records.
+    clusters : tuple of str
+        Label of each record; records with the same label depend on each other.
     """
 
     levels: FloatArray
@@ -35,8 +40,57 @@ class Sample:
     ran: np.ndarray[Any, np.dtype[np.bool_]]
     record_index: np.ndarray[Any, np.dtype[np.int64]]
     record_names: tuple[str, ...]
+    clusters: tuple[str, ...]
 
     @property
     def n_records(self) -> int:
         """Number of records."""
         return len(self.record_names)
+
+    def by_cluster(self, labels: Sequence[str]) -> tuple[FloatArray, FloatArray]:
+        """Collapses and histories (clusters, levels) of the clusters with these labels, all that there are."""
+        numbers = {label: number for number, label in enumerate(labels)}
+        places = np.array([numbers[label] for label in self.clusters])[self.record_index]
+        member = places == np.arange(len(labels))[:, None]
+        return member @ (self.collapsed & self.ran).T.astype(float), member @ self.ran.T.astype(float)
+
+
+def cluster_labels(records: int, events: Sequence[str] = (), checksums: Sequence[str] = ()) -> tuple[str, ...]:
+    """Label of the cluster of each record: its event, else the record itself.
+
+    Parameters
+    ----------
+    records : int
+        Number of records.
+    events : sequence of str
+        Event of each record, '' for none; empty if no record has one.
+    checksums : sequence of str
+        Checksum of each record, which makes the label of a record without an event the same in every analysis; empty
+        if they are not known.
+
+    Returns
+    -------
+    tuple of str
+    """
+    times: Counter[str] = Counter()
+    found = []
+    for i, event in enumerate(events or [""] * records):
+        own = f"record {checksums[i]}" if checksums else f"number {i + 1}"
+        # A record that is given twice counts as two, here as in Fortran.
+        times[own] += 1
+        again = f" again {times[own]}" if times[own] > 1 else ""
+        found.append(f"event {event}" if event else own + again)
+    return tuple(found)
+
+
+def given_labels(records: int, events: Sequence[Any]) -> tuple[str, ...]:
+    """Labels that a user gives, one for each record; none may be missing, for all that are would be one event."""
+    if isinstance(events, str) or not isinstance(events, Iterable):
+        raise InputError(f"events = {events!r}: must be labels, one for each record")
+    labels = list(events)
+    if len(labels) != records:
+        raise InputError(f"events: {len(labels)} labels for {records} records: must be as many")
+    for i, label in enumerate(labels):
+        if label is None or label == "" or label != label or not isinstance(label, Hashable):
+            raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
+    return tuple(f"event {label}" for label in labels)

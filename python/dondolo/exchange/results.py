@@ -132,6 +132,9 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, response=_response(table, population.walls[0], result, limit))
         elif task == "stripes":
             stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
+            if len(run.records) == stripes.n_records:
+                events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
+                stripes = replace(stripes, events=events, checksums=checksums)
             stored = replace(stored, stripes=stripes, fragility=stripes.fit())
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, one_of, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.curves.sample import given_labels
 from dondolo.curves.series import in_series
 from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
@@ -133,7 +134,8 @@ def resample_population(
         kinds = ("records",)
     records = np.ones((n_resamples, flags.records))
     if "records" in kinds:
-        records = draw_records(flags.records, n_resamples, generator, events)
+        labels = flags.clusters if events is None else given_labels(flags.records, events)
+        records = draw_records(labels, n_resamples, generator)
     draws = generator if "walls" in kinds else None
     size = max(1, _DRAWS // rows.walls)
     parts = [
@@ -207,16 +209,8 @@ def _mean_fractions(
 
 def _fractions(flags: Flags, row: NDArray[np.int64], records: FloatArray) -> FloatArray:
     """Fractions (rows, samples, levels), with each record taken so many times."""
-    fractions = np.empty((len(row), len(records), flags.levels))
-    for places in flags.alike(row):
-        reached = flags.of(row[places])[:, flags.state]
-        walls, levels, histories = reached.shape
-        # Both polarities of a record stay together.
-        of_record = reached.reshape(walls, levels, -1, flags.records).sum(axis=2, dtype=np.float64)
-        drawn = records @ of_record.reshape(walls * levels, -1).T
-        number = np.broadcast_to(histories * flags.drawn(records), (walls, len(records), levels))
-        found = np.moveaxis(drawn.reshape(len(records), walls, levels), 1, 0)
-        fractions[places] = np.divide(found, number, out=np.zeros(number.shape), where=number > 0.0)
+    reached, drawn = flags.reached(row, records), flags.drawn(records)
+    fractions: FloatArray = np.divide(reached, drawn, out=np.zeros(reached.shape), where=drawn > 0.0)
     return fractions
 
 

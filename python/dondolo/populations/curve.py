@@ -79,7 +79,7 @@ class Group(Saved):
         What the mean curve tends to: the share of the weight in which any mechanism can occur; 1 for one mechanism.
     fit : Fragility
         The lognormal curve fitted to the mean fractions / saturation, that of the walls in which a mechanism can occur;
-        its standard errors take the walls' histories for independent. Its values are those for all walls: they tend to
+        its standard errors are clustered by record and by wall. Its values are those for all walls: they tend to
         the saturation, as the mean curve does.
     """
 
@@ -220,8 +220,8 @@ class PopulationCurve(Group, MeanCurve):
         """Fit the curve again to records and walls drawn with replacement.
 
         All walls are shaken by the same records: a record that is drawn counts for all of them, at all levels and in
-        both polarities, and a wall that is drawn brings all its mechanisms. The standard errors of the fit know nothing
-        of that and are too small.
+        both polarities, and a wall that is drawn brings all its mechanisms. The clustered standard errors of the fit
+        estimate the same.
 
         Parameters
         ----------

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
 from dondolo._storage.saved import part_of_results
+from dondolo.curves.sample import cluster_labels
 from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
@@ -36,6 +37,8 @@ class Flags:
     runs : ndarray, shape (records, levels)
         1 where a record runs at a level, else 0. The histories of a wall are those of all records, and again in the
         other polarity if there are two.
+    clusters : tuple of str
+        Label of the cluster of each record (`Sample.clusters`).
     bits : ndarray of uint8
         Eight flags a byte.
     state : int
@@ -46,14 +49,17 @@ class Flags:
     levels: int
     states: int
     runs: FloatArray
+    clusters: tuple[str, ...]
     bits: Bits
     state: int = -1
 
     @classmethod
-    def empty(cls, histories: NDArray[np.int32], levels: int, states: int, runs: FloatArray) -> Flags:
+    def empty(
+        cls, histories: NDArray[np.int32], levels: int, states: int, runs: FloatArray, clusters: tuple[str, ...]
+    ) -> Flags:
         """No history reaches anything."""
         sizes = _bytes_of(histories, levels * states)
-        return cls(histories, levels, states, runs, np.zeros(int(sizes.sum()), dtype=np.uint8))
+        return cls(histories, levels, states, runs, clusters, np.zeros(int(sizes.sum()), dtype=np.uint8))
 
     @classmethod
     def of_counts(cls, exceedances: NDArray[np.int32], histories: NDArray[np.int32]) -> Flags:
@@ -65,7 +71,8 @@ class Flags:
         most = histories.max(axis=0)
         bits = [np.packbits(np.arange(most[i]) < exceedances[:, :, i, None]) for i in range(walls)]
         # Levels have the same share of the records for all walls.
-        return cls(most, levels, states, (histories[:, 0] / most[0])[None, :], np.concatenate(bits))
+        runs = (histories[:, 0] / most[0])[None, :]
+        return cls(most, levels, states, runs, cluster_labels(1), np.concatenate(bits))
 
     @property
     def records(self) -> int:
@@ -99,6 +106,22 @@ class Flags:
         packed = self.bits[self._starts[chosen][:, None] + np.arange(size)]
         flags = np.unpackbits(packed, axis=1, count=self.states * self.levels * histories)
         return flags.reshape(len(chosen), self.states, self.levels, histories).view(np.bool_)
+
+    def reached(self, walls: ArrayLike, records: FloatArray) -> FloatArray:
+        """Histories that reach the state (walls, samples, levels) over those of all records at all levels.
+
+        `records` (samples, records) says how often each sample has each record.
+        """
+        chosen = np.asarray(walls)
+        found = np.empty((len(chosen), len(records), self.levels))
+        for places in self.alike(chosen):
+            flags = self.of(chosen[places])[:, self.state]
+            rows, levels, histories = flags.shape
+            # Both polarities of a record stay together.
+            of_record = flags.reshape(rows, levels, -1, self.records).sum(axis=2, dtype=np.float64)
+            drawn = records @ of_record.reshape(rows * levels, -1).T
+            found[places] = np.moveaxis(drawn.reshape(len(records), rows, levels), 1, 0) / histories
+        return found
 
     def at(self, state: int) -> Flags:
         """The same, of another state."""

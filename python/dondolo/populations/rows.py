@@ -51,7 +51,9 @@ def curves_of_walls(people: Population, rows: Sequence[Fragility], others: Itera
 
 def packed(curves: Sequence[Fragility]) -> dict[str, Any]:
     """What was fitted, as arrays."""
-    numbers = [[c.theta, c.beta, *c.covariance[[0, 0, 1], [0, 1, 1]], c.log_likelihood, *c.bracket] for c in curves]
+    numbers = [
+        [c.theta, c.beta, *c.naive_covariance[[0, 0, 1], [0, 1, 1]], c.log_likelihood, *c.bracket] for c in curves
+    ]
     return {"status": np.array([c.status for c in curves], dtype=str), "numbers": np.reshape(numbers, (-1, 8))}
 
 

@@ -19,6 +19,7 @@ from dondolo._fortran import _core
 from dondolo._fortran.library import check, receive
 from dondolo.analysis.request import Request
 from dondolo.analysis.work import Work
+from dondolo.curves.sample import cluster_labels
 from dondolo.populations.flags import Flags
 
 IntArray = NDArray[np.int32]
@@ -93,7 +94,9 @@ class Store:
         histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
-        flags = Flags(histories[complete], levels, states, request.runs, packed)
+        events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
+        labels = cluster_labels(len(events), events, checksums)
+        flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
         return Contents(complete, exceedances, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:

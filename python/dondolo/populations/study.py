@@ -16,6 +16,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import Interrupted
 from dondolo.populations.blocks import run_walls
 from dondolo.populations.combination import combine
+from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import states_of
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
@@ -101,7 +102,7 @@ def typology(
     histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
     result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
     flags, told = run.flags.chosen(np.flatnonzero(rows[run.complete])), (*plan.warnings, *result.warnings)
-    result = dataclasses.replace(result, flags=flags, warnings=told)
+    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told), flags)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     warn(result.warnings)

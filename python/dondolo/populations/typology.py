@@ -24,6 +24,7 @@ from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve
+from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import Flags
 from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
 from dondolo.walls.population import Population
@@ -167,8 +168,10 @@ class Typology(Shown, Saved):
             from dondolo.populations.combination import combine_rows
 
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
-            flags = None if self.flags is None else self.flags.at(int(place[0]))
-            self._states[value] = dataclasses.replace(state, flags=flags)
+            if self.flags is not None:
+                flags = self.flags.at(int(place[0]))
+                state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
+            self._states[value] = state
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
@@ -326,7 +329,8 @@ class Typology(Shown, Saved):
         origin = {"im": more["im"], "edp_threshold": float(more["edp_thresholds"][-1])}
         own = curves_of_rows(people, levels, more["exceedances"][-1], more["histories"], unpacked(rows), **origin)
         combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
-        return cls(curves=own, combined=combined, **more)
+        stored = cls(curves=own, combined=combined, **more)
+        return stored if stored.flags is None else with_clustered_errors(stored, stored.flags)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.

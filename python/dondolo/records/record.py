@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -120,6 +121,18 @@ class Record:
         steps = (*self.processing, step)
         dt = self.dt if dt is None else dt
         return Record(acceleration, dt, self.name, processing=steps, metadata=self.metadata)
+
+    @property
+    def checksum(self) -> str:
+        """CRC-32 of the samples and the time step: records with the same are one and the same motion."""
+        return f"{zlib.crc32(np.float64(self.dt).tobytes(), zlib.crc32(self.acceleration.tobytes())):08x}"
+
+    @property
+    def event(self) -> str:
+        """Earthquake of the record, else station and date of the recording, else '': see `Fragility.clusters`."""
+        # As in dondolo_clusters
+        station, date = (self.metadata.get(key, "") for key in ("station", "date"))
+        return self.metadata.get("event", "") or (f"{station} {date}" if station and date else "")
 
     @property
     def duration(self) -> float:

@@ -280,18 +280,18 @@ class RecordSet(Shown, Saved):
         write_catalogue(self, path)
 
     def plot(
-        self, *, target: TargetSpectrum | None = None, periods: ArrayLike | None = None, ax: Axes | None = None
+        self, ax: Axes | None = None, *, target: TargetSpectrum | None = None, periods: ArrayLike | None = None
     ) -> Axes:
         """Draw the response spectra of the rows, times their factors, their mean and dispersion, and a target.
 
         Parameters
         ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
         target : TargetSpectrum, optional
             Drawn too.
         periods : array_like, optional
             [s]; those of the target, or 100 from 0.05 to 4 s, if left out.
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
 
         Returns
         -------

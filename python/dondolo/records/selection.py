@@ -101,7 +101,7 @@ class Selection(Shown, Saved):
         -------
         Axes
         """
-        return self.records.plot(target=self.target, ax=ax)
+        return self.records.plot(ax, target=self.target)
 
     def _facts(self) -> list[tuple[str, str]]:
         low, high = self.largest_deviation

@@ -113,10 +113,9 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
             "status": curve.status,
             "meaning": STATUSES[curve.status],
         }
-    methods = {
-        "covariance (delta method)": curve.parameter_interval(),
-        "profile likelihood": curve.parameter_interval(method="profile"),
-    }
+    methods = {}
+    if curve.errors in ("clustered", "naive"):
+        methods[f"covariance, {curve._kind()}"] = curve.parameter_interval()
     if curve.sample is not None:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(
             n_resamples=_SAMPLES

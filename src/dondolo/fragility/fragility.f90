@@ -14,11 +14,15 @@ module dondolo_fragility
    private
 
    public :: fragility_type, fit_fragility, status_names
-   public :: normal_cdf
+   public :: error_names, mills, normal_cdf
 
    !> What can come of a fit; the first two have a curve
    character(len=13), parameter :: status_names(8) = [character(len=13) :: 'ok', 'extrapolated', 'no_collapse', &
       & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
+
+   !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_clustered);
+   !> the last two have none, for too few clusters or since one of them determines the curve
+   character(len=12), parameter :: error_names(4) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', 'one_cluster']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
@@ -28,8 +32,14 @@ module dondolo_fragility
       real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
       real(wp) :: beta = 0.0_wp
-      !> Covariance of ln theta and beta, from the Fisher information
+      !> Covariance of ln theta and beta, of the kind that `errors` says
       real(wp) :: covariance(2, 2) = 0.0_wp
+      !> One of error_names
+      character(len=len(error_names)) :: errors = 'naive'
+      !> Number of clusters; 0 if the histories are taken for independent
+      integer :: clusters = 0
+      !> Covariance of ln theta and beta from the Fisher information, as if all histories were independent
+      real(wp) :: naive(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included
       real(wp) :: log_likelihood = 0.0_wp
       !> Levels between which half of the histories begin to collapse; 0 or huge where the side is open
@@ -37,6 +47,8 @@ module dondolo_fragility
    contains
       !> Is there a curve?
       procedure :: has_fit
+      !> Whether the curve has standard errors
+      procedure :: has_errors
       !> Standard error of ln theta
       procedure :: se_ln_theta
       !> Standard error of beta
@@ -103,7 +115,8 @@ contains
       ! The covariance of b is the inverse of its information; that of (ln theta, beta) follows by the delta method.
       jacobian(1, :) = [-spread/b(2), spread*b(1)/b(2)**2]
       jacobian(2, :) = [0.0_wp, -spread/b(2)**2]
-      fragility%covariance = matmul(jacobian, matmul(covariance, transpose(jacobian)))
+      fragility%naive = matmul(jacobian, matmul(covariance, transpose(jacobian)))
+      fragility%covariance = fragility%naive
    end subroutine fit_fragility
 
    !> Newton's method with halved steps on the concave log likelihood
@@ -324,6 +337,15 @@ contains
 
       has_fit = self%status == 'ok' .or. self%status == 'extrapolated'
    end function has_fit
+
+   !> Whether the curve has standard errors
+   elemental function has_errors(self)
+      class(fragility_type), intent(in) :: self
+      !> True if `covariance` has values
+      logical :: has_errors
+
+      has_errors = self%has_fit() .and. (self%errors == 'naive' .or. self%errors == 'clustered')
+   end function has_errors
 
    !> Standard error of ln theta
    elemental function se_ln_theta(self) result(se)

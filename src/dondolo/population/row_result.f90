@@ -40,6 +40,8 @@ module dondolo_row_result
       procedure :: set_flags
       !> Histories that reach each state
       procedure :: reached
+      !> Histories that reach a state, and those that were run, of each cluster of records
+      procedure :: by_cluster
    end type row_result_type
 
    !> Counts of work, bytes of them, and of the results of a history: edp and time of the peak, impacts
@@ -124,6 +126,34 @@ contains
          end do
       end do
    end function reached
+
+   !> Histories that reach a state, and those that were run, of each cluster of records (levels, clusters)
+   pure subroutine by_cluster(self, state, clusters, runs, counts, histories)
+      class(row_result_type), intent(in) :: self
+      !> Number of the state
+      integer, intent(in) :: state
+      !> Number of the cluster of each record; a stripe has all records, and again in the other polarity if there are two
+      integer, intent(in) :: clusters(:)
+      !> Whether a record runs at a level (records, levels)
+      logical, intent(in) :: runs(:, :)
+      !> Counts
+      real(wp), intent(out) :: counts(:, :), histories(:, :)
+
+      integer :: i, j, g, flag, record
+
+      counts = 0.0_wp
+      histories = 0.0_wp
+      flag = (state - 1)*size(counts, 1)*self%histories
+      do j = 1, size(counts, 1)
+         do i = 1, self%histories
+            record = modulo(i - 1, size(clusters)) + 1
+            g = clusters(record)
+            if (runs(record, j)) histories(j, g) = histories(j, g) + 1.0_wp
+            if (btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))) counts(j, g) = counts(j, g) + 1.0_wp
+            flag = flag + 1
+         end do
+      end do
+   end subroutine by_cluster
 
    !> A row as bytes: what was computed, flags, and of the histories that are kept edp, time of the peak and impacts
    pure subroutine pack_row(row, bytes)

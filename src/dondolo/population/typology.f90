@@ -49,7 +49,7 @@ module dondolo_typology
       real(wp) :: fitted = 0.0_wp
       !> Histories that the fit counts at each level: number of walls by the weighted mean of their histories
       real(wp), allocatable :: histories(:)
-      !> Lognormal fitted to the mean fractions / saturation; its standard errors take the walls' histories for independent
+      !> Lognormal fitted to the mean fractions / saturation; its standard errors are naive
       type(fragility_type) :: fit
    end type typology_type
 

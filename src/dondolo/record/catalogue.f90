@@ -1,5 +1,5 @@
 !> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format and name, level and factor, and
-!> any others, which are metadata of the records.
+!> any others, which are metadata of the records; records of one `event` depend on each other (dondolo_clusters).
 !>
 !> With a column level a row is a record at a level of intensity, and a record may have several rows; where the cell is
 !> empty it runs at every level. With a column factor a cell is the factor on the record there, instead of one computed

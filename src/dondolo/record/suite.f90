@@ -4,6 +4,7 @@
 !> It is made once and then only read, by as many threads as there are. `measure` alone adds to it, and may do so while
 !> others read.
 module dondolo_suite
+   use dondolo_clusters, only : cluster_records
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
@@ -35,6 +36,8 @@ module dondolo_suite
       type(record_set_type) :: set
       !> Their PGA [m/s2]
       real(wp), allocatable :: peaks(:)
+      !> Number of the cluster of each: histories of one cluster are no independent evidence
+      integer, allocatable :: clusters(:)
       !> Measures that were asked for, and how many places are taken
       type(measured_type), private :: measured(most_measures)
       integer, private :: taken = 0
@@ -56,6 +59,8 @@ contains
       call move_alloc(records, suite%records)
       call new_record_set(suite%set, suite%records)
       suite%peaks = suite%records%pga()
+      allocate (suite%clusters(size(suite%records)))
+      call cluster_records(suite%records, suite%clusters)
    end subroutine new_suite
 
    !> Compute the values of a measure and keep them

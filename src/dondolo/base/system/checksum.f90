@@ -5,10 +5,11 @@
 !> as long.
 module dondolo_checksum
    use, intrinsic :: iso_fortran_env, only : int32, int64
+   use dondolo_kinds, only : dp, wp
    implicit none
    private
 
-   public :: crc32_of_file, crc32_length
+   public :: crc32_of_file, crc32_of_reals, crc32_length
 
    !> Length of a checksum in hexadecimal figures
    integer, parameter :: crc32_length = 8
@@ -66,11 +67,38 @@ contains
       do i = 1, int(left)
          crc = ieor(table(iand(ieor(crc, int(ichar(tail(i:i)), int32)), 255), 1), shiftr(crc, 8))
       end do
-      write (checksum, '(z8.8)') not(crc)
-      do i = 1, crc32_length
-         if (checksum(i:i) >= 'A') checksum(i:i) = achar(iachar(checksum(i:i)) + 32)
-      end do
+      checksum = hexadecimal(not(crc))
    end subroutine crc32_of_file
+
+   !> Checksum of numbers in double precision
+   pure function crc32_of_reals(values) result(checksum)
+      real(wp), intent(in) :: values(:)
+      !> Checksum, hexadecimal in lower case
+      character(len=crc32_length) :: checksum
+
+      integer(int32) :: table(0:255, 8), crc
+      integer :: i
+
+      call make_tables(table)
+      crc = not(0_int32)
+      do i = 1, size(values)
+         call add_words(crc, transfer(real(values(i), dp), [0_int32]), table)
+      end do
+      checksum = hexadecimal(not(crc))
+   end function crc32_of_reals
+
+   !> Hexadecimal figures in lower case
+   pure function hexadecimal(number) result(text)
+      integer(int32), intent(in) :: number
+      character(len=crc32_length) :: text
+
+      integer :: i
+
+      write (text, '(z8.8)') number
+      do i = 1, len(text)
+         if (text(i:i) >= 'A') text(i:i) = achar(iachar(text(i:i)) + 32)
+      end do
+   end function hexadecimal
 
    !> Take in eight bytes; the words are little-endian, as those of all processors that dondolo runs on
    pure subroutine add_words(crc, words, table)

@@ -1,5 +1,6 @@
 !> The rows of the result tables, as lines of text.
 module dondolo_report_rows
+   use dondolo_clustered, only : parameter_intervals
    use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
@@ -21,7 +22,8 @@ module dondolo_report_rows
       & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
       & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
       & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
-      & 'bracket_high,edp_threshold', &
+      & 'bracket_high,edp_threshold,theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,'// &
+      & 'naive_se_ln_theta,naive_se_beta', &
       & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
       & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
@@ -130,7 +132,8 @@ contains
          & to_table(real(reached, wp)/real(histories, wp))//','//to_table(threshold)
    end subroutine make_stripes_row
 
-   !> The curve of a wall; cells are empty where there is no fit or the bracket is open
+   !> The curve of a wall with its standard errors and 95 % intervals; cells are empty without a fit, without standard
+   !> errors, and where a side is open
    pure subroutine make_fragility_row(cells, im, curve, threshold, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
@@ -142,13 +145,27 @@ contains
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: fit
+      character(len=:), allocatable :: fit, intervals
+      real(wp) :: bounds(2, 2)
 
       fit = ',,,,'
-      if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
-         & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','//to_table(curve%log_likelihood)
+      intervals = ',,,,,,,,'
+      if (curve%has_fit()) then
+         fit = ','
+         intervals = ',,,'
+         if (curve%has_errors()) then
+            fit = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())
+            bounds = parameter_intervals(curve)
+            intervals = trim(bound(bounds(1, 1)))//','//trim(bound(bounds(2, 1)))//','//trim(bound(bounds(1, 2)))//','// &
+               & trim(bound(bounds(2, 2)))
+         end if
+         fit = to_table(curve%theta)//','//to_table(curve%beta)//','//fit//','//to_table(curve%log_likelihood)
+         intervals = intervals//','//trim(curve%errors)//','//to_text(curve%clusters)//','// &
+            & to_text(max(curve%clusters - 1, 0))//','//to_table(sqrt(curve%naive(1, 1)))//','// &
+            & to_table(sqrt(curve%naive(2, 2)))
+      end if
       row = cells//','//im//','//fit//','//trim(curve%status)//','//trim(bound(curve%bracket(1)))//','// &
-         & trim(bound(curve%bracket(2)))//','//to_table(threshold)
+         & trim(bound(curve%bracket(2)))//','//to_table(threshold)//','//intervals
    end subroutine make_fragility_row
 
    !> A curve of the population at a level

@@ -3,7 +3,9 @@
 module dondolo_run_file
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
-   use dondolo_checksum, only : crc32_length, crc32_of_file
+   use dondolo_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
+   use dondolo_clustered, only : confidence, correction, fewest_clusters
+   use dondolo_clusters, only : cluster_label
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_paths, only : beside
@@ -53,6 +55,7 @@ contains
       if (case%job%task == 'history') then
          call put_history(case, results, json)
       else
+         call put_records(case, json)
          call put_counts(case, results, json)
       end if
       call put_notes(case, json)
@@ -104,6 +107,35 @@ contains
       end subroutine put_input
 
    end subroutine put_inputs
+
+   !> Put the records with the clusters that they belong to, and how standard errors follow from them
+   subroutine put_records(case, json)
+      type(case_type), intent(in) :: case
+      type(json_type), intent(inout) :: json
+
+      character(len=:), allocatable :: label
+      integer :: i
+
+      call json%open_array('records')
+      do i = 1, size(case%suite%records)
+         associate (record => case%suite%records(i))
+            call cluster_label(record%metadata, label)
+            call json%open_object()
+            call json%put('name', record%name)
+            call json%put('event', label)
+            call json%put('checksum', crc32_of_reals([record%acceleration, record%dt]))
+            call json%close_object()
+         end associate
+      end do
+      call json%close_array()
+      call json%open_object('standard_errors')
+      call json%put('correction', correction)
+      call json%put('confidence', confidence)
+      call json%put('clusters', maxval(case%suite%clusters))
+      call json%put('degrees_of_freedom', max(maxval(case%suite%clusters) - 1, 0))
+      call json%put('fewest_clusters', fewest_clusters)
+      call json%close_object()
+   end subroutine put_records
 
    !> Numbers of walls (rows of the population), levels, damage states and records of a run
    pure function shape_of(case) result(shape)

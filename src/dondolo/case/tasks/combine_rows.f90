@@ -1,6 +1,7 @@
 !> The curves of a population out of what its stores hold (docs/theory.md, section 6).
 module dondolo_combine_rows
    use dondolo_case, only : case_type
+   use dondolo_clustered, only : cluster_errors
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
@@ -35,6 +36,7 @@ contains
       call case%make_study(study)
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
+      if (.not. allocated(error)) call cluster_rows(results, study, error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (allocated(error)) return
       do k = 1, states
@@ -74,6 +76,41 @@ contains
          end associate
       end do
    end subroutine gather
+
+   !> Set the clustered standard errors of the curves of the rows
+   subroutine cluster_rows(results, study, error)
+      type(results_type), intent(inout) :: results
+      type(study_type), intent(in) :: study
+      !> A store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_result_type) :: row
+      real(wp), dimension(size(study%levels), maxval(study%suite%clusters)) :: counts, histories
+      real(wp) :: changes(2, maxval(study%suite%clusters))
+      logical :: runs(size(study%suite%clusters), size(study%levels))
+      integer :: i, j, k, state
+
+      do j = 1, size(runs, 2)
+         do i = 1, size(runs, 1)
+            runs(i, j) = study%runs(i, j)
+         end do
+      end do
+      do k = 1, size(results%stores)
+         associate (store => results%stores(k), population => results%population)
+            do i = store%identity%first, store%identity%last
+               if (.not. any(population%curve(:, i)%has_fit())) cycle
+               call store%read(i, row, error)
+               if (allocated(error)) exit
+               do state = 1, size(population%curve, 1)
+                  call row%by_cluster(state, study%suite%clusters, runs, counts, histories)
+                  call cluster_errors(population%curve(state, i), population%levels, counts, histories, changes)
+               end do
+            end do
+            call store%close()
+            if (allocated(error)) return
+         end associate
+      end do
+   end subroutine cluster_rows
 
    !> Go through the rows and their names: what there is to say of the curves, and those that are shown
    subroutine look_at_rows(case, results, fits, error)

@@ -1,0 +1,161 @@
+"""Standard errors of the curves of a population, clustered by record and by wall.
+
+All walls are subjected to the same records, and a population is a sample of the walls that there could be. The records
+of a cluster and the mechanisms of a wall depend on each other in any way; both kinds of clusters add their covariance.
+What belongs to a record and a wall alone is counted in both, which errs on the side of wide intervals by about one part
+in the number of walls or of records.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran.curves import cluster_curves
+from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
+from dondolo.curves.fragility import Fragility, with_errors
+from dondolo.curves.series import in_series
+from dondolo.populations.curve import Group
+from dondolo.populations.flags import Flags
+
+if TYPE_CHECKING:
+    from dondolo.populations.typology import Typology
+
+# Numbers that are held at a time: rows x clusters x levels
+_NUMBERS = 4_000_000
+
+
+def with_clustered_errors(typology: Typology, flags: Flags) -> Typology:
+    """The same typology with clustered standard errors of all its curves.
+
+    Fractions of a wall whose mechanisms are in series are taken as linear in those of its mechanisms.
+    """
+    people, levels = typology.population, typology.levels
+    labels = tuple(dict.fromkeys(flags.clusters))
+    member = np.array([[own == label for own in flags.clusters] for label in labels], dtype=float)
+    # Histories of each cluster at each level, over those of all records
+    part = member @ flags.runs / flags.records
+    run = part.sum(axis=0)
+    first = people.first_rows
+    ends = np.append(first[1:], len(people))
+    sums = [_Sum(group, typology, part.shape) for group in typology.groups]
+    curves: list[Fragility] = []
+    combined = dict(typology.combined)
+    for walls in _chunks(first, ends, part.size):
+        rows = np.arange(first[walls.start], ends[walls.stop - 1])
+        shares = flags.reached(rows, member)
+        own = [typology.curves[row] for row in rows]
+        curves += _clustered(levels, own, shares, part)
+        # Change of the wall's fraction by each cluster: its derivative times what the cluster's outcomes deviate
+        starts = first[walls] - rows[0]
+        fractions = shares.sum(axis=1) / run
+        slopes = _slopes(people.p_occ[rows], fractions, starts)
+        deviations = shares - part * fractions[:, None]
+        whole = in_series(people.p_occ[rows, None] * fractions, starts)
+        moved = np.add.reduceat(slopes[:, None] * deviations, starts, axis=0)
+        occurring = in_series(people.p_occ[rows], starts)
+        number = ends[walls] - first[walls]
+        mixed = np.flatnonzero((number > 1) | (people.p_occ[first[walls]] < 1.0))
+        mixed = mixed[occurring[mixed] > 0.0]
+        if len(mixed):
+            names = [people.walls[first[walls][i]].name for i in mixed]
+            counts = (part * whole[mixed, None] + moved[mixed]) / occurring[mixed, None, None]
+            found = _clustered(levels, [combined[name] for name in names], counts, part)
+            combined |= dict(zip(names, found, strict=True))
+        for name, i in ((people.walls[first[walls][i]].name, i) for i in np.flatnonzero(number == 1)):
+            if people.p_occ[first[walls][i]] == 1.0:
+                combined[name] = curves[rows[0] + starts[i]]
+        for one in sums:
+            one.add(rows, starts, fractions, deviations, (whole, moved, occurring))
+    groups = tuple(replace(one.group, fit=one.curve(labels, part)) for one in sums)
+    return replace(typology, curves=tuple(curves), combined=combined, groups=groups)
+
+
+def _chunks(first: Any, ends: Any, size: int) -> Iterator[slice]:
+    """Walls, so many that the numbers of their rows and clusters are not too many."""
+    rows, start = max(1, _NUMBERS // size), 0
+    while start < len(first):
+        stop = max(start + 1, int(np.searchsorted(ends, first[start] + rows, side="right")))
+        yield slice(start, stop)
+        start = stop
+
+
+def _clustered(levels: FloatArray, curves: list[Fragility], counts: FloatArray, part: FloatArray) -> list[Fragility]:
+    """Curves with clustered errors; only the ratio of counts and histories matters, so that a stripe counts for one."""
+    data = [(curve.status, curve.theta, curve.beta) for curve in curves]
+    covariances, errors, clusters = cluster_curves(levels, counts, part, data)
+    covariances[[kind != "clustered" for kind in errors]] = np.nan
+    return [
+        with_errors(curve, Errors(covariance, kind, int(number), number - 1.0 if kind == "clustered" else np.nan))
+        if curve.has_fit
+        else curve
+        for curve, covariance, kind, number in zip(curves, covariances, errors, clusters, strict=True)
+    ]
+
+
+def _slopes(p_occ: FloatArray, fractions: FloatArray, starts: Any) -> FloatArray:
+    """Derivative of a wall's probability of collapse with respect to the fraction of each of its rows."""
+    slopes = np.empty_like(fractions)
+    for start, end in zip(starts, np.append(starts[1:], len(p_occ)), strict=True):
+        survive = 1.0 - p_occ[start:end, None] * fractions[start:end]
+        for row in range(start, end):
+            slopes[row] = p_occ[row] * np.delete(survive, row - start, axis=0).prod(axis=0)
+    return slopes
+
+
+class _Sum:
+    """Sums over the walls of a curve of the population."""
+
+    def __init__(self, group: Group, typology: Typology, shape: tuple[int, ...]) -> None:
+        self.group = group
+        people = typology.population
+        self.weight, self.p_occ = people.weights, people.p_occ
+        self.chosen = np.array([group.group in ("", own) for own in people.groups]) & (people.weights > 0.0)
+        self.levels = typology.levels
+        self.alone = group.mechanism != "all"
+        if self.alone:
+            self.chosen &= np.array([wall.mechanism == group.mechanism for wall in people.walls])
+        self.moved = np.zeros(shape)
+        self.walls: list[FloatArray] = []
+        self.occurring: list[FloatArray] = []
+
+    def add(
+        self, rows: Any, starts: Any, fractions: FloatArray, deviations: FloatArray, walls: tuple[FloatArray, ...]
+    ) -> None:
+        """Add some walls: fractions (rows, levels), deviations (rows, clusters, levels), and those of whole walls."""
+        if self.alone:
+            own = np.flatnonzero(self.chosen[rows])
+            weight = self.weight[rows[own]] * self.p_occ[rows[own]]
+            occurring, whole, moved = np.ones(len(own)), fractions[own], deviations[own]
+        else:
+            whole, moved, occurring = walls
+            own = np.flatnonzero(self.chosen[rows[starts]])
+            weight = self.weight[rows[starts[own]]]
+            occurring, whole, moved = occurring[own], whole[own], moved[own]
+        self.moved += np.tensordot(weight, moved, axes=1)
+        self.walls.append(weight[:, None] * whole)
+        self.occurring.append(weight * occurring)
+
+    def curve(self, labels: tuple[str, ...], part: FloatArray) -> Fragility:
+        """The fit with its standard errors, over records and, if there are several, walls."""
+        fit = self.group.fit
+        if not fit.has_fit:
+            return fit
+        at = fit.theta, fit.beta
+        occurring, walls = np.concatenate(self.occurring), np.concatenate(self.walls)
+        total = occurring.sum()
+        share = walls.sum(axis=0) / total
+        counts = part * share + self.moved / total
+        records = errors_of_counts("records", labels, self.levels, counts, part, at)
+        if records.errors != "clustered" or len(walls) == 1:
+            return with_errors(fit, records)
+        histories = (occurring / total)[:, None] * part.sum(axis=0)
+        names = [f"wall {number + 1}" for number in range(len(walls))]
+        drawn = errors_of_counts("walls", names, self.levels, walls / total * part.sum(axis=0), histories, at)
+        if drawn.errors != "clustered":
+            return with_errors(fit, drawn)
+        return with_errors(fit, errors_of_parts((*records.parts, *drawn.parts)))

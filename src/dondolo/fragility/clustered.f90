@@ -1,0 +1,144 @@
+!> Standard errors of a fragility curve whose histories are not independent of each other.
+!>
+!> The same records are run at every level, in both polarities and with both components, so that the Fisher information
+!> counts the same evidence several times. Histories of one cluster, a record or an earthquake, may depend on each other
+!> in any way; clusters are independent. With s_g the score of cluster g and I_g its part of the Fisher information I of
+!> the probit regression, the covariance of b is
+!>
+!>    I^-1 [ sum_g r_g r_g^T ] I^-1,   r_g = I (I - I_g)^-1 s_g
+!>
+!> (Liang and Zeger 1986; Mancl and DeRouen 2001, Biometrics 57, 126-134), the sandwich estimator in which (I - I_g)^-1 s_g
+!> is the change of b if the cluster is left out, to first order. Intervals use Student's t with one degree of freedom
+!> less than there are clusters. docs/uncertainty.md compares it with others.
+module dondolo_clustered
+   use dondolo_fragility, only : fragility_type, mills, normal_cdf
+   use dondolo_kinds, only : wp
+   use dondolo_lapack, only : solve_symmetric
+   use dondolo_student, only : student_quantile
+   implicit none
+   private
+
+   public :: cluster_errors, parameter_intervals
+   public :: confidence, fewest_clusters, correction
+
+   !> Confidence of the intervals that the executable gives
+   real(wp), parameter :: confidence = 0.95_wp
+   !> Fewer clusters than this cannot determine the covariance of two parameters
+   integer, parameter :: fewest_clusters = 3
+   !> Name of the small-sample correction
+   character(len=*), parameter :: correction = 'CR3 (Mancl and DeRouen 2001), Student''s t'
+
+contains
+
+   !> Set the clustered covariance of a fitted curve
+   pure subroutine cluster_errors(curve, levels, collapses, histories, changes)
+      !> Curve with a fit: covariance, clusters and errors are set; without one it stays as it is
+      type(fragility_type), intent(inout) :: curve
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Collapses of each cluster (levels, clusters), that add up to those that were fitted
+      real(wp), intent(in) :: collapses(:, :)
+      !> Histories of each cluster (levels, clusters); a cluster without any does not count
+      real(wp), intent(in) :: histories(:, :)
+      !> Change of ln theta and beta if each cluster is left out, to first order (parameter, cluster); 0 without errors
+      real(wp), intent(out) :: changes(:, :)
+
+      integer :: g
+      logical :: ok
+
+      changes = 0.0_wp
+      if (.not. curve%has_fit()) return
+      curve%clusters = count([(any(histories(:, g) > 0.0_wp), g=1, size(histories, 2))])
+      curve%covariance = 0.0_wp
+      curve%errors = 'few_clusters'
+      if (curve%clusters < fewest_clusters) return
+      call leave_out_clusters(curve, levels, collapses, histories, changes, ok)
+      curve%errors = 'one_cluster'
+      if (.not. ok) return
+      curve%errors = 'clustered'
+      curve%covariance = matmul(changes, transpose(changes))
+   end subroutine cluster_errors
+
+   !> Change of ln theta and beta if each cluster is left out, to first order
+   pure subroutine leave_out_clusters(curve, levels, collapses, histories, changes, ok)
+      !> Curve with a fit
+      type(fragility_type), intent(in) :: curve
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Collapses and histories of each cluster (levels, clusters), as for cluster_errors
+      real(wp), intent(in) :: collapses(:, :), histories(:, :)
+      !> In: 0; out: changes (parameter, cluster), 0 for a cluster without histories
+      real(wp), intent(inout) :: changes(:, :)
+      !> False: without one of the clusters there is no information on both parameters
+      logical, intent(out) :: ok
+
+      real(wp), dimension(size(levels)) :: x, steep, part, chance
+      real(wp) :: information(2, 2), rest(2, 2), score(2)
+      integer :: g, j
+
+      ! P = Phi(b1 + b2 x) with b = (0, 1): to first order b1 is -d ln theta/beta, and b2 is 1 - d beta/beta.
+      x = log(levels/curve%theta)/curve%beta
+      steep = mills(x) + mills(-x)
+      part = mills(x)*mills(-x)
+      chance = normal_cdf(x)
+      information = 0.0_wp
+      do j = 1, size(levels)
+         information = information + sum(histories(j, :))*part(j)*square(x(j))
+      end do
+      ok = .true.
+      do g = 1, size(histories, 2)
+         if (.not. any(histories(:, g) > 0.0_wp)) cycle
+         score = 0.0_wp
+         rest = information
+         do j = 1, size(levels)
+            score = score + (collapses(j, g) - histories(j, g)*chance(j))*steep(j)*[1.0_wp, x(j)]
+            rest = rest - histories(j, g)*part(j)*square(x(j))
+         end do
+         if (determinant(rest) > 1.0e-12_wp*determinant(information)) then
+            call solve_symmetric(rest, score, changes(:, g), ok)
+         else
+            ok = .false.
+         end if
+         if (ok) cycle
+         changes = 0.0_wp
+         return
+      end do
+      changes = curve%beta*changes
+   end subroutine leave_out_clusters
+
+   !> Confidence intervals of theta and beta, symmetric in ln theta and in 1/beta, the slope of the regression
+   pure function parameter_intervals(curve) result(bounds)
+      !> Curve with standard errors
+      type(fragility_type), intent(in) :: curve
+      !> Bounds of theta and of beta (lower and upper, parameter); huge where there is none above
+      real(wp) :: bounds(2, 2)
+
+      real(wp) :: quantile, half
+
+      ! Beyond so many degrees of freedom the quantile is that of the normal distribution.
+      quantile = student_quantile(0.5_wp*(1.0_wp + confidence), &
+         & merge(100000, curve%clusters - 1, curve%errors == 'naive'))
+      bounds(:, 1) = curve%theta*exp(quantile*curve%se_ln_theta()*[-1.0_wp, 1.0_wp])
+      half = quantile*curve%se_beta()/curve%beta
+      bounds(1, 2) = curve%beta/(1.0_wp + half)
+      bounds(2, 2) = huge(half)
+      if (half < 1.0_wp) bounds(2, 2) = curve%beta/(1.0_wp - half)
+      bounds = min(bounds, huge(half))
+   end function parameter_intervals
+
+   !> (1, x)(1, x)^T
+   pure function square(x) result(matrix)
+      real(wp), intent(in) :: x
+      real(wp) :: matrix(2, 2)
+
+      matrix = reshape([1.0_wp, x, x, x**2], [2, 2])
+   end function square
+
+   !> Determinant of a symmetric matrix
+   pure real(wp) function determinant(matrix)
+      real(wp), intent(in) :: matrix(2, 2)
+
+      determinant = matrix(1, 1)*matrix(2, 2) - matrix(1, 2)**2
+   end function determinant
+
+end module dondolo_clustered
