@@ -1,5 +1,7 @@
 """A study of many walls, small but in many blocks, for tests that stop and share out runs."""
 
+import csv
+import math
 import re
 from pathlib import Path
 
@@ -48,3 +50,23 @@ def nameless(path: Path) -> str:
 def contents(folder: Path) -> dict[str, bytes]:
     """The bytes of all that was written."""
     return {file.name: file.read_bytes() for file in folder.iterdir()}
+
+
+def same_but_rounding(mine, theirs):
+    """Whether lines of two tables are the same but for the last digits of numbers.
+
+    Standard errors of curves are sums that Fortran and NumPy take in another order.
+    """
+    return len(mine) == len(theirs) and all(
+        len(one) == len(two) and all(map(_same_cell, one, two))
+        for one, two in zip(csv.reader(mine), csv.reader(theirs), strict=True)
+    )
+
+
+def _same_cell(one, two):
+    if one == two:
+        return True
+    try:
+        return math.isclose(float(one), float(two), rel_tol=1e-13) and one.isdigit() == two.isdigit()
+    except ValueError:
+        return False

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import study
 
 import dondolo as dd
 
@@ -38,7 +39,10 @@ def test_every_number(name, root, run, tmp_path):
             main.to_csv(mine, table)
         theirs = body(tmp_path / f"{results.case.output}_{table}.csv")
         assert len(theirs) > 1
-        assert body(mine) == theirs
+        if table == "fragility":
+            assert study.same_but_rounding(body(mine), theirs)
+        else:
+            assert body(mine) == theirs
     if main is not results.response:
         stored = dd.read_results(tmp_path / results.case.output)
         assert (stored.stripes or stored.typology).work == main.work

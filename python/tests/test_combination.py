@@ -5,6 +5,7 @@ import pickle
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import study
 from dondolo.analysis.work import Work
 from dondolo.populations import plots
 from dondolo.populations.combination import combine
@@ -473,6 +474,9 @@ def test_figures_of_groups_with_any_name(name, tmp_path):
         ax.figure.savefig(tmp_path / "figure.png")
 
 
-def test_populations_are_compared_with_a_warning(people):
-    with pytest.warns(dd.DondoloWarning, match="share their records"):
-        dd.compare(people["one_sided"].fit, people["two_block"].fit)
+def test_populations_on_the_same_records_are_compared_in_pairs(people):
+    # Of counts alone nothing is known about records, and the result says so.
+    assert dd.compare(people["one_sided"].fit, people["two_block"].fit).pairing == "naive"
+    computed = dd.typology(**study.arguments())
+    compared = dd.compare(computed["one_sided"].fit, computed["two_block"].fit)
+    assert (compared.pairing, compared.shared) == ("paired", len(study.arguments()["records"]))

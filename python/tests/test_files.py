@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import study
 from dondolo._base.files import whole_file
 from dondolo._fortran.library import build_variant
 from dondolo._storage import tables
@@ -270,7 +271,10 @@ def test_files_have_the_names_and_columns_of_the_executable(run, root, tmp_path)
             [line for line in (tmp_path / name).read_text().splitlines() if not line.startswith("#")]
             for name in (f"mine_{table}.csv", f"out/population_{table}.csv")
         ]
-        assert rows[0] == rows[1]
+        if table == "fragility":
+            assert study.same_but_rounding(*rows)
+        else:
+            assert rows[0] == rows[1]
 
 
 def test_what_cannot_be_saved(people, few, tmp_path):

@@ -403,7 +403,7 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     with pytest.raises(dd.InputError, match="hazard: float is no hazard curve"):
         dd.report(stripes, path, hazard=0.1)
     with pytest.raises(dd.InputError, match="hazard: must be left out"):
-        dd.report(dd.simulate(wall, sine), path, hazard)
+        dd.report(dd.simulate(wall, sine), path, hazard=hazard)
     with pytest.raises(dd.InputError, match="must be the same"):
         dd.report(stripes, path, hazard=dd.HazardCurve([0.1, 1.0], [0.1, 0.001], im="pgv"))
     assert not path.exists()

@@ -6,7 +6,6 @@ import warnings
 
 import numpy as np
 import pytest
-from dondolo.curves.fragility import Fragility
 
 import dondolo as dd
 
@@ -15,12 +14,6 @@ SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
 
 def functions_in_time():
     dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 4, dd.HazardCurve.power_law(1e-4, 2.0)).probability(50.0)
-
-
-def two_populations():
-    curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
-    values = {name: getattr(curve, name) for name in Fragility.__dataclass_fields__} | {"edp_threshold": 1.0}
-    dd.compare(Fragility(**values), curve)
 
 
 def own_table(path):
@@ -32,7 +25,6 @@ def own_table(path):
     ("call", "codes", "numbers"),
     [
         (lambda path: dd.fit_fragility([1.0, 2.0], [1, 2], 44), ["extrapolated"], ["first_level", "theta"]),
-        (lambda path: two_populations(), ["records_shared"], []),
         (lambda path: functions_in_time(), ["function_of_one_wall"], []),
         (
             lambda path: dd.mean_annual_frequency(dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga"), SHORT),
@@ -41,7 +33,7 @@ def own_table(path):
         ),
         (own_table, ["note", "columns_unused"], []),
     ],
-    ids=["fit", "compare", "function", "hazard", "table"],
+    ids=["fit", "function", "hazard", "table"],
 )
 def test_codes(call, codes, numbers, tmp_path):
     with warnings.catch_warnings(record=True) as caught:

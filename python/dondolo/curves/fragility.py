@@ -463,15 +463,16 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         **{name: [row[name] for row in map(_bounds, curves)] for name in _BOUNDS},
         "errors": [curve.errors if curve.has_fit else None for curve in curves],
         "clusters": [curve.clusters if curve.has_fit else None for curve in curves],
-        "degrees_of_freedom": [
-            (curve.degrees_of_freedom if curve.errors == "clustered" else max(curve.clusters - 1, 0))
-            if curve.has_fit
-            else None
-            for curve in curves
-        ],
+        "degrees_of_freedom": [_freedom(curve) if curve.has_fit else None for curve in curves],
         "naive_se_ln_theta": [float(np.sqrt(curve.naive_covariance[0, 0])) for curve in curves],
         "naive_se_beta": [float(np.sqrt(curve.naive_covariance[1, 1])) for curve in curves],
     }
+
+
+def _freedom(curve: Fragility) -> float:
+    """Degrees of freedom as in the table, where those of records alone are whole numbers."""
+    degrees = curve.degrees_of_freedom if curve.errors == "clustered" else float(max(curve.clusters - 1, 0))
+    return int(degrees) if degrees.is_integer() else degrees
 
 
 def _bounds(curve: Fragility) -> dict[str, float | None]:
