@@ -38,7 +38,7 @@ def test_history_is_kept():
     assert own.processing[-1] == "doubled"
     assert own.dt == done.dt
     assert dd.Record([0.0, 1.0], 0.1, processing="one step").processing == ("one step",)
-    with pytest.raises(dd.InputError, match="must be one line"):
+    with pytest.raises(dd.InputError, match=r"processing = 'one\\ntwo': must be one line"):
         dd.Record([0.0, 1.0], 0.1, processing=["one\ntwo"])
 
 
