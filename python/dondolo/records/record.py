@@ -5,7 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from types import MappingProxyType
 from typing import Any
 
@@ -122,7 +122,7 @@ class Record:
         dt = self.dt if dt is None else dt
         return Record(acceleration, dt, self.name, processing=steps, metadata=self.metadata)
 
-    @property
+    @cached_property
     def checksum(self) -> str:
         """CRC-32 of the samples and the time step: records with the same are one and the same motion."""
         return f"{zlib.crc32(np.float64(self.dt).tobytes(), zlib.crc32(self.acceleration.tobytes())):08x}"

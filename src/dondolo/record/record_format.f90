@@ -3,10 +3,10 @@ module dondolo_record_format
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
+   use dondolo_numbers, only : parse_real, take_real
    use dondolo_plain, only : shown
    use dondolo_text, only : brief, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_text_file, only : is_blank, text_file_type
    implicit none
    private
 
@@ -67,20 +67,22 @@ contains
          at = text%first(line)
          last = text%last(line)
          do
-            call text%next_word(at, last, first, finish)
-            if (first > last) exit
+            call text%skip_blanks(at, last)
+            if (at > last) exit
             found = found + 1
             if (found > count) then
                call raise_at(error, text, line, 'more values than the '//to_text(count)//' that the header states')
                return
             end if
-            call parse_real(text%text(first:finish), values(found), ok)
+            first = at
+            call take_real(text%text, at, last, values(found), ok)
+            if (ok .and. at <= last) ok = is_blank(text%text(at:at))
             if (.not. ok) then
+               call text%next_word(first, last, first, finish)
                call raise_at(error, text, line, 'value '//to_text(found)//' = '''// &
                   & shown(text%text(first:finish))//''': must be a number')
                return
             end if
-            at = finish + 1
          end do
       end do
       if (found == count) return

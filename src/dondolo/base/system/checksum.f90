@@ -35,7 +35,8 @@ contains
       !> Bytes at its beginning that are left out; none unless given
       integer, intent(in), optional :: behind
 
-      integer(int32) :: table(0:255, 8), crc, words(chunk/4)
+      integer(int64) :: words(chunk/8)
+      integer(int32) :: table(0:255, 8), crc
       character(len=8) :: tail
       integer(int64) :: left
       integer :: unit, stat, i, count
@@ -53,12 +54,12 @@ contains
          read (unit, pos=behind + 1, iostat=stat)
       end if
       do while (left >= 8 .and. stat == 0)
-         count = 2*int(min(left, int(chunk, int64))/8)
+         count = int(min(left, int(chunk, int64))/8)
          read (unit, iostat=stat) words(:count)
-         do i = 1, count, 2
-            call add_words(crc, words(i:i + 1), table)
+         do i = 1, count
+            call add_bytes(crc, words(i), table)
          end do
-         left = left - 4*count
+         left = left - 8*count
       end do
       if (left > 0 .and. stat == 0) read (unit, iostat=stat) tail(:left)
       close (unit)
@@ -82,7 +83,7 @@ contains
       call make_tables(table)
       crc = not(0_int32)
       do i = 1, size(values)
-         call add_words(crc, transfer(real(values(i), dp), [0_int32]), table)
+         call add_bytes(crc, transfer(real(values(i), dp), 0_int64), table)
       end do
       checksum = hexadecimal(not(crc))
    end function crc32_of_reals
@@ -100,23 +101,32 @@ contains
       end do
    end function hexadecimal
 
-   !> Take in eight bytes; the words are little-endian, as those of all processors that dondolo runs on
-   pure subroutine add_words(crc, words, table)
+   !> Take in eight bytes; the word is little-endian, as those of all processors that dondolo runs on
+   pure subroutine add_bytes(crc, word, table)
       !> Remainder so far
       integer(int32), intent(inout) :: crc
       !> Eight bytes
-      integer(int32), intent(in) :: words(2)
+      integer(int64), intent(in) :: word
       !> Tables of make_tables
       integer(int32), intent(in) :: table(0:255, 8)
 
-      integer(int32) :: first
+      integer(int64) :: mixed
 
-      first = ieor(crc, words(1))
-      crc = ieor(ieor(ieor(table(ibits(first, 0, 8), 8), table(ibits(first, 8, 8), 7)), &
-         & ieor(table(ibits(first, 16, 8), 6), table(ibits(first, 24, 8), 5))), &
-         & ieor(ieor(table(ibits(words(2), 0, 8), 4), table(ibits(words(2), 8, 8), 3)), &
-         & ieor(table(ibits(words(2), 16, 8), 2), table(ibits(words(2), 24, 8), 1))))
-   end subroutine add_words
+      mixed = ieor(word, iand(int(crc, int64), int(z'ffffffff', int64)))
+      crc = ieor(ieor(ieor(table(byte(0), 8), table(byte(1), 7)), ieor(table(byte(2), 6), table(byte(3), 5))), &
+         & ieor(ieor(table(byte(4), 4), table(byte(5), 3)), ieor(table(byte(6), 2), table(byte(7), 1))))
+
+   contains
+
+      !> A byte of the word
+      pure integer function byte(i)
+         !> Its place from the lowest
+         integer, intent(in) :: i
+
+         byte = int(ibits(mixed, 8*i, 8))
+      end function byte
+
+   end subroutine add_bytes
 
    !> Remainders of each byte, followed by 0 to 7 zero bytes
    pure subroutine make_tables(table)

@@ -10,7 +10,7 @@ module dondolo_text_file
    implicit none
    private
 
-   public :: text_file_type, read_text_file, open_text
+   public :: text_file_type, read_text_file, open_text, is_blank
    public :: padding
 
    !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
@@ -38,6 +38,8 @@ module dondolo_text_file
       procedure :: place
       !> The next word of a line
       procedure :: next_word
+      !> Where the next word begins
+      procedure :: skip_blanks
    end type text_file_type
 
 contains
@@ -176,7 +178,7 @@ contains
       !> Text file, its `text` known
       type(text_file_type), intent(inout) :: text
 
-      character(len=*), parameter :: line_feed = achar(10), return = achar(13)
+      integer, parameter :: line_feed = 10, return = 13
       integer :: begin, finish, count, i
 
       begin = 1
@@ -184,28 +186,33 @@ contains
          if (text%text(1:3) == byte_order_mark) begin = 4
       end if
       finish = verify(text%text, padding, back=.true.)
-      count = 0
-      if (finish >= begin) count = 1
-      do i = begin, finish
-         if (text%text(i:i) == line_feed) count = count + 1
-      end do
-      allocate (text%first(count), text%last(count))
-      if (count == 0) return
-      count = 1
-      text%first(1) = begin
-      do i = begin, finish
-         if (text%text(i:i) /= line_feed) cycle
-         text%last(count) = i - 1
-         count = count + 1
-         text%first(count) = i + 1
-      end do
-      text%last(count) = finish
-      do i = 1, count - 1
-         do while (text%last(i) >= text%first(i))
-            if (text%text(text%last(i):text%last(i)) /= return) exit
-            text%last(i) = text%last(i) - 1
+      if (finish < begin) then
+         allocate (text%first(0), text%last(0))
+         return
+      end if
+      ! Of plain characters the loop takes many at a time
+      associate (content => text%text)
+         count = 1
+         do i = begin, finish
+            count = count + merge(1, 0, iachar(content(i:i)) == line_feed)
          end do
-      end do
+         allocate (text%first(count), text%last(count))
+         text%first(1) = begin
+         text%last(count) = finish
+         count = 1
+         do i = begin, finish
+            if (iachar(content(i:i)) /= line_feed) cycle
+            text%last(count) = i - 1
+            count = count + 1
+            text%first(count) = i + 1
+         end do
+         do i = 1, count - 1
+            do while (text%last(i) >= text%first(i))
+               if (iachar(content(text%last(i):text%last(i))) /= return) exit
+               text%last(i) = text%last(i) - 1
+            end do
+         end do
+      end associate
    end subroutine index_lines
 
    !> Number of lines
@@ -270,16 +277,34 @@ contains
       !> Position of its last character
       integer, intent(out) :: finish
 
-      integer, parameter :: blank = iachar(' '), tab = 9
-
-      ! Loops, for SCAN and VERIFY take several times longer on short words; and codes, for gfortran calls LEN_TRIM to
-      ! compare a character with a blank
-      do first = at, last
-         if (iachar(self%text(first:first)) /= blank .and. iachar(self%text(first:first)) /= tab) exit
-      end do
+      first = at
+      call self%skip_blanks(first, last)
       do finish = first, last - 1
-         if (iachar(self%text(finish + 1:finish + 1)) == blank .or. iachar(self%text(finish + 1:finish + 1)) == tab) exit
+         if (is_blank(self%text(finish + 1:finish + 1))) exit
       end do
    end subroutine next_word
+
+   !> Go on to what is no blank and no tab
+   pure subroutine skip_blanks(self, at, last)
+      class(text_file_type), intent(in) :: self
+      !> Position
+      integer, intent(inout) :: at
+      !> Last position of the line; `at` is beyond it where nothing but blanks follows
+      integer, intent(in) :: last
+
+      ! A loop, for VERIFY takes several times longer on short words
+      do while (at <= last)
+         if (.not. is_blank(self%text(at:at))) exit
+         at = at + 1
+      end do
+   end subroutine skip_blanks
+
+   !> Is a character a blank or a tab?
+   elemental logical function is_blank(character)
+      character(len=1), intent(in) :: character
+
+      ! Codes, for gfortran calls LEN_TRIM to compare a character with a blank
+      is_blank = iachar(character) == iachar(' ') .or. iachar(character) == 9
+   end function is_blank
 
 end module dondolo_text_file

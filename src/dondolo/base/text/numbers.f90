@@ -7,7 +7,7 @@ module dondolo_numbers
    implicit none
    private
 
-   public :: parse_real, parse_integer
+   public :: parse_real, parse_integer, take_real
 
    !> Powers of ten that are exact in real64, hence in every working precision
    real(wp), parameter :: power(0:22) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, &
@@ -25,10 +25,7 @@ module dondolo_numbers
 
 contains
 
-   !> Read a decimal number: [sign] digits [. digits] [e|d [sign] digits], blanks around it allowed
-   !>
-   !> Up to 2**53 units times or over an exact power of ten, one multiplication or division rounds correctly
-   !> (Clinger 1990, How to read floating point numbers accurately); all else goes to the compiler's READ.
+   !> Read a decimal number, blanks around it allowed
    pure subroutine parse_real(text, value, ok)
       !> Text
       character(len=*), intent(in) :: text
@@ -37,38 +34,61 @@ contains
       !> The text is one finite number
       logical, intent(out) :: ok
 
+      integer :: at, last
+
+      call inner(text, at, last)
+      call take_real(text, at, last, value, ok)
+      if (.not. ok .or. at > last) return
+      ok = .false.
+      value = 0.0_wp
+   end subroutine parse_real
+
+   !> Take a decimal number: [sign] digits [. digits] [e|d [sign] digits]
+   !>
+   !> Up to 2**53 units times or over an exact power of ten, one multiplication or division rounds correctly
+   !> (Clinger 1990, How to read floating point numbers accurately); all else goes to the compiler's READ.
+   pure subroutine take_real(text, at, last, value, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position: where the number begins, then what follows it
+      integer, intent(inout) :: at
+      !> Last position to look at
+      integer, intent(in) :: last
+      !> The number, 0 unless ok
+      real(wp), intent(out) :: value
+      !> A finite number begins there
+      logical, intent(out) :: ok
+
       integer(int64) :: units
-      integer :: first, last, i, digits, decimals, exponent, stat
+      integer :: first, digits, decimals, exponent, stat
       logical :: exact, minus
 
       value = 0.0_wp
       ok = .false.
-      call inner(text, first, last)
-      i = first
-      call take_sign(text(:last), i, minus)
+      first = at
+      call take_sign(text(:last), at, minus)
       units = 0
       exact = .true.
       digits = 0
       decimals = 0
-      call take_digits(text(:last), i, units, exact, digits)
-      if (i <= last) then
-         if (text(i:i) == '.') then
-            i = i + 1
+      call take_digits(text(:last), at, units, exact, digits)
+      if (at <= last) then
+         if (iachar(text(at:at)) == iachar('.')) then
+            at = at + 1
             decimals = digits
-            call take_digits(text(:last), i, units, exact, digits)
+            call take_digits(text(:last), at, units, exact, digits)
             decimals = digits - decimals
          end if
       end if
       if (digits == 0) return
       exponent = 0
-      if (i <= last) then
-         select case (text(i:i))
-         case ('e', 'E', 'd', 'D')
-         case default
-            return
+      if (at <= last) then
+         select case (iachar(text(at:at)))
+         case (iachar('e'), iachar('E'), iachar('d'), iachar('D'))
+            at = at + 1
+            call take_whole(text(:last), at, largest_exponent, exponent, ok)
+            if (.not. ok) return
          end select
-         call take_whole(text(i + 1:last), largest_exponent, exponent, ok)
-         if (.not. ok) return
       end if
       ok = .true.
       exponent = exponent - decimals
@@ -82,10 +102,10 @@ contains
          if (minus) value = -value
          return
       end if
-      read (text(first:last), *, iostat=stat) value
+      read (text(first:at - 1), *, iostat=stat) value
       ok = stat == 0 .and. abs(value) <= huge(value)
       if (.not. ok) value = 0.0_wp
-   end subroutine parse_real
+   end subroutine take_real
 
    !> Read an integer: [sign] digits, blanks around it allowed
    pure subroutine parse_integer(text, value, ok)
@@ -96,10 +116,13 @@ contains
       !> The text is one integer that fits
       logical, intent(out) :: ok
 
-      integer :: first, last
+      integer :: at, last
 
-      call inner(text, first, last)
-      call take_whole(text(first:last), huge(value), value, ok)
+      call inner(text, at, last)
+      call take_whole(text(:last), at, huge(value), value, ok)
+      if (at > last) return
+      ok = .false.
+      value = 0
    end subroutine parse_integer
 
    !> Bounds of a text without the blanks and tabs around it; last < first if nothing is left
@@ -136,44 +159,50 @@ contains
       !> How many digits so far
       integer, intent(inout) :: digits
 
-      integer :: digit
+      integer(int64) :: sum
+      integer :: begin, at, digit
 
-      do while (i <= len(text))
+      begin = i
+      sum = units
+      do at = begin, len(text)
+         digit = iachar(text(at:at)) - iachar('0')
+         if (digit < 0 .or. digit > 9) exit
+         if (sum >= room_for_digit) exit
+         sum = 10_int64*sum + int(digit, int64)
+      end do
+      units = sum
+      do i = at, len(text)
          digit = iachar(text(i:i)) - iachar('0')
          if (digit < 0 .or. digit > 9) exit
-         if (units < room_for_digit) then
-            units = 10_int64*units + int(digit, int64)
-         else
-            exact = .false.
-         end if
-         digits = digits + 1
-         i = i + 1
+         exact = .false.
       end do
+      digits = digits + i - begin
    end subroutine take_digits
 
-   !> Take [sign] digits and nothing else
-   pure subroutine take_whole(text, largest, value, ok)
+   !> Take [sign] digits
+   pure subroutine take_whole(text, at, largest, value, ok)
       !> Text
       character(len=*), intent(in) :: text
+      !> Position: where the integer begins, then what follows it
+      integer, intent(inout) :: at
       !> Largest absolute value
       integer, intent(in) :: largest
-      !> Its number, 0 unless ok
+      !> The integer, 0 unless ok
       integer, intent(out) :: value
-      !> The text is one integer that is not too large
+      !> An integer that is not too large begins there
       logical, intent(out) :: ok
 
       integer(int64) :: units
-      integer :: i, digits
+      integer :: digits
       logical :: exact, minus
 
       value = 0
-      i = 1
-      call take_sign(text, i, minus)
+      call take_sign(text, at, minus)
       units = 0
       exact = .true.
       digits = 0
-      call take_digits(text, i, units, exact, digits)
-      ok = digits > 0 .and. i > len(text) .and. exact .and. units <= largest
+      call take_digits(text, at, units, exact, digits)
+      ok = digits > 0 .and. exact .and. units <= largest
       if (ok) value = int(merge(-units, units, minus))
    end subroutine take_whole
 
@@ -188,8 +217,8 @@ contains
 
       minus = .false.
       if (i > len(text)) return
-      minus = text(i:i) == '-'
-      if (minus .or. text(i:i) == '+') i = i + 1
+      minus = iachar(text(i:i)) == iachar('-')
+      if (minus .or. iachar(text(i:i)) == iachar('+')) i = i + 1
    end subroutine take_sign
 
 end module dondolo_numbers

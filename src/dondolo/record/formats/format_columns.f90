@@ -14,7 +14,7 @@ module dondolo_format_columns
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_columns
    use dondolo_memory, only : check_room
-   use dondolo_numbers, only : parse_real
+   use dondolo_numbers, only : parse_real, take_real
    use dondolo_plain, only : shown
    use dondolo_record_format, only : raise_at, samples_type
    use dondolo_text, only : blanks, lower, to_text
@@ -164,7 +164,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=1) :: separator
-      integer :: begin, line, cell, cells, found, i, first(most_cells), last(most_cells)
+      integer :: begin, line, cell, cells, i, first(most_cells), last(most_cells)
       real(wp), allocatable :: values(:, :)
       integer, allocatable :: time_first(:), time_last(:)
       real(wp) :: dt
@@ -188,18 +188,10 @@ contains
       allocate (time_first(size(values, 2)), time_last(size(values, 2)))
       do line = begin, text%lines()
          i = line - begin + 1
-         call find_cells(text, line, separator, first, last, found)
-         ok = found == cells
-         do cell = 1, cells
-            if (.not. ok) exit
-            call parse_real(text%text(first(cell):last(cell)), values(cell, i), ok)
-         end do
-         if (.not. ok) then
-            call raise_bad_line(text, line, begin, cells, error)
-            return
-         end if
-         time_first(i) = first(1)
-         time_last(i) = last(1)
+         call read_row(text, line, separator, values(:, i), time_first(i), time_last(i), ok)
+         if (ok) cycle
+         call raise_bad_line(text, line, begin, cells, error)
+         return
       end do
       dt = 0.0_wp
       if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
@@ -218,6 +210,49 @@ contains
       end do
       call read_top(text, begin, cells, samples, error)
    end subroutine read_plain
+
+   !> Read the numbers of a line
+   pure subroutine read_row(text, line, separator, values, first, last, ok)
+      type(text_file_type), intent(in) :: text
+      !> Number of the line
+      integer, intent(in) :: line
+      !> What separates the columns
+      character(len=1), intent(in) :: separator
+      !> Its numbers, as many as there must be
+      real(wp), intent(out) :: values(:)
+      !> Position of the first character of the first number
+      integer, intent(out) :: first
+      !> Position of its last character
+      integer, intent(out) :: last
+      !> The line holds these numbers and nothing else; a separator may end it
+      logical, intent(out) :: ok
+
+      integer :: at, finish, begin, k
+      logical :: by_blanks
+
+      by_blanks = separator == ' '
+      at = text%first(line)
+      finish = text%last(line)
+      do k = 1, size(values)
+         begin = at
+         call text%skip_blanks(at, finish)
+         if (k == 1) first = at
+         ok = k == 1 .or. at > begin .or. .not. by_blanks
+         if (ok) call take_real(text%text, at, finish, values(k), ok)
+         if (.not. ok) return
+         if (k == 1) last = at - 1
+         if (by_blanks) cycle
+         call text%skip_blanks(at, finish)
+         ok = k == size(values)
+         if (at <= finish) then
+            ok = text%text(at:at) == separator
+            at = at + 1
+         end if
+         if (.not. ok) return
+      end do
+      call text%skip_blanks(at, finish)
+      ok = at > finish
+   end subroutine read_row
 
    !> Say what is wrong in a line
    subroutine raise_bad_line(text, line, begin, cells, error)
