@@ -27,7 +27,8 @@ from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
-from dondolo.walls.wall import Wall, upload, walls_table
+from dondolo.walls.table import walls_table
+from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

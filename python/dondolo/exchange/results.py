@@ -24,7 +24,8 @@ from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
-from dondolo.walls.wall import MECHANISMS, Wall, numbered
+from dondolo.walls.table import numbered
+from dondolo.walls.wall import MECHANISMS, Wall
 
 # Columns of _walls.csv and the numbers of a wall
 _COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}

@@ -22,7 +22,8 @@ from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
-from dondolo.walls.wall import Wall, property_columns, wall_from, walls_table
+from dondolo.walls.table import property_columns, walls_table
+from dondolo.walls.wall import Wall, wall_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

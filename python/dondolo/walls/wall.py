@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -16,8 +16,6 @@ from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check
 from dondolo._fortran.walls import (
-    WALL_EXTRAS,
-    WALL_LISTS,
     WALL_PROPERTIES,
     FlatWall,
     WallData,
@@ -280,6 +278,8 @@ class Wall:
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""
+        from dondolo.walls.table import walls_table
+
         return tables.frame(walls_table([self]))
 
 
@@ -540,49 +540,3 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     check(stat, message)
     alone["_handle"] = handle = Handle(number)
     return handle
-
-
-def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
-    """Columns of properties under their heads; a list has as many, numbered, as a wall has values."""
-    table: tables.Table = {}
-    for what, head in heads.items():
-        values = [getattr(wall, what, None) for wall in walls]
-        if what in WALL_EXTRAS and all(value is None for value in values):
-            continue
-        if what not in WALL_LISTS:
-            table[head] = values
-            continue
-        lists = [value or () for value in values]
-        for i in range(max(map(len, lists))):
-            table[numbered(head, i + 1)] = [value[i] if i < len(value) else None for value in lists]
-    return table
-
-
-def numbered(name: str, number: int) -> str:
-    """Name of one value of a list: the number stands behind its first word."""
-    stem, *rest = name.split("_", 1)
-    return "_".join([f"{stem}{number}", *rest])
-
-
-def walls_table(
-    walls: Sequence[Wall],
-    weights: Iterable[float] = (1.0,),
-    groups: Iterable[str] = ("",),
-    p_occ: Iterable[float] = (1.0,),
-) -> tables.Table:
-    """Columns of ``_walls.csv``."""
-
-    def column(what: str) -> list[Any]:
-        return [getattr(wall, what, None) for wall in walls]
-
-    return {
-        **property_columns(walls, {row.name: row.column for row in WALL_PROPERTIES if row.column}),
-        "alpha_rad": column("slenderness_angle"),
-        "p_rad_s": column("frequency_parameter"),
-        "trigger_acceleration_m_s2": column("trigger_acceleration"),
-        "capacity_rad": column("capacity_angle"),
-        "restitution": column("restitution_coefficient"),
-        "weight": list(weights),
-        "group": list(groups),
-        "p_occ": list(p_occ),
-    }

@@ -2,10 +2,8 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_plain, only : name_problem, shown
-   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
-      & is_text, is_words, name_length, number_of_choices, number_of_words, property_type
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_words, property_type
+   use dondolo_text, only : lower
    implicit none
    private
 
@@ -66,7 +64,7 @@ module dondolo_settings
       procedure :: fill
       !> Check what is there against the table
       procedure :: check
-      procedure, private :: place, prepare, make_room
+      procedure, private :: place, prepare, make_room, is_listed
    end type settings_type
 
    abstract interface
@@ -85,6 +83,19 @@ module dondolo_settings
          !> Name of the property, in lower case
          character(len=*), intent(in) :: name
       end function find_interface
+   end interface
+
+   interface
+      !> Check what is there against the table: `name = value: what is allowed`
+      module subroutine check(self, problems, label, owner)
+         class(settings_type), intent(in) :: self
+         !> Takes what is wrong
+         type(problems_type), intent(inout) :: problems
+         !> Property that says what has properties, for messages: 'mechanism'
+         character(len=*), intent(in), optional :: label
+         !> Its value: what has only other properties is refused; empty: nothing is said of them
+         character(len=*), intent(in), optional :: owner
+      end subroutine check
    end interface
 
    !> Settings of a group of a namelist
@@ -173,7 +184,7 @@ contains
       lengths = merge(1, 0, self%known)
       do i = 1, size(lengths)
          if (lengths(i) == 0) cycle
-         if (is_listed(self, i)) lengths(i) = size(self%lists(i)%values)
+         if (self%is_listed(i)) lengths(i) = size(self%lists(i)%values)
          if (allocated(self%words(i)%text)) lengths(i) = max(1, number_of_words(self%words(i)%text))
       end do
    end function lengths
@@ -368,7 +379,7 @@ contains
       if (at == 0) return
       self%known(at) = .false.
       if (allocated(self%words(at)%text)) deallocate (self%words(at)%text)
-      if (is_listed(self, at)) deallocate (self%lists(at)%values)
+      if (self%is_listed(at)) deallocate (self%lists(at)%values)
    end subroutine clear
 
    !> Give properties without a value their defaults
@@ -401,32 +412,6 @@ contains
       end do
    end subroutine fill
 
-   !> Length of names as a choice
-   pure integer function one_of_length(names)
-      !> Names, empty ones after them
-      character(len=*), intent(in) :: names(:)
-
-      one_of_length = sum(len_trim(names)) + 6*number_of_choices(names) - 4
-   end function one_of_length
-
-   !> Names as a choice: 'a' or 'b'
-   pure function one_of(names) result(text)
-      !> Names, empty ones after them
-      character(len=*), intent(in) :: names(:)
-      !> Text
-      character(len=one_of_length(names)) :: text
-
-      integer :: i, length
-
-      length = 0
-      do i = 1, number_of_choices(names)
-         if (i > 1) text(length + 1:) = ' or '
-         if (i > 1) length = length + 4
-         text(length + 1:) = ''''//trim(names(i))//''''
-         length = length + len_trim(names(i)) + 2
-      end do
-   end function one_of
-
    !> Is a value a list of numbers?
    pure logical function is_listed(self, at)
       class(settings_type), intent(in) :: self
@@ -436,116 +421,5 @@ contains
       is_listed = allocated(self%lists)
       if (is_listed) is_listed = allocated(self%lists(at)%values)
    end function is_listed
-
-   !> Length of a value as it stands in messages
-   pure integer function value_length(self, at)
-      class(settings_type), intent(in) :: self
-      !> Place of a property that has a value
-      integer, intent(in) :: at
-
-      integer :: i
-
-      if (allocated(self%words(at)%text)) then
-         value_length = len(shown(self%words(at)%text)) + 2
-      else if (is_listed(self, at)) then
-         value_length = sum([(len(to_text(self%lists(at)%values(i))) + 2, i=1, size(self%lists(at)%values))]) - 2
-      else
-         value_length = len(to_text(self%numbers(at)))
-      end if
-   end function value_length
-
-   !> A value as it stands in messages
-   pure function value_text(self, at) result(text)
-      class(settings_type), intent(in) :: self
-      !> Place of a property that has a value
-      integer, intent(in) :: at
-      !> Text, in quotes if it is one
-      character(len=value_length(self, at)) :: text
-
-      integer :: i, length
-
-      if (allocated(self%words(at)%text)) then
-         text = ''''//shown(self%words(at)%text)//''''
-      else if (is_listed(self, at)) then
-         length = 0
-         do i = 1, size(self%lists(at)%values)
-            if (i > 1) text(length + 1:) = ', '
-            if (i > 1) length = length + 2
-            text(length + 1:) = to_text(self%lists(at)%values(i))
-            length = length + len(to_text(self%lists(at)%values(i)))
-         end do
-      else
-         text = to_text(self%numbers(at))
-      end if
-   end function value_text
-
-   !> Check what is there against the table: `name = value: what is allowed`
-   subroutine check(self, problems, label, owner)
-      class(settings_type), intent(in) :: self
-      !> Takes what is wrong
-      type(problems_type), intent(inout) :: problems
-      !> Property that says what has properties, for messages: 'mechanism'
-      character(len=*), intent(in), optional :: label
-      !> Its value: what has only other properties is refused; empty: nothing is said of them
-      character(len=*), intent(in), optional :: owner
-
-      type(property_type), pointer :: table(:)
-      character(len=name_length), allocatable :: names(:)
-      character(len=:), allocatable :: allowed
-      integer :: i, k
-
-      call self%get_table(table)
-      if (allocated(self%unknown)) then
-         names = table%name
-         call problems%note(self%unknown//': no such variable; there are '//join(names))
-      end if
-      do i = 1, size(table)
-         associate (property => table(i))
-            if (present(owner)) then
-               if (.not. has_owner(property, owner)) then
-                  if (len(owner) > 0 .and. is_known(i)) call problems%note(trim(property%name)//' = '// &
-                     & value_text(self, i)//': only for '//label//' = '//one_of(property%owners))
-                  cycle
-               end if
-            end if
-            if (.not. is_known(i)) then
-               if (.not. property%required) cycle
-               allowed = 'must be given'
-               if (len_trim(property%names) > 0) allowed = allowed//', '//trim(property%names)
-               if (len_trim(property%choices(1)) > 0) allowed = allowed//', one of '// &
-                  & join(property%choices(:number_of_choices(property%choices)))
-               call problems%note(trim(property%name)//': '//allowed)
-               cycle
-            end if
-            select case (property%kind)
-            case (is_text, is_words)
-               call check_word(property, self%words(i)%text, allowed)
-               if (len_trim(name_problem(self%words(i)%text)) > 0) allowed = trim(name_problem(self%words(i)%text))
-            case (is_real, is_integer)
-               call check_number(property, self%numbers(i), allowed)
-            case (is_list)
-               if (allocated(allowed)) deallocate (allowed)
-               do k = 1, size(self%lists(i)%values)
-                  if (.not. allocated(allowed)) call check_number(property, self%lists(i)%values(k), allowed)
-               end do
-            case default
-               if (allocated(allowed)) deallocate (allowed)
-            end select
-            if (allocated(allowed)) call problems%note(trim(property%name)//' = '//value_text(self, i)//': '//allowed)
-         end associate
-      end do
-
-   contains
-
-      !> Has a property a value?
-      pure logical function is_known(at)
-         !> Its place
-         integer, intent(in) :: at
-
-         is_known = allocated(self%known)
-         if (is_known) is_known = self%known(at)
-      end function is_known
-
-   end subroutine check
 
 end module dondolo_settings
