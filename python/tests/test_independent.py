@@ -149,7 +149,9 @@ HISTORIES = {
         2.42,
     ),
     "two blocks with overburden": (
-        dd.TwoBlockWall(3.0, 0.25, hinge=0.7, overburden=6000.0, overburden_inertia=0.0, eccentricity=0.05, restitution="impulse"),
+        dd.TwoBlockWall(
+            3.0, 0.25, hinge=0.7, overburden=6000.0, overburden_inertia=0.0, eccentricity=0.05, restitution="impulse"
+        ),
         independent.two_blocks(3.0, 0.25, 1800.0, **LOADED),
         (independent.impulse, 1.0, (1, -1)),
         3.6,

@@ -235,7 +235,8 @@ def test_what_a_wall_carries_is_drawn_with_its_value():
     assert texts["500 kg/m pushed"] == pytest.approx((0.4, 6.0))
     # Without its depth the thrust acts at the inner face of the upper storey
     tail = texts["800 N/m thrust"]
-    assert tail[0] < 0.15 and tail[1] == pytest.approx(7.5)
+    assert tail[0] < 0.15
+    assert tail[1] == pytest.approx(7.5)
     strip = dd.TwoBlockWall(3.0, 0.25, overburden=2e4, overburden_inertia=0.5, eccentricity=-0.05)
     for rotation, place in ((0.0, 0.075), (-1e-9, 0.175)):
         (at,) = (t.xy for t in strip.plot(rotation=rotation).texts if t.get_text() == "20 kN/m 50 % lifted")

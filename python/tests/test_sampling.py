@@ -20,7 +20,12 @@ def sample(n=200, seed=1, **changes):
     arguments = {
         "mechanisms": {
             "one_sided": {"p_occ": 0.6},
-            "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75), "overburden": dd.Uniform(0.0, 9e3), "overburden_inertia": 0.0},
+            "two_block": {
+                "p_occ": 0.4,
+                "hinge": dd.Triangular(0.5, 0.6, 0.75),
+                "overburden": dd.Uniform(0.0, 9e3),
+                "overburden_inertia": 0.0,
+            },
         },
         "height": HEIGHT,
         "thickness": BRICKS,

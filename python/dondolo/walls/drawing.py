@@ -12,6 +12,7 @@ from dondolo.walls.wall import TwoBlockWall, Wall
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+
 def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> Axes:
     """Draw a wall at rest (dashed) and rotated, with the hinges it rotates about and what it carries."""
     ax = style.axes(ax, (3.6, 4.6))

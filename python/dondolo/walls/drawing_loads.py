@@ -1,7 +1,7 @@
 """What a wall carries, drawn on it: loads, masses, thrusts and springs, with their values.
 
-Shapes tell them apart without colour: arrows down are loads, filled with a mass that the wall moves and open without one,
-arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs.
+Shapes tell them apart without colour: arrows down are loads, filled with a mass that the wall moves and open without
+one, arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs.
 """
 
 from __future__ import annotations
@@ -57,8 +57,8 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
     for thrust, depth, height in _things(wall, "thrust", "depth", "height"):
         at = _place(wall, _inner_face(wall, height) if depth is None else depth, height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
-        ax.annotate("", at, at - (1.4 * size, 0.0), arrowprops=arrow, zorder=5)
-        _words(ax, at - (1.4 * size, 0.0), f"{_with_prefix(thrust, 'N/m')} thrust", (0, 4), ha="center")
+        ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
+        _words(ax, np.subtract(at, (1.4 * size, 0.0)), f"{_with_prefix(thrust, 'N/m')} thrust", (0, 4), ha="center")
     for stiffness, depth, height in _things(wall, "spring", "depth", "height"):
         _spring(ax, wall, _place(wall, depth, height, rotation), size, _with_prefix(stiffness, "N/m²"))
     for stiffness, depth, bottom, top in _things(wall, "bed", "depth", "bottom", "top"):
@@ -85,8 +85,13 @@ def _in_words(lifted: float, pushed: float) -> str:
 
 def _inner_face(wall: Wall, height: float) -> float:
     """Depth of the inner face at a height, the innermost where storeys meet."""
-    left = [corners[0, 0] for corners in storeys(wall) if corners[0, 1] <= height * 1.000001 <= 1.000002 * corners[2, 1]]
-    return wall.thickness - min(left)
+    slack = 1e-6 * wall.height
+    inner = [
+        wall.thickness - float(corners[0, 0])
+        for corners in storeys(wall)
+        if corners[0, 1] - slack <= height <= corners[2, 1] + slack
+    ]
+    return max(inner)
 
 
 def _place(wall: Wall, depth: float, height: float, rotation: float) -> Points:
@@ -118,8 +123,8 @@ def _arrow_down(ax: Axes, at: Points, size: float, text: str, *, is_mass: bool) 
         "facecolor": style.BLUE if is_mass else "white",
         "linewidth": 1.6,
     }
-    ax.annotate("", at, at + (0.0, size), arrowprops=arrow, zorder=5)
-    _words(ax, at + (0.0, 0.6 * size), text, (6, 0))
+    ax.annotate("", tuple(at), tuple(np.add(at, (0.0, size))), arrowprops=arrow, zorder=5)
+    _words(ax, np.add(at, (0.0, 0.6 * size)), text, (6, 0))
 
 
 def _spring(ax: Axes, wall: Wall, at: Points, size: float, text: str) -> None:
@@ -129,4 +134,4 @@ def _spring(ax: Axes, wall: Wall, at: Points, size: float, text: str) -> None:
     across = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0]) * 0.14 * size
     ax.plot(at[0] + away * along, at[1] + across, color=style.BLACK, linewidth=1.0, zorder=5)
     if text:
-        _words(ax, at + (away * along[-1], 0.0), text, (4 * away, -3), ha="left" if away > 0.0 else "right")
+        _words(ax, np.add(at, (away * along[-1], 0.0)), text, (4 * away, -3), ha="left" if away > 0.0 else "right")

@@ -83,7 +83,7 @@ def storeys(wall: Wall) -> list[Points]:
             )
         )
         left = wall.thickness - offset - thickness
-        found.append(_rectangle(thickness, height) + (left, bottom))
+        found.append(np.add(_rectangle(thickness, height), (left, bottom)))
         bottom += height
     return found
 
@@ -111,7 +111,8 @@ def moved(wall: Wall, points: Points, rotation: float) -> Points:
         Where they are [m]; a wall with a round edge rolls.
     """
     centre = np.array([wall.thickness - wall.base_hinge_depth, _edge(wall)])
-    return _turned(points, centre, -rotation) + (_edge(wall) * rotation, 0.0)
+    turned: Points = np.add(_turned(points, centre, -rotation), (_edge(wall) * rotation, 0.0))
+    return turned
 
 
 def _two_blocks(wall: TwoBlockWall, q: float) -> tuple[list[Points], Points]:

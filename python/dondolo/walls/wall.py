@@ -488,8 +488,8 @@ class FreeStandingWall(BlockWall):
 class TwoBlockWall(Wall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
 
-    Parameters are the first ten of `OneSidedWall` and its hinge_depth, compressive_strength and stress_block, the models
-    of restitution 'default', 'sorrentino', 'impulse' and 'constant', and those below. The default is 'sorrentino', or
+    Parameters are those of a bare `OneSidedWall`, its hinge_depth, compressive_strength and stress_block, the models
+    of restitution 'default', 'sorrentino', 'impulse' and 'constant', and those below. 'default' is 'sorrentino', or
     'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not know.
 
     Parameters
