@@ -444,7 +444,8 @@ def multiple_stripe(
     While nothing or everything collapses, the next level is twice or half the last. Then a level maximises the
     determinant of the information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell
     between which levels it lies (docs/uncertainty.md). The same levels result for any number of threads, and the
-    stripes are those of a run at these levels. It ends early where the next level would scale a record beyond all measure.
+    stripes are those of a run at these levels.
+    It ends early where the next level would scale a record beyond all measure.
     """
     instance_of("wall", wall, Wall, "no wall")
     if isinstance(levels, str):
