@@ -59,7 +59,7 @@ def rooms_of(folder):
 @pytest.mark.parametrize(
     ("folder", "rooms"),
     [
-        (".", ["base", "record", "wall", "motion", "fragility", "population", "case"]),
+        (".", ["base", "record", "wall", "motion", "fragility", "check", "population", "case"]),
         ("base", ["numerics", "text", "properties", "system"]),
         ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],

@@ -5,8 +5,7 @@ module dondolo_check_sheet
    implicit none
    private
 
-   public :: sheet_type, sheet_row_type, quantity_type, find_quantity
-   public :: sheet_head
+   public :: sheet_type, sheet_head
 
    !> Length of the names of methods, states and quantities, and of a formula's
    integer, parameter :: name_length = 20
@@ -39,15 +38,15 @@ module dondolo_check_sheet
       & quantity_type('mass_ratio', 'e*', '', 'the same / the whole mass'), &
       & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
       & quantity_type('d_0', 'd_0*', 'm', 'displacement at which the multiplier vanishes'), &
-      & quantity_type('capacity_ag', 'a_g,C', 'g', 'a_g that the wall stands'), &
-      & quantity_type('capacity_pga', 'a_g,C S', 'g', 'peak acceleration at the site that the wall stands'), &
+      & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall stands'), &
+      & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall stands'), &
       & quantity_type('displacement', 'd_C', 'm', 'displacement that the wall stands'), &
       & quantity_type('acceleration', 'a(d_C)', 'm/s2', 'spectral acceleration of capacity there'), &
       & quantity_type('period', 'T', 's', 'equivalent period'), &
       & quantity_type('damping', 'xi', '', 'equivalent damping ratio'), &
       & quantity_type('spectral_demand', 'S_eZ(T)', 'g', 'spectral acceleration at the level of the wall'), &
       & quantity_type('demand', 'd_D', 'm', 'displacement that the earthquake asks for'), &
-      & quantity_type('ratio', 'C/D', '', 'capacity / demand, a_g,C/a_g; at least 1: verified'), &
+      & quantity_type('ratio', 'C/D', '', 'capacity / demand, a_gC/a_g; at least 1: verified'), &
       & quantity_type('records', '', '', 'records'), &
       & quantity_type('histories', '', '', 'time histories at the peak acceleration of the site'), &
       & quantity_type('beyond', '', '', 'of these beyond d_0*; none may be'), &
@@ -79,8 +78,6 @@ module dondolo_check_sheet
    contains
       !> Add a line
       procedure :: add
-      !> Add the lines of another
-      procedure :: append
       !> The value of a line
       procedure :: value
       !> A line as a row of a table
@@ -119,16 +116,6 @@ contains
       if (.not. allocated(self%rows)) allocate (self%rows(0))
       self%rows = [self%rows, row]
    end subroutine add
-
-   !> Add the lines of another sheet
-   pure subroutine append(self, other)
-      class(sheet_type), intent(inout) :: self
-      type(sheet_type), intent(in) :: other
-
-      if (.not. allocated(other%rows)) return
-      if (.not. allocated(self%rows)) allocate (self%rows(0))
-      self%rows = [self%rows, other%rows]
-   end subroutine append
 
    !> The value of a line, of the first of its name; -1 where there is none
    pure real(wp) function value(self, method, state, name)

@@ -13,6 +13,7 @@ module dondolo_ntc_check
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_sheet, only : sheet_type
    use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
+   use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_kinematic, only : kinematic_type
    implicit none
@@ -28,13 +29,15 @@ module dondolo_ntc_check
 contains
 
    !> Kinematic check of a wall
-   pure subroutine check_ntc(sheet, kinematic, input, modes)
+   pure subroutine check_ntc(sheet, kinematic, input, modes, curve)
       type(sheet_type), intent(out) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
       !> Period [s], damping ratio, and participation times shape at the level of the wall, of each mode of the building
       !> (3, modes); no mode: at the ground
       real(wp), intent(in) :: modes(:, :)
+      !> Curve of collapse over the peak acceleration at the site [g]: the sheet then has probabilities
+      type(fragility_type), intent(in), optional :: curve
 
       type(floor_spectrum_type) :: spectrum
       integer :: i
@@ -51,7 +54,27 @@ contains
          spectrum = new_floor_spectrum(input%spectrum(i), modes(1, :), modes(2, :), modes(3, :))
          call put_nonlinear(sheet, kinematic, input, spectrum, i)
       end do
+      if (present(curve)) call put_probabilities(sheet, curve)
    end subroutine check_ntc
+
+   !> Put the probability of collapse behind each peak acceleration at the site, the site's own and what the wall stands
+   pure subroutine put_probabilities(sheet, curve)
+      type(sheet_type), intent(inout) :: sheet
+      type(fragility_type), intent(in) :: curve
+
+      type(sheet_type) :: longer
+      integer :: i
+
+      if (.not. curve%has_fit()) return
+      do i = 1, size(sheet%rows)
+         associate (row => sheet%rows(i))
+            call longer%add(row%method, row%state, row%quantity%name, row%value, row%formula)
+            if (row%quantity%name == 'pga' .or. row%quantity%name == 'capacity_pga') call longer%add(row%method, row%state, &
+               & 'probability', curve%probability(row%value))
+         end associate
+      end do
+      sheet = longer
+   end subroutine put_probabilities
 
    !> Put the hazard of the site
    pure subroutine put_site(sheet, input, state, modes)
