@@ -1,5 +1,7 @@
-"""Checks by NTC 2018: values, histories at the level of the site, figure, files and report. The formulas are held against
-worked numbers in test/test_code_check.f90."""
+"""Checks by NTC 2018: values, histories at the level of the site, figure, files and report.
+
+The formulas are held against worked numbers in test/test_code_check.f90.
+"""
 
 import subprocess
 
@@ -117,7 +119,9 @@ def test_case_and_report(root, executable, tmp_path):
     stored = dd.read_results(tmp_path / "out/wall")
     check = dd.check_ntc(stored.stripes.wall, SITE)
     assert stored.check.site == SITE
-    assert [row for row in stored.check.rows if row.quantity != "probability" and row.method != "dynamic"] == [*check.rows]
+    assert [row for row in stored.check.rows if row.quantity != "probability" and row.method != "dynamic"] == [
+        *check.rows
+    ]
     # No stripe stands at the level of the site: the executable has run one more
     more = dd.check_dynamic(check, dd.read_catalogue(root / "data/records/synthetic44.csv"))
     assert stored.check.value("dynamic", "SLV", "mean_displacement") == pytest.approx(

@@ -19,9 +19,10 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, increasing, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.checks import STATES, SiteInput, code_spectrum, ntc_parameters
+from dondolo._fortran.library import as_text
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records.target import TargetSpectrum
@@ -113,7 +114,7 @@ class Site(Shown):
         return float(self._parameters(limit_state)[0])
 
     def spectrum(
-        self, periods: ArrayLike | None = None, *, damping: float = 0.05, limit_state: LimitState = "SLV"
+        self, *, periods: ArrayLike | None = None, damping: float = 0.05, limit_state: LimitState = "SLV"
     ) -> TargetSpectrum:
         """Elastic horizontal spectrum.
 
@@ -195,7 +196,7 @@ def ntc_spectrum(
     InputError
         Parameters that the code does not have.
     """
-    return Site(ag, f0, tc_star, soil=soil, topography=topography).spectrum(periods, damping=damping)
+    return Site(ag, f0, tc_star, soil=soil, topography=topography).spectrum(periods=periods, damping=damping)
 
 
 def ec8_spectrum(

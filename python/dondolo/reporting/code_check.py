@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from dondolo._fortran.checks import SheetRow
@@ -23,7 +24,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         )
     kinematic = list(check.capacities)
     dynamic = [key for key in check.verified if key[0] == "dynamic"]
-    columns: dict[Piece, list[Piece]] = {
+    columns: dict[Piece, Sequence[Piece]] = {
         "check": [f"{method}, {state}" for method, state in kinematic],
         (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
         "stands [g]": [number(level) for level in check.capacities.values()],
@@ -35,7 +36,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
             number(chances.get(("site", state), chances.get(("site", ""))), 2) for _, state in kinematic
         ]
         columns["at what it stands"] = [number(chances[key], 2) for key in kinematic]
-    histories: dict[Piece, list[Piece]] = {"limit state": [state for _, state in dynamic]}
+    histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[head] = [number(check.value(*key, name)) for key in dynamic]
     histories["verdict"] = [_verdict(check, key) for key in dynamic]
@@ -70,7 +71,7 @@ def _sheet(rows: tuple[SheetRow, ...]) -> Table:
     """All numbers, in the order of the calculation."""
     counts = ("records", "histories", "beyond", "verified")
     shown = [row for row in rows if row.quantity != "probability"]
-    columns: dict[Piece, list[Piece]] = {
+    columns: dict[Piece, Sequence[Piece]] = {
         "quantity": [row.meaning for row in shown],
         "check": [f"{row.method} {row.limit_state}".strip() for row in shown],
         "symbol": [row.symbol or NONE for row in shown],
