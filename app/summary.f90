@@ -2,11 +2,12 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
+   use dondolo_check_lines, only : print_check
    use dondolo_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_plan, only : print_wall
+   use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_typology, only : whole_population
@@ -37,10 +38,16 @@ contains
       select case (case%job%task)
       case ('history')
          call print_wall(case%wall)
+         write (output_unit, '(a)') ''
          call print_history(case, results)
       case ('stripes')
          call print_wall(case%wall)
+         write (output_unit, '(a)') ''
          call print_stripes(case, results)
+         if (allocated(case%check)) then
+            write (output_unit, '(a)') ''
+            call print_check(results%check)
+         end if
       case ('typology')
          if (allocated(results%typologies)) then
             call print_curves(case, results)

@@ -264,8 +264,8 @@ population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
 run people.nml
 check "typology: no level where so many cannot collapse" grep -qE \
    '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g \(-: only [0-9.]+ % can collapse\)$' stdout
-printf 'mechanism,height,thickness,overburden,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
-   'two_block,3,0.25,8000,inner,0.06,' 'two_block,3,0.25,8000,,,-0.065' >walls.csv
+printf 'mechanism,height,thickness,overburden,overburden_inertia,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
+   'two_block,3,0.25,8000,0,inner,0.06,' 'two_block,3,0.25,8000,0,,,-0.065' >walls.csv
 run people.nml
 check "typology: a bearing is an eccentricity" equal \
    "$(grep '^wall 1,' out/people_stripes.csv | cut -d, -f 2-)" "$(grep '^wall 2,' out/people_stripes.csv | cut -d, -f 2-)"
@@ -363,12 +363,12 @@ run --template
 check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
-   restitution_value restitution_factor overburden bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
-   engine rtol atol edp_limit estimate_error gravity record scale im_level; do
+   restitution_value restitution_factor overburden overburden_inertia bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
+   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography confidence behaviour; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
-sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity) = /d' \
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|soil|topography|confidence|behaviour) = /d' \
    stripes.nml >short.nml
 run --quiet stripes.nml
 cp out/stripes_fragility.csv long.csv
@@ -624,6 +624,11 @@ s/^(&stripes)/\&history scale = -1 \/\n\1/|bad.nml: &history: scale = -1: must b
 s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: must be positive
 s/task = 'stripes'/task = 'history'/|bad.nml: &records: polarity = 'both': must be 'as_recorded' or 'reversed' for task = 'history'
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale = 1e9 \//|bad.nml: &history: the scale 1000000000 makes record 'r1' exceed 10000 m/s2
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'F' \/\n\1/|bad.nml: &check: soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'
+s/^(&stripes)/\&check ag = 2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check: ag = 2: must lie between 0.001 and 1 g
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5 \/\n\1/|bad.nml: &check: tc_star: must be given
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, confidence = 1.5 \/\n\1/|bad.nml: &check: confidence = 1.5: must lie between 1 and 1.35
+s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): only for task = 'stripes'
 TABLE
 
 # Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029
@@ -794,7 +799,7 @@ warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60
 warned 's/thickness = 0.25/thickness = 25/' "wall '.*': thickness = 25 m is more than 3 m: is it in centimetres?"
 warned 's/thickness/density = 18 thickness/' "density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
 warned 's/thickness/density = 1.800 thickness/' "density = 1.8 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
-warned "s/one_sided'/two_block' overburden = 15/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
+warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv
@@ -810,7 +815,7 @@ check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' '
 warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
 warned "s/one_sided'/two_block' bearing = 'centre'/" \
    "wall 'wall, one': a bearing or an eccentricity without overburden changes nothing: is the overburden missing?"
-good_case | sed "s/one_sided'/two_block' overburden = 8000 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
+good_case | sed "s/one_sided'/two_block' overburden = 8000 overburden_inertia = 0 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
 run --check good2.nml
 check "check: where the load bears" contains stdout '  load 8000 N/m, 0.06 m from the inner face, folding outwards'
 run good2.nml

@@ -59,7 +59,7 @@ def rooms_of(folder):
 @pytest.mark.parametrize(
     ("folder", "rooms"),
     [
-        (".", ["base", "record", "wall", "motion", "fragility", "population", "case"]),
+        (".", ["base", "record", "wall", "motion", "fragility", "check", "population", "case"]),
         ("base", ["numerics", "text", "properties", "system"]),
         ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],
@@ -122,7 +122,7 @@ def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
         "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "risk", "analysis",
-        "populations", "exchange", "reporting", "__init__", "__main__",
+        "checks", "populations", "exchange", "reporting", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
 
@@ -244,7 +244,7 @@ def test_import_is_quick():
 @pytest.mark.parametrize("samples", [2, 6000])
 def test_a_call_costs_little(samples):
     """Four passes of NumPy over the samples, taken in turn, are the measure: about 10 us where nothing else runs."""
-    wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, eccentricity=0.05)
+    wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, eccentricity=0.05)
     record = dd.Record(np.full(samples, 0.1), 0.01)
     calls = (
         lambda: dd.simulate(wall, record, history=False),
@@ -304,6 +304,7 @@ def test_options_are_keywords():
 BY_PLACE = {
     "ax",
     "edp_threshold",
+    "edp_thresholds",
     "height",
     "ims",
     "kind",
@@ -333,7 +334,7 @@ def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
         "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
-        "Population", "Record", "RecordSet", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+        "Population", "Record", "RecordSet", "Site", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
     assert made_by_users < set(kinds)

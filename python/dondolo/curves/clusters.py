@@ -13,9 +13,6 @@ from dondolo._fortran.curves import cluster_changes
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import Sample
 
-#: Fewer clusters than this cannot determine the covariance of two parameters, as in dondolo_clustered
-FEWEST = 3
-
 
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,6 +91,11 @@ def errors_of_counts(
 ) -> Errors:
     """Standard errors of a curve with parameters (theta, beta), from counts (clusters, levels) of each cluster."""
     changes, errors = cluster_changes(levels, collapses, histories, *at)
+    return errors_of_changes(kind, labels, changes, errors)
+
+
+def errors_of_changes(kind: str, labels: Sequence[str], changes: FloatArray, errors: str) -> Errors:
+    """Standard errors from the changes (clusters, 2) if each cluster is left out, or why there are none."""
     if errors != "clustered":
         return no_errors(errors, len(labels))
     changes.flags.writeable = False
