@@ -36,6 +36,7 @@ from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records import pulses
+from dondolo.records.building import Building
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
 from dondolo.records.record import Record
@@ -59,6 +60,7 @@ __version__ = _constants().version
 __all__ = [
     "Bootstrap",
     "Boundary",
+    "Building",
     "Case",
     "Choice",
     "Cloud",
