@@ -115,7 +115,8 @@ class Building:
         Returns
         -------
         Axes
-            Medians over the records of both, and the spectra of each floor, against period; the periods of the modes are dotted.
+            Medians over the records of both, and the spectra of each floor, against period; the periods of the modes
+            are dotted.
         """
         from dondolo.records.plots import draw_floor
 
