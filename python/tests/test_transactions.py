@@ -2,6 +2,7 @@
 
 import contextlib
 import fcntl
+import json
 import os
 import random
 import shutil
@@ -112,6 +113,17 @@ def test_files_of_two_runs_are_refused(executable, folder):
         dd.read_results(folder / "a/x")
     with pytest.raises(dd.InputError, match=r"must be what the names begin with, '.*a/x'"):
         dd.read_results(folder / "a/x_walls.csv")
+
+
+@pytest.mark.parametrize("name", ["20261122T232756Z-8a37df$(id)", "a\0b", "../x"])
+def test_a_run_of_another_name_is_refused(name, executable, folder):
+    """It is part of names of files; a reader also waited for it for ever."""
+    assert start(executable, folder, "a").wait() == 0
+    path = folder / "out/x_run.json"
+    run = dd.read_results(folder / "out/x").run.run
+    path.write_text(path.read_text().replace(run, json.dumps(name)[1:-1]))
+    with pytest.raises(dd.InputError, match=r"x_run\.json: run = .*: must be a name such as"):
+        dd.read_results(folder / "out/x")
 
 
 @pytest.mark.parametrize("mine", ["mine", ""])
