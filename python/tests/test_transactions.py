@@ -5,6 +5,7 @@ import fcntl
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -257,3 +258,13 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
     assert "dondolo: interrupted" in run.communicate()[1]
     assert run.returncode == -number
     assert not (folder / "out").exists()
+
+
+def test_all_files_are_written_by_one_layer(root):
+    """Whole or not at all: Python through parts, Fortran through the writer; docs/architecture.md says so."""
+    writing = re.compile(r"""\.write_(?:text|bytes)\(|\bopen\([^)]*["'][wax]""")
+    for path in (root / "python/dondolo").rglob("*.py"):
+        for line in filter(writing.search, path.read_text().splitlines()):
+            assert re.search(r"\bpart\b|\bstaged\(|\barchive\.open", line), f"{path}: {line}"
+    for path in (root / "src").rglob("*.[fF]90"):
+        assert not re.search(r"(?i)action\s*=\s*'(?:read)?write'", path.read_text()), path

@@ -119,12 +119,12 @@ contains
          call try_file(staged(prefix//'_histories.csv', trial), ok)
          if (ok) exit
       end do
-      if (ok) then
-         continue
-      else if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
-         call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
-      else
-         call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
+      if (.not. ok) then
+         if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
+            call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
+         else
+            call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
+         end if
       end if
       call remove_folders(made)
    end subroutine check_output
