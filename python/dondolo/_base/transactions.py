@@ -23,7 +23,9 @@ from typing import NamedTuple
 from dondolo.errors import DondoloError, InputError
 
 # What the names of the files of a set end with
-TABLES = tuple(f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history"))
+TABLES = tuple(
+    f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history", "check")
+)
 RUN_FILE = "_run.json"
 #: A name of a run
 RUN_NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{16}")
