@@ -5,6 +5,7 @@ import csv
 import dataclasses
 import io
 import json
+import zipfile
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -305,6 +306,21 @@ def test_archives_of_numbers_that_cannot_be(member, value, tmp_path):
     )
     with pytest.raises(dd.InputError, match=r"curve\.npz: was saved by dondolo .*: (int too large|invalid value)"):
         dd.load(tmp_path / "curve.npz")
+
+
+def test_archives_of_arrays_that_do_not_belong_together(stripes, tmp_path):
+    stripes.save(tmp_path / "stripes.npz")
+    with zipfile.ZipFile(tmp_path / "stripes.npz") as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    tree = json.loads(members["dondolo.json"])
+    parts = tree["result"]["Stripes"]
+    parts["edp"] = parts["levels"]
+    members["dondolo.json"] = json.dumps(tree).encode()
+    with zipfile.ZipFile(tmp_path / "stripes.npz", "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    with pytest.raises(dd.InputError, match=r"edp: must have the shape of ran, \(6, 44\)"):
+        dd.load(tmp_path / "stripes.npz")
 
 
 @pytest.mark.parametrize("column", ["return_period", "investigation_time"])
