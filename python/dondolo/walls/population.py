@@ -23,7 +23,7 @@ from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
 from dondolo.walls.table import property_columns, walls_table
-from dondolo.walls.wall import Wall, wall_from
+from dondolo.walls.wall import Wall, property_of, wall_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -118,7 +118,7 @@ class Population(Shown):
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: the properties of its walls as columns."""
-        columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in WALL_PROPERTIES}
+        columns = {row.name: [property_of(wall, row.name) for wall in self.walls] for row in WALL_PROPERTIES}
         return {
             "properties": {
                 name: column if None in column or name in WALL_LISTS else np.array(column)

@@ -7,14 +7,14 @@ from typing import Any
 
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES
 from dondolo._storage import tables
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, property_of
 
 
 def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
     """Columns of properties under their heads; a list has as many, numbered, as a wall has values."""
     table: tables.Table = {}
     for what, head in heads.items():
-        values = [getattr(wall, what, None) for wall in walls]
+        values = [property_of(wall, what) for wall in walls]
         if what in WALL_EXTRAS and all(value is None for value in values):
             continue
         if what not in WALL_LISTS:

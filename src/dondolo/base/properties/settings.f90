@@ -2,7 +2,8 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_words, property_type
+   use dondolo_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_choices, number_of_words, &
+      & property_type
    use dondolo_text, only : lower
    implicit none
    private
