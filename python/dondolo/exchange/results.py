@@ -12,6 +12,7 @@ import numpy as np
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
+from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.checks import SheetRow
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
@@ -24,6 +25,7 @@ from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
+from dondolo.records.building import building_from
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
@@ -186,7 +188,8 @@ def _population(table: ResultFile, gravity: float) -> Population:
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
-            walls.append(MECHANISMS[kind](**given))
+            building = building_from({name: given.pop(name, None) for name in BUILDING_NAMES})
+            walls.append(MECHANISMS[kind](**given, building=building))
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")

@@ -3,6 +3,7 @@
 !>
 !> To add one: a row here, and its value where a mechanism is built (dondolo_wall).
 module dondolo_wall_properties
+   use dondolo_building, only : building_rows
    use dondolo_kinds, only : wp
    use dondolo_property, only : blank, choices_length, find_property, is_list, is_text, is_words, most_choices, property_type
    use dondolo_restitution, only : restitution_models
@@ -11,7 +12,8 @@ module dondolo_wall_properties
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: is_beyond_bare, mechanism_names, load_inertias, standard_gravity, wall_numbers
+   public :: is_beyond_bare, is_extra, is_of_building, mechanism_names, load_inertias, own_properties, standard_gravity, &
+      & wall_numbers
 
    !> Names of the mechanisms
    character(len=choices_length), parameter :: mechanism_names(*) = &
@@ -36,8 +38,8 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: one_block(most_choices) = &
       & reshape([character(len=choices_length) :: 'one_sided', 'free_standing'], [most_choices], pad=blank)
 
-   !> The rows, in the order in which a user thinks of them
-   type(property_type), parameter :: rows(*) = [ &
+   !> The rows of the wall itself, in the order in which a user thinks of them
+   type(property_type), parameter :: own_rows(*) = [ &
       & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
@@ -147,11 +149,25 @@ module dondolo_wall_properties
       &   example='0.06', meaning='distance of the load''s resultant from the inner or the outer face', &
       &   more='half the length that joists bear')]
 
+   !> The same, and those of the building that a wall stands on
+   type(property_type), parameter :: rows(*) = [own_rows, building_rows]
+
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
-   !> Properties that a bare rectangle with its hinge at its edge does not have; tables show them only where a wall has them
+   !> How many of them are of the wall itself: those that stand before the others
+   integer, parameter :: own_properties = size(own_rows)
+
+   integer :: k
+
+   !> Properties of the building
+   logical, parameter :: is_of_building(size(rows)) = [(k > own_properties, k=1, size(rows))]
+
+   !> Properties that a bare rectangle with its hinge at its edge does not have
    logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) == 'one_sided'
+
+   !> Those that tables show only where a wall has them
+   logical, parameter :: is_extra(size(rows)) = is_beyond_bare .or. is_of_building
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &
