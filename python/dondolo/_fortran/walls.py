@@ -185,5 +185,5 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
 ) | frozenset(BUILDING_NAMES)
-_WALL_REALS = 7
+_WALL_REALS = 8
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1
