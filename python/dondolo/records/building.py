@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
 
 from dondolo._base.shown import html_of
 from dondolo._fortran.buildings import BUILDING_NAMES, BuildingData, building_values, describe_building
 from dondolo._storage.saved import part_of_results
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # One value or several
 Values = float | Sequence[float]
@@ -90,6 +95,32 @@ class Building:
     def _understood(self) -> BuildingData:
         data: BuildingData = self.__dict__["_data"]
         return data
+
+    def plot(
+        self, records: Iterable[Any], *, periods: ArrayLike | None = None, damping: float = 0.05, ax: Axes | None = None
+    ) -> Axes:
+        """Draw the response spectra of the floor against those of the ground.
+
+        Parameters
+        ----------
+        records : iterable of Record
+            Motions of the ground.
+        periods : array_like, optional
+            [s]; 100 from 0.05 to 4 s if left out.
+        damping : float
+            Damping ratio of what stands on the floor.
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Medians over the records of both, and the spectra of each floor, against period; the periods of the modes
+            are dotted.
+        """
+        from dondolo.records.plots import draw_floor
+
+        return draw_floor(self, tuple(records), periods, damping, ax)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
