@@ -112,11 +112,13 @@ def _frequencies(columns: dict[str, FloatArray]) -> FloatArray:
         return column
     if name == "return_period":
         _check(name, column, column > 0.0, "must be positive, in years")
-        return 1.0 / column
+        with np.errstate(over="ignore"):
+            return 1.0 / column
     time = columns["investigation_time"]
     _check(name, column, (column > 0.0) & (column < 1.0), "must lie between 0 and 1, both excluded; 10 % is 0.1")
     _check("investigation_time", time, time > 0.0, "must be positive, in years")
-    return np.asarray(-np.log1p(-column) / time)
+    with np.errstate(over="ignore"):
+        return np.asarray(-np.log1p(-column) / time)
 
 
 def _check(name: str, column: FloatArray, right: np.ndarray[Any, Any], allowed: str) -> None:
