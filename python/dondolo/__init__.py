@@ -48,6 +48,7 @@ from dondolo.records.target import TargetSpectrum, ec8_spectrum, ntc_spectrum
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.uncertainty import RiskUncertainty
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
@@ -87,6 +88,7 @@ __all__ = [
     "Response",
     "Results",
     "Risk",
+    "RiskUncertainty",
     "RotD",
     "Selection",
     "Solver",

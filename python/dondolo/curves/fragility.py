@@ -306,14 +306,17 @@ class Fragility(Shown, Saved):
                 f"no curve was fitted (status '{self.status}'): the median lies between {low:g} and {high:g}"
             )
 
+    def _need_errors(self) -> None:
+        self._need_fit()
+        if self.errors not in ("naive", "clustered"):
+            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""
         from scipy.special import ndtri, stdtrit
 
-        self._need_fit()
         upper = tails(level)[1]
-        if self.errors not in ("naive", "clustered"):
-            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+        self._need_errors()
         return float(stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper))
 
     def _facts(self) -> list[tuple[str, str]]:
