@@ -42,7 +42,9 @@ def test_fractiles(hazard):
     assert low.fractiles == {}
     assert not hazard.fractiles[0.84].flags.writeable
     assert list(hazard.to_frame().columns) == ["pga", "annual_frequency", "fractile_0.16", "fractile_0.84"]
-    with pytest.raises(dd.InputError, match=r"q = 0.5: must be one of the fractiles of the hazard curve; there is 0.16"):
+    with pytest.raises(
+        dd.InputError, match=r"q = 0.5: must be one of the fractiles of the hazard curve; there is 0.16"
+    ):
         hazard.fractile(0.5)
 
 
@@ -76,13 +78,13 @@ def test_fractiles_in_tables(hazard, tmp_path):
     read = dd.HazardCurve.from_csv(table)
     np.testing.assert_allclose(read.fractiles[0.05], [-np.log(0.9) / 50.0, 0.0], rtol=1e-14)
     table.write_text("pga,annual_frequency,fractile_low\n0.1,0.2,0.1\n0.2,0.1,0\n")
-    with pytest.raises(dd.InputError, match="column 'fractile_low': must be as fractile_0.16"):
+    with pytest.raises(dd.InputError, match=r"column 'fractile_low': must be as fractile_0.16"):
         dd.HazardCurve.from_csv(table)
 
 
 def test_smoothed(hazard):
     """Through the levels, monotone, and close to a curve that bends."""
-    smooth = hazard.smoothed(10)
+    smooth = hazard.smoothed(steps=10)
     assert len(smooth.levels) == 61
     np.testing.assert_array_equal(smooth.levels[::10], LEVELS)
     np.testing.assert_array_equal(smooth.annual_frequency[::10], MEAN)
@@ -107,7 +109,7 @@ def test_smoothed(hazard):
     endless = dd.HazardCurve.power_law(1e-4, 2.0)
     assert endless.smoothed() is endless
     with pytest.raises(dd.InputError, match="steps = 0: must be an integer"):
-        hazard.smoothed(0)
+        hazard.smoothed(steps=0)
 
 
 def test_openquake(tmp_path):

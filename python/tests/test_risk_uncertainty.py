@@ -11,7 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from dondolo.risk.integrals import nodes
-from scipy import stats
+from dondolo.risk.uncertainty import _parameters
+from scipy import optimize, stats
 
 import dondolo as dd
 
@@ -49,8 +50,6 @@ def test_closed_form():
 def test_the_slope_is_drawn_as_its_interval_says(hazard):
     """The draws of theta and beta have the intervals of the parameters."""
     curve = curve_of([[4e-3, 1e-3], [1e-3, 2e-3]], 12.0)
-    from dondolo.risk.uncertainty import _parameters
-
     theta, beta = _parameters(curve, 200_000, np.random.default_rng(1))
     ends = curve.parameter_interval()
     np.testing.assert_allclose(np.quantile(theta, [0.025, 0.975]), ends["theta"], rtol=0.01)
@@ -85,7 +84,7 @@ def test_beside_the_fractiles_of_the_hazard(hazard, tmp_path):
     plt.close(ax.figure)
     with pytest.raises(dd.InputError, match=r"q = 0.5: must be one of the fractiles"):
         found.interval(hazard=0.5)
-    with pytest.raises(dd.InputError, match="confidence = 1.0"):
+    with pytest.raises(dd.InputError, match=r"confidence = 1.0"):
         found.interval(confidence=1.0)
 
 
@@ -121,14 +120,14 @@ def test_what_has_no_uncertainty(hazard):
 
 def test_the_level_that_contributes_most(hazard):
     risk = dd.mean_annual_frequency(curve_of(np.eye(2)), hazard)
-    np.testing.assert_array_equal(risk.deaggregate(), risk.deaggregate(hazard.levels))
     parts = risk.deaggregate(np.geomspace(0.02, 6.4, 61))
     middle = np.sqrt(np.geomspace(0.02, 6.4, 61)[:-1] * np.geomspace(0.02, 6.4, 61)[1:])
     # The kinks of the power laws move it by no more than a step.
     assert risk.dominant_level == pytest.approx(middle[np.argmax(parts)], rel=0.2)
     endless = dd.mean_annual_frequency(curve_of(np.eye(2)), dd.HazardCurve.power_law(1e-4, 2.5))
-    # The normal density that is left is k beta^2 below the median
-    assert endless.dominant_level == pytest.approx(0.6 * np.exp(-2.5 * 0.4**2), rel=0.01)
+    # Where Phi(z) exp(-k beta z) is largest, k beta = 1
+    z = optimize.brentq(lambda z: stats.norm.pdf(z) - stats.norm.cdf(z), -3.0, 3.0)
+    assert endless.dominant_level == pytest.approx(0.6 * np.exp(0.4 * z), rel=0.02)
     ax = risk.plot_deaggregation(bins=12)
     assert len(ax.patches) == 12
     heights = sum(patch.get_height() for patch in ax.patches)
@@ -170,11 +169,11 @@ def test_records_left_out_of_a_population(people, records, hazard):
         labels = tuple(dict.fromkeys(whole.flags.clusters))
         assert len(found) == len(labels) == 22
         exact = []
-        for label in labels[:6]:
+        for label in labels[:4]:
             kept = [record for record, own in zip(records, whole.flags.clusters, strict=True) if own != label]
             exact.append(people(kept)[key].risk(hazard).annual_frequency - risk.annual_frequency)
-        np.testing.assert_allclose(found[:6], exact, atol=0.15 * np.abs(found).max())
-        assert np.corrcoef(found[:6], exact)[0, 1] > 0.98
+        np.testing.assert_allclose(found[:4], exact, atol=0.15 * np.abs(found).max())
+        assert np.corrcoef(found[:4], exact)[0, 1] > 0.98
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
@@ -191,8 +190,8 @@ def test_walls_left_out_of_a_population(people, records, hazard):
         assert found[i] == pytest.approx(others - risk.annual_frequency, rel=1e-6)
     spread = risk.uncertainty(n_draws=2000)
     assert spread.interval()[0] < risk.annual_frequency < spread.interval()[1]
-    assert spread.kind == "6 clusters of records and 4 walls"
-    assert 3.0 < spread.degrees_of_freedom < 8.0
+    assert spread.kind == "11 clusters of records and 4 walls"
+    assert 3.0 < spread.degrees_of_freedom < 13.0
     np.testing.assert_allclose(spread.fractiles[0.84], 1.6 * spread.annual_frequency, rtol=1e-6)
     endless = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5))
     u, weights = nodes(endless.hazard, curve.reach)

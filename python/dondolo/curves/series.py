@@ -37,6 +37,7 @@ def series_slopes(p_occ: FloatArray, probabilities: FloatArray, first: np.ndarra
     p_occ : ndarray, shape (rows,)
         Probability that each mechanism can occur.
     probabilities : ndarray, shape (rows, levels)
+        Of the mechanisms, wall by wall.
     first : ndarray of int, shape (walls,)
         The first row of each wall, increasing from 0.
 

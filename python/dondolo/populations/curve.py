@@ -173,7 +173,9 @@ class PopulationCurve(Group, MeanCurve):
         """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
         flags = self._source.flags
         if flags is None:
-            raise DondoloError("uncertainty: results that were read back hold counts, and not which records they are of")
+            raise DondoloError(
+                "uncertainty: results that were read back hold counts, and not which records they are of"
+            )
         return changes(self.members, flags, np.flatnonzero(self._chosen), x, weights)
 
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:

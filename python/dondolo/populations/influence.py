@@ -74,7 +74,13 @@ def changes(
 
 
 def _of_row(
-    members: Members, row: int, x: FloatArray, slope: FloatArray, lines: FloatArray, counts: FloatArray, part: FloatArray
+    members: Members,
+    row: int,
+    x: FloatArray,
+    slope: FloatArray,
+    lines: FloatArray,
+    counts: FloatArray,
+    part: FloatArray,
 ) -> FloatArray:
     """Change of sum(slope * P(x)) of a row if each cluster is left out; counts and part are (clusters, levels)."""
     theta, beta = float(members.theta[row]), float(members.beta[row])
@@ -83,9 +89,10 @@ def _of_row(
         if errors == "clustered":
             z = np.log(x / theta) / beta
             density = slope * np.exp(-0.5 * z**2) / (np.sqrt(2.0 * np.pi) * beta)
-            return -(moved @ np.array([density.sum(), density @ z]))
+            change: FloatArray = -(moved @ np.array([density.sum(), density @ z]))
+            return change
     # By its fractions
     rest = part.sum(axis=0) - part
     with np.errstate(invalid="ignore", divide="ignore"):
         left = (counts.sum(axis=0) - counts) / rest - counts.sum(axis=0) / part.sum(axis=0)
-    return np.where(rest > 0.0, left, 0.0) @ (lines @ slope)
+    return np.asarray(np.where(rest > 0.0, left, 0.0) @ (lines @ slope))

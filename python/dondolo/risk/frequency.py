@@ -265,13 +265,13 @@ class Risk(Shown, Saved):
         slope = smooth._slope_at(u)
         return x, slope * smooth(x) * probability(self.fragility, x)
 
-    def deaggregate(self, edges: ArrayLike | None = None) -> FloatArray:
+    def deaggregate(self, edges: ArrayLike) -> FloatArray:
         """Deaggregation: what the intensities between edges contribute to the frequency.
 
         Parameters
         ----------
-        edges : array_like, shape (bins + 1,), optional
-            Intensities, positive and increasing; the levels of the hazard curve if left out.
+        edges : array_like, shape (bins + 1,)
+            Intensities, positive and increasing, such as the levels of the hazard curve.
 
         Returns
         -------
@@ -283,7 +283,7 @@ class Risk(Shown, Saved):
         InputError
             Edges that are less than two, not positive or do not increase.
         """
-        x = increasing("edges", self.hazard.levels if edges is None else edges)
+        x = increasing("edges", edges)
         levels = self.hazard.levels
         if not self.hazard.endless:
             x = np.clip(x, levels[0], levels[-1])
@@ -319,9 +319,7 @@ class Risk(Shown, Saved):
 
         return draw_deaggregation(self, ax, as_count("bins", bins, 1))
 
-    def uncertainty(
-        self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0
-    ) -> RiskUncertainty:
+    def uncertainty(self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0) -> RiskUncertainty:
         """Distribution of the annual frequency: that of the fragility, for the mean hazard and each of its fractiles.
 
         Parameters

@@ -319,7 +319,7 @@ class HazardCurve(Shown, Saved):
         h = self.fractiles[share]
         return HazardCurve(self.levels[h > 0.0], h[h > 0.0], im=self.im)
 
-    def smoothed(self, steps: int = 16) -> HazardCurve:
+    def smoothed(self, *, steps: int = 16) -> HazardCurve:
         """The curve with more levels, on the monotone cubic of ln H against ln x through its own.
 
         Parameters

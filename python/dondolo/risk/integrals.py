@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -135,10 +136,7 @@ def nodes(hazard: HazardCurve, reach: tuple[float, float]) -> tuple[FloatArray, 
     if hazard.endless:
         with np.errstate(divide="ignore"):
             ends = np.clip(np.log(reach), -_FAR, _FAR)
-    cuts = [
-        np.linspace(low, high, math.ceil((high - low) / _STEP) + 1)[:-1]
-        for low, high in zip(ends[:-1], ends[1:], strict=True)
-    ]
+    cuts = [np.linspace(low, high, math.ceil((high - low) / _STEP) + 1)[:-1] for low, high in pairwise(ends)]
     low = np.concatenate(cuts)
     half = 0.5 * np.diff(np.append(low, ends[-1]))[:, None]
     u = ((low[:, None] + half) + half * point).ravel()

@@ -84,9 +84,7 @@ def over(text: str, unit: int) -> float:
     return float(text) if unit == 1 else float(Decimal(text.strip()) / unit)
 
 
-def read_curves(
-    paths: Sequence[str], site: Site | None
-) -> tuple[str, FloatArray, FloatArray, dict[float, FloatArray]]:
+def read_curves(paths: Sequence[str], site: Site | None) -> tuple[str, FloatArray, FloatArray, dict[float, FloatArray]]:
     """Measure, levels, annual frequencies of the mean and of the fractiles of a site, from files of one calculation."""
     files = [_read(path) for path in paths]
     if not files:
@@ -142,7 +140,7 @@ def write_curves(
         commas = "," * (len(titles) - 1)
         cells = [longitude, latitude, 0.0, *-np.expm1(-frequency * time)]
         row = ",".join(repr(float(cell)) for cell in cells)
-        tables.write_lines(path, [f'#{commas}"generated_by=\'dondolo\', {about}"', ",".join(titles), row])
+        tables.write_lines(path, [f"#{commas}\"generated_by='dondolo', {about}\"", ",".join(titles), row])
         written.append(str(path))
     return written
 

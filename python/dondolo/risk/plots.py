@@ -31,7 +31,9 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
         above.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
     for q, line in zip(hazard.fractiles, _lines(), strict=False):
         fractile = smooth.fractile(q)
-        above.plot(fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}")
+        above.plot(
+            fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}"
+        )
     if hazard.fractiles:
         style.legend(above, loc="lower left")
     above.set_yscale("log")
@@ -71,7 +73,15 @@ def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int) -> Axes:
         most = risk.dominant_level
         ax.axvline(most, color=style.BLACK, linestyle="--", linewidth=1.0)
         text = f"{most:.3g}{blank_unit(risk.hazard.im)} contributes most"
-        ax.annotate(text, (most, 1.0), (-5, -4), xycoords=("data", "axes fraction"), textcoords="offset points", ha="right", va="top")
+        ax.annotate(
+            text,
+            (most, 1.0),
+            (-5, -4),
+            xycoords=("data", "axes fraction"),
+            textcoords="offset points",
+            ha="right",
+            va="top",
+        )
     above = 100.0 * risk.above[0] / whole
     beyond = f";\n{above:.2g} % from above the levels" if above >= 0.05 else ""
     ax.set_title(f"{between(*risk.bounds, 'collapses a year', 3)}{beyond}", loc="left")
@@ -83,15 +93,15 @@ def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int) -> Axes:
 def draw_uncertainty(found: RiskUncertainty, ax: Axes | None, confidence: float) -> Axes:
     """Draw the distributions of the annual frequency, with estimates and intervals."""
     ax = style.axes(ax, (6.0, 4.0))
-    cases = [(None, found.annual_frequency, found.risk.annual_frequency, "mean hazard")]
-    cases += [(q, found.fractiles[q], found.estimates[q], f"fractile {q:g} of the hazard") for q in found.fractiles]
-    for (q, draws, estimate, name), line in zip(cases, ("-", *_lines()), strict=False):
+    cases = [(found.annual_frequency, found.risk.annual_frequency, "mean hazard")]
+    cases += [(found.fractiles[q], found.estimates[q], f"fractile {q:g} of the hazard") for q in found.fractiles]
+    for (draws, estimate, name), line in zip(cases, ("-", *_lines()), strict=False):
         seen = np.sort(draws[np.isfinite(draws) & (draws > 0.0)])
         if not len(seen):
             continue
-        color = style.BLUE if q is None else style.GREY
+        color = style.BLUE if line == "-" else style.GREY
         share = np.arange(1, len(seen) + 1) / len(draws)
-        ax.plot(seen, share, color=color, linestyle=line, label=name, linewidth=1.8 if q is None else 1.2)
+        ax.plot(seen, share, color=color, linestyle=line, label=name, linewidth=1.8 if line == "-" else 1.2)
         ax.plot(estimate, np.mean(draws <= estimate), marker="o", color=color, markersize=5)
     low, high = found.interval(confidence=confidence)
     ax.axvspan(low, min(high, ax.get_xlim()[1]), color=style.BLUE, alpha=0.12, linewidth=0.0, zorder=0)
