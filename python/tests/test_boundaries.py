@@ -2,10 +2,16 @@
 
 import csv
 import io
+import json
+from html.parser import HTMLParser
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from costs import growth
+from dondolo._base.shown import html_of
+from dondolo.reporting import content
+from dondolo.reporting.page import _environment
 
 import dondolo as dd
 
@@ -76,7 +82,7 @@ def test_limits(table, content, sentence, tmp_path):
 def test_limits_of_records(tmp_path):
     with pytest.raises(dd.InputError, match="number of samples = 10000001: must be at most 10000000"):
         dd.Record(np.zeros(10_000_001), 0.01)
-    with pytest.raises(dd.InputError, match=r"name = 'x{60}'\.\.\.: must have at most 1000 bytes"):
+    with pytest.raises(dd.InputError, match=r"name = 'x{60}\.\.\.': must have at most 1000 bytes"):
         dd.Record([0.0, 1.0], 0.01, name="x" * 1001)
     # A file of 1 GiB and a byte, of which nothing is on the disk
     path = tmp_path / "huge.txt"
@@ -177,3 +183,109 @@ def test_slips_are_warned_of(make, levels, code, few):
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.multiple_stripe(make(), few, levels, progress=False)
     assert code in [warning.message.code for warning in caught]
+
+
+# Names that formats and terminals could take for their own signs, and those that stand for steps of the cursor
+SIGNS = ['<b>&amp;"it\'s"</b>', "=1+1", "+39", "-5", "@x", "a,b;c", "]]>", "--><i>", "\\u0041", "a\u200bb", "naïve 🏛"]
+STEERING = ["\x1b[2Jx", "a\nb", "a\tb", "a\x00b", "a\x7fb", "a\x9bb", "a\u202eb", "a\u2066b", "a\u2028b"]
+
+
+def texts_of(page):
+    """Texts of HTML; None for each element that no template sets."""
+    found = []
+    parser = HTMLParser()
+    parser.handle_data = found.append
+    parser.handle_starttag = lambda tag, _: found.append(None) if tag in ("b", "i") else None
+    parser.feed(page)
+    return [text and text.strip() for text in found]
+
+
+def in_html(name, _, __):
+    assert texts_of(html_of(name, [(name, name)])) == [name] * 3
+    table = content.Table.of({"wall": [name]})
+    page = texts_of(_environment().get_template("macros.html.j2").module.table(table, name))
+    assert page.count(name) >= 2
+    assert None not in page
+
+
+def in_an_archive(name, _, folder):
+    record = dd.Record([0.0, 3.0, 0.0], 0.1, name=name)
+    dd.simulate(dd.OneSidedWall(3.0, 0.25, name=name), record).save(folder / "response.npz")
+    back = dd.load(folder / "response.npz")
+    assert (back.wall.name, back.record.name) == (name, name)
+
+
+def in_a_table(name, _, folder):
+    people = dd.Population([dd.OneSidedWall(3.0, 0.25, name=name)], groups=[name])
+    for safe in (False, True):
+        people.to_csv(folder / "walls.csv", spreadsheet_safe=safe)
+        (row,) = csv.DictReader((folder / "walls.csv").read_text(encoding="utf-8").splitlines())
+        guard = "'" if safe and name.startswith(tuple("=+-@")) else ""
+        assert row["name"] == row["group"] == guard + name
+
+
+def in_nrml(name, _, folder):
+    curves = {"collapse": dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10], im="pga")}
+    if not name.isascii():
+        with pytest.raises(dd.InputError, match="ASCII"):
+            dd.write_nrml(folder / "model.xml", {"a": curves}, description=name)
+        return
+    dd.write_nrml(folder / "model.xml", {"a": curves}, description=name)
+    texts = [one.text for one in ElementTree.parse(folder / "model.xml").iter() if one.tag.endswith("description")]
+    assert texts == [name]
+
+
+def in_files_of_the_executable(name, run, folder):
+    """JSON and CSV of Fortran."""
+    quoted = name.replace("'", "''")
+    (folder / "r.txt").write_text(SAMPLES)
+    (folder / "records.csv").write_text("file,dt_s,units\nr.txt,0.1,m/s2\n")
+    (folder / "case.nml").write_text(
+        f"&job task = 'stripes' output = 'x' title = '{quoted}' spreadsheet_safe = .true. /\n"
+        f"&wall name = '{quoted}' mechanism = 'one_sided' height = 3 thickness = 0.3 /\n"
+        "&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.4 /\n",
+        encoding="utf-8",
+    )
+    done = run("--quiet", "case.nml")
+    assert done.returncode == 0, done.stderr
+    assert json.loads((folder / "x_run.json").read_text(encoding="utf-8"))["settings"]["job"]["title"] == name
+    lines = (folder / "x_walls.csv").read_text(encoding="utf-8").splitlines()
+    (row,) = csv.DictReader(line for line in lines if line[0] != "#")
+    assert row["wall"] == ("'" if name.startswith(tuple("=+-@")) else "") + name
+    with pytest.warns(dd.DondoloWarning, match="no collapse"):
+        assert dd.read_results(folder / "x").population[0].name == name
+
+
+def on_a_terminal(name, run, _):
+    path = name.replace("/", ":")
+    said = run("--check", f"./{path}")
+    assert said.returncode == 2
+    assert path in said.stderr
+
+
+@pytest.mark.parametrize(
+    "leave", [in_html, in_an_archive, in_a_table, in_nrml, in_files_of_the_executable, on_a_terminal]
+)
+@pytest.mark.parametrize("name", SIGNS)
+def test_names_leave_as_they_came(leave, name, run, tmp_path):
+    leave(name, run, tmp_path)
+
+
+@pytest.mark.parametrize("name", STEERING)
+def test_names_that_steer_a_terminal(name, run, tmp_path):
+    """Python and the executable refuse them, and show them, and paths that have them, by their escapes in one line."""
+    said = []
+    for make in (
+        lambda: dd.OneSidedWall(3.0, 0.25, name=name),
+        lambda: dd.Record([0.0, 1.0], 0.01, name=name),
+        lambda: dd.read_case(tmp_path / f"{name}.nml"),
+    ):
+        with pytest.raises(dd.InputError) as caught:
+            make()
+        said.append(str(caught.value))
+    (tmp_path / "case.nml").write_bytes(f"&job title = '{name}' /\n".encode())
+    for path in ["case.nml"] if "\0" in name else ["case.nml", f"{name}.nml"]:
+        done = run("--check", path)
+        assert done.returncode == 2
+        said.extend(done.stderr.splitlines())
+    assert all(map(str.isprintable, said)), said

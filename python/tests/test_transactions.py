@@ -1,13 +1,18 @@
 """Two runs at one output, kills at random moments, and sets of files that do not belong together."""
 
+import contextlib
+import fcntl
 import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import time
+from datetime import UTC, datetime, timedelta
 
 import pytest
+from dondolo._base.files import whole_file
 from dondolo._base.transactions import publishing
 
 import dondolo as dd
@@ -109,13 +114,116 @@ def test_files_of_two_runs_are_refused(executable, folder):
         dd.read_results(folder / "a/x_walls.csv")
 
 
-def test_nothing_of_the_user_is_replaced(executable, folder):
+@pytest.mark.parametrize("mine", ["mine", ""])
+def test_nothing_of_the_user_is_replaced(mine, executable, folder):
     (folder / "out").mkdir()
-    (folder / "out/x.lock").write_text("mine")
+    lock = folder / "out/x.lock"
+    lock.write_text(mine)
     run = start(executable, folder, "a")
     assert "out/x.lock: exists, and is no lock of dondolo" in run.communicate()[1]
     assert run.returncode == 2
-    assert (folder / "out/x.lock").read_text() == "mine"
+    with pytest.raises(dd.InputError, match=r"x\.lock: exists, and is no lock"), publishing(folder / "out/x"):
+        pass
+    assert os.listdir(folder / "out") == ["x.lock"]
+    assert lock.read_text() == mine
+    if not mine:
+        # One that a run has made and not yet signed when it was killed has the sticky bit, and is taken.
+        lock.chmod(0o1644)
+        with publishing(folder / "out/x"):
+            pass
+        assert not os.listdir(folder / "out")
+
+
+def test_parts_of_dead_writers_are_removed(folder):
+    dead = folder / "curve.csv.20260101T000000Z-0123456789abcdef.new"
+    other = [folder / name for name in ("curve.csv.mine.new", f"x{dead.name}", "curve.csv.part")]
+    for path in (dead, *other):
+        path.write_text("half")
+    with whole_file(folder / "curve.csv") as part:
+        assert not dead.exists()
+        part.write_text("outer")
+        # Another writes it meanwhile, and leaves the part of the first.
+        with whole_file(folder / "curve.csv") as inner:
+            inner.write_text("inner")
+        assert part.read_text() == "outer"
+        assert (folder / "curve.csv").read_text() == "inner"
+    assert (folder / "curve.csv").read_text() == "outer"
+    assert [path.read_text() for path in other] == ["half"] * 3
+    assert not [name for name in os.listdir(folder) if name.startswith("curve.csv.2")]
+
+
+LOCK = "dondolo lock\nrun 20260101T000000Z-0123456789abcdef\npid 4321\nhost here\nsince {since}\nrows 1\n"
+
+
+@pytest.fixture(scope="module")
+def checkpoint(tmp_path_factory, few):
+    """Bytes of a checkpoint of five rows that were run in blocks of two, and of its first two blocks."""
+    path = tmp_path_factory.mktemp("status") / "x.counts"
+    walls = [dd.OneSidedWall(1.5 + 0.1 * i, 0.25, name=f"w{i}") for i in range(5)]
+    dd.typology(walls, few[:2], [0.3, 0.9], checkpoint=path, block=2, threads=1, progress=False)
+    whole = path.read_bytes()
+    first = whole.partition(b"\n")[0]
+    at = len(first) + 1 + int(first.split()[3])
+    for _ in range(4):
+        at += struct.unpack_from("=q", whole, at + 8)[0]
+    return whole, whole[:at]
+
+
+@pytest.mark.parametrize(
+    ("left", "lock", "held", "said"),
+    [
+        ("some", "", False, ["interrupted; nothing runs, and the same command goes on", "4 of 5 rows in {path}, 80 %"]),
+        (
+            "some",
+            LOCK,
+            False,
+            ["interrupted: process 4321 on here, begun {since}, has ended", "4 of 5 rows in {path}, 80 %"],
+        ),
+        (
+            "some",
+            LOCK,
+            True,
+            ["running: process 4321 on here since {since}", "4 of 5 rows in {path}, 80 %, about 20 s left"],
+        ),
+        ("all", "", False, ["complete; nothing runs", "5 of 5 rows in {path}, 100 %"]),
+        ("cut", "", False, ["interrupted; nothing runs", "4 of 5 rows in {path}, 80 %"]),
+        ("none", LOCK, True, ["running: process 4321 on here"]),
+        ("none", "", False, []),
+    ],
+)
+def test_status_of_a_checkpoint(left, lock, held, said, checkpoint, run, tmp_path):
+    """Of an output whose checkpoint is the executable's, and of a file of counts."""
+    whole, some = checkpoint
+    content = {"some": some, "all": whole, "cut": whole[:-3]}.get(left)
+    since = f"{datetime.now(UTC) - timedelta(seconds=60):%Y-%m-%dT%H:%M:%SZ}"
+    for name, output in (("out.checkpoint", "out"), ("x.counts", "x.counts")):
+        path = tmp_path / name
+        if content:
+            path.write_bytes(content)
+        keeper = tmp_path / f"{name}.lock"
+        if lock:
+            keeper.write_text(lock.format(since=since))
+        with contextlib.ExitStack() as stack:
+            if held:
+                fcntl.flock(stack.enter_context(keeper.open()), fcntl.LOCK_EX)
+            done = run("--status", output)
+            if said and (content or name == "out.checkpoint"):
+                assert done.returncode == 0, done.stderr
+                lines = done.stdout.splitlines()
+                assert len(lines) == len(said)
+                for line, begin in zip(lines, said, strict=True):
+                    assert line.startswith(f"{output}: {begin.format(path=name, since=since)}")
+            elif not said:
+                assert done.returncode == 2
+                assert f"{output}: nothing is known of it: no lock, no checkpoint and no results" in done.stderr
+        assert not content or path.read_bytes() == content
+
+
+def test_status_of_results(executable, folder):
+    assert start(executable, folder, "a").wait() == 0
+    done = subprocess.run([executable, "--status", "out/x"], cwd=folder, capture_output=True, text=True, check=True)
+    name = dd.read_results(folder / "out/x").run.run
+    assert done.stdout.splitlines() == ["out/x: finished; nothing runs", f"out/x: results are those of run {name}"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

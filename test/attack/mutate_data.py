@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import io
 import json
 import re
@@ -34,7 +35,7 @@ class Damage(TextDamage):
 
         walk(value)
         if not places:
-            return self.chance.choice(_ODD)
+            return copy.deepcopy(self.chance.choice(_ODD))
         node, key = self.chance.choice(places)
         kind = self.chance.randrange(5)
         if kind == 0:
@@ -49,7 +50,7 @@ class Damage(TextDamage):
         elif kind == 3 and isinstance(node[key], (int, float)):
             node[key] = self.chance.choice((0, -1, -node[key], 10**400, 1e308, 0.5, node[key] + 1, 2**31, 2**63))
         else:
-            node[key] = self.chance.choice(_ODD)
+            node[key] = copy.deepcopy(self.chance.choice(_ODD))
         return value
 
     def json(self, content: bytes) -> bytes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import unicodedata
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
@@ -14,14 +13,6 @@ from dondolo.errors import InputError
 
 FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
-
-# Control characters (Cc) and what ends a line in Unicode could forge lines of a result file; marks, embeddings,
-# overrides and isolates of the bidirectional algorithm a name that looks like another (src/dondolo/base/text/plain.f90)
-_UNPRINTED = ("Cc", "Zl", "Zp")
-_DIRECTIONS = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
-
-# Bytes of a name (src/dondolo/base/text/limits.f90)
-_LONGEST_NAME = 1000
 
 
 def as_number(name: str, value: Any) -> float:
@@ -88,23 +79,6 @@ def one_of(name: str, value: Any, allowed: Iterable[str]) -> None:
     words = list(dict.fromkeys(allowed))
     if not isinstance(value, str) or value not in words:
         raise InputError(f"{name} = {value!r}: must be one of {', '.join(map(repr, words))}")
-
-
-def as_text(name: str, value: Any) -> bytes:
-    """Turn what a user gives for a word into the bytes Fortran takes."""
-    if not isinstance(value, str):
-        raise InputError(f"{name} = {value!r}: must be a text")
-    if not value.isprintable() and any(
-        character in _DIRECTIONS or unicodedata.category(character) in _UNPRINTED for character in value
-    ):
-        raise InputError(f"{name} = {value[:60]!r}: must be one line without control characters and marks of direction")
-    try:
-        text = value.encode()
-    except UnicodeEncodeError:
-        raise InputError(f"{name} = {value!r}: must be a text") from None
-    if len(text) > _LONGEST_NAME:
-        raise InputError(f"{name} = {value[:60]!r}...: must have at most {_LONGEST_NAME} bytes")
-    return text
 
 
 def as_measures(ims: str | Iterable[str]) -> list[str]:

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import codecs
+import errno
+import fcntl
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.transactions import create, new_run, staged, synchronize
+from dondolo._base.transactions import create, new_run, synchronize
 from dondolo.errors import DondoloError, InputError, MissingFileError
+
+# How often a part is made that another process takes for a dead one
+_TRIES = 5
 
 
 def as_file(name: str, path: Any) -> Path:
@@ -56,7 +62,9 @@ def read_text(path: str | os.PathLike[str]) -> str:
 def whole_file(path: Any) -> Iterator[Path]:
     """A file that appears whole or not at all: gives the part to write, which then takes the file's place.
 
-    The part has a name that no other process gives a file; of two that write one file, the later one stays.
+    The part has a name that no other process gives a file, `FILE.RUN.new`; of two that write one file, the later one
+    stays. It is locked while it is written, so that the parts of killed processes are known, and removed when the file
+    is written again.
 
     Parameters
     ----------
@@ -76,9 +84,10 @@ def whole_file(path: Any) -> Iterator[Path]:
         The file cannot be written.
     """
     target = as_file("path", path)
-    part = staged(target, new_run())
+    _remove_dead_parts(target)
+    part, lock = target, None
     try:
-        create(part)
+        part, lock = _new_part(target)
         yield part
         synchronize(part)
         part.replace(target)
@@ -86,8 +95,38 @@ def whole_file(path: Any) -> Iterator[Path]:
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
     finally:
         # What is in the way of this is in the way of writing, too, and has been said.
+        if lock is not None:
+            with suppress(OSError):
+                part.unlink()
+            os.close(lock)
+
+
+def _new_part(target: Path) -> tuple[Path, int]:
+    """A new part of a file, and the descriptor of its lock."""
+    for _ in range(_TRIES):
+        part = target.with_name(f"{target.name}.{new_run()}.new")
+        descriptor = create(part)
+        # A file system without locks refuses none.
         with suppress(OSError):
-            part.unlink()
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        # Who found it before it was locked has removed it.
+        if part.exists():
+            return part, descriptor
+        os.close(descriptor)
+    raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
+
+
+def _remove_dead_parts(target: Path) -> None:
+    """Remove the parts of a file that nobody writes any more."""
+    named = re.compile(re.escape(target.name) + r"\.\d{8}T\d{6}Z-[0-9a-f]{16}\.new")
+    with suppress(OSError):
+        for name in filter(named.fullmatch, os.listdir(target.parent)):
+            part = target.with_name(name)
+            descriptor = os.open(part, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+            with suppress(OSError):
+                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                part.unlink()
+            os.close(descriptor)
 
 
 def check_replaced(path: Any, mark: str, kind: str) -> None:

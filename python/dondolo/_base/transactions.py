@@ -58,9 +58,9 @@ def staged(path: Path, run: str) -> Path:
     return path.with_name(f"{path.name}.{run}.part")
 
 
-def create(path: Path) -> None:
-    """Make an empty file; one that exists is not touched, and no link followed."""
-    os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666))
+def create(path: Path) -> int:
+    """Make an empty file, and give its descriptor; one that exists is not touched, and no link followed."""
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
 
 
 def synchronize(path: Path) -> None:
@@ -110,7 +110,7 @@ class Publication:
         path = _end(self._prefix, name)
         text = "".join(f"{line}\n" for line in lines)
         try:
-            create(staged(path, self.run))
+            os.close(create(staged(path, self.run)))
             staged(path, self.run).write_text(text, encoding="utf-8")
             synchronize(staged(path, self.run))
         except OSError as error:
@@ -174,8 +174,6 @@ def publishing(prefix: Path) -> Iterator[Publication]:
     except OSError as error:
         raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
     try:
-        if said and not said.startswith(_LOCK_MARK):
-            raise InputError(f"{lock}: exists, and is no lock of dondolo")
         publication = Publication(prefix, new_run())
         _end_publishing(prefix, _said(said, "run"))
         _sign(descriptor, publication.run)
@@ -224,7 +222,8 @@ def _take(lock: Path) -> tuple[int, str]:
     flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     tries, said = 0, ""
     while tries < _TRIES:
-        descriptor = os.open(lock, flags, 0o666)
+        # The sticky bit tells a lock that is still empty from an empty file of the user's.
+        descriptor = os.open(lock, flags, 0o666 | stat.S_ISVTX)
         try:
             said = os.pread(descriptor, 500, 0).decode(errors="replace")
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -240,7 +239,11 @@ def _take(lock: Path) -> tuple[int, str]:
         # Who had it before has removed the file, unless it is still the one of this name.
         with suppress(FileNotFoundError):
             if stat.S_ISREG(ours.st_mode) and os.path.samestat(ours, os.lstat(lock)):
-                return descriptor, os.pread(descriptor, 500, 0).decode(errors="replace")
+                said = os.pread(descriptor, 500, 0).decode(errors="replace")
+                if said.startswith(_LOCK_MARK) or (not said and ours.st_mode & stat.S_ISVTX):
+                    return descriptor, said
+                os.close(descriptor)
+                raise InputError(f"{lock}: exists, and is no lock of dondolo")
         os.close(descriptor)
         if not stat.S_ISREG(ours.st_mode):
             raise OSError(0, "is no file")

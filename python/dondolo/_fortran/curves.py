@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_text
+from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, constants, receive, unpack_warnings
+from dondolo._fortran.library import as_text, check, constants, receive, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 

@@ -15,7 +15,9 @@ module library
    use dondolo_handles, only : release
    use dondolo_interrupt, only : begin => listen, finish => end_listening
    use dondolo_lane_variants, only : build_variant, check_variant
+   use dondolo_limits, only : longest_name
    use dondolo_parcel, only : parcel_type, send, take
+   use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : describe_property, property_type
    use dondolo_property_tables, only : property_table, table_names
    use dondolo_solver, only : solver_type
@@ -25,12 +27,14 @@ module library
    implicit none
    private
 
-   public :: constants, properties, variant, listen, end_listening, work_alone, take_parcel, free
+   public :: constants, properties, check_text, variant, listen, end_listening, work_alone, take_parcel, free
 
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(defaults, version, statuses, errors)
+   subroutine constants(longest, defaults, version, statuses, errors)
+      ! Bytes of a name
+      integer(c_int), intent(out) :: longest
       ! rtol, atol, edp_limit, gravity
       real(c_double), intent(out) :: defaults(4)
       character(len=32), intent(out) :: version
@@ -38,6 +42,7 @@ contains
       type(solver_type) :: solver
       integer :: i
 
+      longest = longest_name
       defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity]
       version = dondolo_version_text
       statuses = ''
@@ -71,6 +76,19 @@ contains
       if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
       call send(parcel, error, sent, stat, message)
    end subroutine properties
+
+   !> Check a name, a title or another word of the user's
+   subroutine check_text(what, text, stat, message)
+      ! What it is, and its text
+      character(len=*), intent(in) :: what, text
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(error_type), allocatable :: error
+
+      if (len_trim(name_problem(text)) > 0) call raise_input(error, what//' = '''//shown(text)//''': '// &
+         & trim(name_problem(text)))
+      call report(error, stat, message)
+   end subroutine check_text
 
    !> Build variant that the engine lanes runs; the environment may change it from call to call
    subroutine variant(name, stat, message)

@@ -29,6 +29,7 @@ _PACKAGE = str(Path(__file__).parents[1]) + os.sep
 class Constants(NamedTuple):
     """What Fortran says of itself."""
 
+    longest_name: int
     rtol: float
     atol: float
     edp_limit: float
@@ -87,9 +88,10 @@ class Parcel(NamedTuple):
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    defaults, version, statuses, errors = _core.library.constants()
+    longest, defaults, version, statuses, errors = _core.library.constants()
     rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
+        int(longest),
         rtol,
         atol,
         edp_limit,
@@ -164,6 +166,20 @@ def stoppable() -> Iterator[None]:
 
 # OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
 os.register_at_fork(after_in_child=_core.library.work_alone)
+
+
+def as_text(name: str, value: Any) -> bytes:
+    """Turn what a user gives for a name or a word into the bytes Fortran takes, which says what they may be."""
+    if not isinstance(value, str):
+        raise InputError(f"{name} = {value!r}: must be a text")
+    try:
+        text = value.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} = {value!r}: must be a text") from None
+    # What Python prints has no character that Fortran refuses. A text of f2py ends at NUL: C0 80 in modified UTF-8.
+    if not value.isprintable() or len(text) > constants().longest_name:
+        check(*_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
+    return text
 
 
 def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:

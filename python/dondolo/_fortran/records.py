@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_number, as_path, as_text
+from dondolo._base.arguments import FloatArray, as_number, as_path
 from dondolo._fortran import _core
-from dondolo._fortran.library import Parcel, constants, receive, warn_of_notes
+from dondolo._fortran.library import Parcel, as_text, constants, receive, warn_of_notes
 from dondolo.errors import InputError
 
 

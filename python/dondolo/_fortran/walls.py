@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_path, as_text
+from dondolo._base.arguments import FloatArray, as_array, as_number, as_path
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, check, constants, properties, receive, warn_of_notes
+from dondolo._fortran.library import Parcel, as_text, check, constants, properties, receive, warn_of_notes
 from dondolo.errors import InputError
 
 

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_text, instance_of, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
-from dondolo._fortran.library import check, stoppable
+from dondolo._fortran.library import as_text, check, stoppable
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar

@@ -16,10 +16,10 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_count, as_text
+from dondolo._base.arguments import FloatArray, as_count
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, properties, receive, stoppable, unpack_warnings
+from dondolo._fortran.library import as_text, check, properties, receive, stoppable, unpack_warnings
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work

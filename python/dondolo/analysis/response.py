@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, as_text, instance_of
+from dondolo._base.arguments import FloatArray, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
-from dondolo._fortran.library import check, receive, stoppable, warn
+from dondolo._fortran.library import as_text, check, receive, stoppable, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver

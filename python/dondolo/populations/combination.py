@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_text
+from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import fit_walls
+from dondolo._fortran.library import as_text
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import curve_of
 from dondolo.curves.series import in_series

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_text
+from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import FlatPopulation, curve_of_population
+from dondolo._fortran.library import as_text
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, as_text, instance_of
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
-from dondolo._fortran.library import check
+from dondolo._fortran.library import as_text, check
 from dondolo._fortran.records import describe_measure
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError

@@ -7,10 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, as_text
+from dondolo._base.arguments import FloatArray, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, constants
+from dondolo._fortran.library import as_text, check, constants
 from dondolo.errors import InputError
 
 

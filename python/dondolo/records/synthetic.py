@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from dondolo._base.arguments import as_count, as_number, as_text
+from dondolo._base.arguments import as_count, as_number
 from dondolo._fortran import _core
-from dondolo._fortran.library import receive
+from dondolo._fortran.library import as_text, receive
 from dondolo._fortran.records import unpack_records
 from dondolo.errors import InputError
 from dondolo.records.record import Record

@@ -9,9 +9,8 @@ from datetime import datetime
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from dondolo._base.arguments import as_text
 from dondolo._base.files import check_replaced
-from dondolo._fortran.library import constants
+from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
 from dondolo.analysis.response import Response

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_text, instance_of, one_of
+from dondolo._base.arguments import FloatArray, as_array, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
+from dondolo._fortran.library import as_text
 from dondolo._fortran.walls import WALL_LISTS, WALL_PROPERTIES, describe_walls, read_walls
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results

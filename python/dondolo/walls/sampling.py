@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number, as_text, one_of
-from dondolo._fortran.library import constants
+from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
+from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution

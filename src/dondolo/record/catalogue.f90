@@ -13,10 +13,10 @@ module dondolo_catalogue
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_limits, only : longest_name, most_records
+   use dondolo_limits, only : most_records
    use dondolo_memory, only : check_room
    use dondolo_name_index, only : name_index_type
-   use dondolo_plain, only : is_plain, must_be_plain, shown, visible
+   use dondolo_plain, only : name_problem, shown, visible
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
    use dondolo_text, only : lower, to_text
@@ -234,12 +234,9 @@ contains
       do row = 1, size(records)
          is_given(row) = len(names%line(row)%text) > 0
          if (is_given(row)) records(row)%name = names%line(row)%text
-         if (len(records(row)%name) > longest_name) then
-            call raise_input(error, places%line(row)%text//': name = '''//shown(records(row)%name)// &
-               & ''': must have at most '//to_text(longest_name)//' bytes')
-            return
-         else if (.not. is_plain(records(row)%name)) then
-            call raise_input(error, places%line(row)%text//': name = '''//records(row)%name//''': '//must_be_plain)
+         if (len_trim(name_problem(records(row)%name)) > 0) then
+            call raise_input(error, places%line(row)%text//': name = '''//shown(records(row)%name)//''': '// &
+               & trim(name_problem(records(row)%name)))
             return
          end if
          ! What follows is the channel

@@ -4,9 +4,9 @@
 module dondolo_record
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_name, most_samples
+   use dondolo_limits, only : most_samples
    use dondolo_metadata, only : metadata_type
-   use dondolo_plain, only : shown
+   use dondolo_plain, only : name_problem, shown
    use dondolo_text, only : to_text
    implicit none
    private
@@ -67,8 +67,8 @@ contains
          call raise_input(error, 'number of samples = '//to_text(size(acceleration))//': must be at most '// &
             & to_text(most_samples))
          return
-      else if (len(name) > longest_name) then
-         call raise_input(error, 'name = '''//shown(name)//''': must have at most '//to_text(longest_name)//' bytes')
+      else if (len_trim(name_problem(name)) > 0) then
+         call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)))
          return
       end if
       do i = 1, size(acceleration)

@@ -2,8 +2,7 @@
 module dondolo_settings
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_name
-   use dondolo_plain, only : is_plain, must_be_plain, shown
+   use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, is_real, &
       & is_text, is_words, name_length, number_of_choices, number_of_words, property_type
    use dondolo_text, only : join, lower, to_text
@@ -521,8 +520,7 @@ contains
             select case (property%kind)
             case (is_text, is_words)
                call check_word(property, self%words(i)%text, allowed)
-               if (.not. is_plain(self%words(i)%text)) allowed = must_be_plain
-               if (len(self%words(i)%text) > longest_name) allowed = 'must have at most '//to_text(longest_name)//' bytes'
+               if (len_trim(name_problem(self%words(i)%text)) > 0) allowed = trim(name_problem(self%words(i)%text))
             case (is_real, is_integer)
                call check_number(property, self%numbers(i), allowed)
             case (is_list)

@@ -54,15 +54,17 @@ static void read_text(int descriptor, char *text, size_t room)
    text[length > 0 ? length : 0] = '\0';
 }
 
-/* Take the lock file of a path, and read what stands in it. 0: taken; 1: another process has it; 2: it cannot be written.
-   The kernel gives the lock back when the last process that has it ends, however that ends. */
+/* Take the lock file of a path, and read what stands in it. 0: taken; 1: another process has it; 2: it cannot be written;
+   3: an empty file of somebody else. The kernel gives the lock back when the last process that has it ends, however that
+   ends. A lock file is made with the sticky bit, which no other program gives a file: so one that is still empty, since
+   its run was killed at once, is told from an empty file of the user's. */
 int dondolo_take_lock(const char *path, int *descriptor, char *text, size_t room)
 {
    struct stat ours, there;
    int tries = 0;
 
    while (tries < 5) {
-      *descriptor = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+      *descriptor = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
       if (*descriptor < 0)
          return 2;
       if (flock(*descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -77,7 +79,10 @@ int dondolo_take_lock(const char *path, int *descriptor, char *text, size_t room
       if (fstat(*descriptor, &ours) == 0 && S_ISREG(ours.st_mode) && lstat(path, &there) == 0 &&
           ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
          read_text(*descriptor, text, room);
-         return 0;
+         if (text[0] != '\0' || (ours.st_mode & S_ISVTX) != 0)
+            return 0;
+         close(*descriptor);
+         return 3;
       }
       close(*descriptor);
       if (!S_ISREG(ours.st_mode))

@@ -113,10 +113,10 @@ contains
       call read_holder(text, holder)
       if (stat == 1) then
          call raise_input(error, what//': is being written by another run'//trim(described(holder)))
-      else if (stat /= 0) then
+      else if (stat == 2) then
          call raise_failure(error, self%path//': cannot be written')
-      else if (text(1:1) /= c_null_char .and. index(text, mark) /= 1) then
-         call c_give_back(self%descriptor)
+      else if (stat == 3 .or. (text(1:1) /= c_null_char .and. index(text, mark) /= 1)) then
+         if (stat == 0) call c_give_back(self%descriptor)
          call raise_input(error, self%path//': exists, and is no lock of dondolo')
       end if
       if (allocated(error)) then

@@ -2,10 +2,12 @@
 !> what is shown.
 module dondolo_plain
    use dondolo_encoding, only : next_character
+   use dondolo_limits, only : longest_name
+   use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: is_plain, visible, shown, must_be_plain
+   public :: is_plain, name_problem, visible, shown
 
    !> What is said of a name that is not plain
    character(len=*), parameter :: must_be_plain = 'must be one line without control characters and marks of '// &
@@ -48,6 +50,21 @@ contains
       end do
       is_plain = .true.
    end function is_plain
+
+   !> What a name, a title or another word of the user's must be and is not; blank if nothing is wrong with it
+   pure function name_problem(text)
+      !> Any bytes
+      character(len=*), intent(in) :: text
+      !> What is said of it
+      character(len=len(must_be_plain)) :: name_problem
+
+      name_problem = ''
+      if (len(text) > longest_name) then
+         name_problem = 'must have at most '//to_text(longest_name)//' bytes'
+      else if (.not. is_plain(text)) then
+         name_problem = must_be_plain
+      end if
+   end function name_problem
 
    !> Length of a text with its escapes
    pure integer function visible_length(text) result(length)

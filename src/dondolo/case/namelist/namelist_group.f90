@@ -5,9 +5,8 @@
 module dondolo_namelist_group
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_name
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : is_plain, must_be_plain, shown
+   use dondolo_plain, only : name_problem, shown
    use dondolo_text, only : first_word, join, lower, to_text
    implicit none
    private
@@ -294,14 +293,12 @@ contains
 
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
-      if (found%quoted .and. len(found%text) > longest_name) then
-         call self%refuse(name, 'must have at most '//to_text(longest_name)//' bytes', error)
-      else if (found%quoted .and. .not. is_plain(found%text)) then
-         call self%refuse(name, must_be_plain, error)
-      else if (found%quoted) then
-         value = found%text
-      else
+      if (.not. found%quoted) then
          call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
+      else if (len_trim(name_problem(found%text)) > 0) then
+         call self%refuse(name, trim(name_problem(found%text)), error)
+      else
+         value = found%text
       end if
    end subroutine get_text
 
