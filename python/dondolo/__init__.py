@@ -28,8 +28,9 @@ from dondolo.curves.fragility import Fragility, fit_fragility
 from dondolo.curves.regression import Logistic, Regression
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
 from dondolo.exchange.cases import Case, Results, read_case, run_case
+from dondolo.exchange.fragility_model import DiscreteFragility, FragilityModel, read_nrml
 from dondolo.exchange.mean_functions import nrml_functions
-from dondolo.exchange.nrml import DiscreteFragility, write_nrml
+from dondolo.exchange.nrml import write_nrml
 from dondolo.exchange.results import StoredResults, read_results
 from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
@@ -69,6 +70,7 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
+    "FragilityModel",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -121,6 +123,7 @@ __all__ = [
     "pulses",
     "read_case",
     "read_catalogue",
+    "read_nrml",
     "read_population",
     "read_record",
     "read_records",

@@ -75,8 +75,10 @@ def im_of(imt: str) -> tuple[str, int]:
 
 
 def times(value: float, unit: int) -> str:
-    """A number in OpenQuake's unit, with the digits that give it again exactly: 1.1 times 100 is 110."""
-    return repr(float(value)) if unit == 1 else str(Decimal(repr(float(value))) * unit)
+    """A number in OpenQuake's unit, in as few digits as give it again: 1.1 times 100 is 110."""
+    exact = Decimal(repr(float(value))) * unit
+    short = repr(float(exact))
+    return short if over(short, unit) == value else str(exact)
 
 
 def over(text: str, unit: int) -> float:
