@@ -82,6 +82,7 @@ def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int) -> Axes:
             ha="right",
             va="top",
         )
+    ax.margins(y=0.12)
     above = 100.0 * risk.above[0] / whole
     beyond = f";\n{above:.2g} % from above the levels" if above >= 0.05 else ""
     ax.set_title(f"{between(*risk.bounds, 'collapses a year', 3)}{beyond}", loc="left")
