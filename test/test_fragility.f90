@@ -7,6 +7,7 @@ program test_fragility
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_ordinal, only : fit_ordinal, ordinal_errors
    use dondolo_stripes, only : stripes_type
    use dondolo_student, only : student_cdf, student_quantile
    use dondolo_wall, only : wall_type
@@ -21,6 +22,7 @@ program test_fragility
    call test_invariances()
    call test_wrong_counts()
    call test_clusters()
+   call test_ordinal()
    call test_student()
    call finish()
 
@@ -240,6 +242,60 @@ contains
       call check_text(other%errors, 'one_cluster', 'one cluster has all but one stripe')
       call check(all(changes == 0.0_wp) .and. all(other%covariance == 0.0_wp), 'no number without standard errors')
    end subroutine test_clusters
+
+   !> Damage states with one dispersion: exact fractions give their curves back, in any order of levels and with states that
+   !> share a curve; one state alone is the fit alone
+   subroutine test_ordinal()
+      real(wp), parameter :: x(5) = [0.6_wp, 0.1_wp, 0.2_wp, 0.9_wp, 0.35_wp], n(5) = [40, 44, 30, 44, 50]
+      real(wp), parameter :: theta(4) = [0.2_wp, 0.30_wp, 0.30_wp, 0.95_wp]
+      real(wp) :: z(5, 6), by_cluster(5, 6, 10), of_cluster(5, 10), changes(2, 6, 10), single(2, 10)
+      type(fragility_type) :: curves(6), own
+      type(error_type), allocatable :: error
+      integer :: g, k
+
+      call suite('damage states with one dispersion')
+      z(:, 1) = n
+      z(:, 6) = 0.0_wp
+      do k = 1, 4
+         z(:, k + 1) = n*normal_cdf(log(x/theta(k))/0.45_wp)
+      end do
+      call fit_ordinal(curves, x, z, n, error)
+      call check_ok(error, 'fit')
+      call check_text(curves(1)%status, 'all_collapse', 'every history reaches the first')
+      call check_text(curves(6)%status, 'no_collapse', 'none reaches the last')
+      do k = 1, 4
+         call check_close(curves(k + 1)%theta, theta(k), 1.0e-12_wp, 'theta of state '//achar(48 + k))
+         call check_close(curves(k + 1)%beta, 0.45_wp, 1.0e-12_wp, 'beta of state '//achar(48 + k))
+      end do
+      call check_text(curves(4)%status, 'ok', 'status')
+      call check_text(curves(5)%status, 'extrapolated', 'theta beyond the levels')
+      call check(curves(3)%theta >= curves(4)%theta .and. curves(3)%theta <= curves(4)%theta, 'states that share a curve')
+
+      ! Each cluster a tenth of all: nothing differs between clusters, so that there is no error at all.
+      by_cluster = spread(0.1_wp*z, 3, 10)
+      of_cluster = spread(0.1_wp*n, 2, 10)
+      call ordinal_errors(curves, x, by_cluster, of_cluster, changes)
+      call check_text(curves(2)%errors, 'clustered', 'errors')
+      call check(curves(2)%clusters == 10, 'clusters')
+      call check(maxval(abs(changes)) < 1.0e-12_wp, 'equal clusters')
+      do g = 1, 10
+         by_cluster(:, :, g) = by_cluster(:, :, g)*(1.0_wp + 0.03_wp*real(g - 5, wp))
+         of_cluster(:, g) = of_cluster(:, g)*(1.0_wp + 0.01_wp*real(g*g - 30, wp))
+      end do
+      call fit_ordinal(curves(:1), x, sum(by_cluster(:, 3:3, :), 3), sum(of_cluster, 2), error)
+      call check_ok(error, 'one state')
+      own = fitted(x, sum(by_cluster(:, 3, :), 2), sum(of_cluster, 2), 'the same alone')
+      call ordinal_errors(curves(:1), x, by_cluster(:, 3:3, :), of_cluster, changes(:, :1, :))
+      call cluster_errors(own, x, by_cluster(:, 3, :), of_cluster, single)
+      call check_close(curves(1)%theta, own%theta, 0.0_wp, 'theta of one state alone')
+      call check_close(curves(1)%covariance(1, 2), own%covariance(1, 2), 0.0_wp, 'covariance of one state alone')
+      call check(all(abs(changes(:, 1, :) - single) <= 0.0_wp), 'changes of one state alone')
+
+      call fit_ordinal(curves(:2), x, z(:, [3, 2]), n, error)
+      call check_error(error, 'at level 0.6: must be at most', 'a state that more reach than the one before')
+      call fit_ordinal(curves(:2), x(:2), z(:, 2:3), n(:2), error)
+      call check_error(error, 'must be as many', 'unequal sizes')
+   end subroutine test_ordinal
 
    !> Tables of Student's t
    subroutine test_student()

@@ -186,7 +186,8 @@ def _plot(options: argparse.Namespace) -> None:
         _save(options, "stripes", stripes.plot)
         _save(options, "fragility", results.fragility.plot)
         if results.edp_thresholds:
-            _save(options, "damage_states", lambda: stripes.plot_damage_states(edp_thresholds=results.edp_thresholds))
+            how: dict[str, Any] = {"edp_thresholds": results.edp_thresholds, "states": results.states}
+            _save(options, "damage_states", lambda: stripes.plot_damage_states(**how))
     if results.typology is not None:
         people = results.typology
         _save(options, "typology", people.plot)

@@ -304,6 +304,7 @@ def test_options_are_keywords():
 BY_PLACE = {
     "ax",
     "edp_threshold",
+    "edp_thresholds",
     "height",
     "ims",
     "kind",

@@ -18,7 +18,7 @@ contains
    !> Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
    !> 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
    !> the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
-   !> task, title, output, im, polarity, engine, then walls, their groups, and records, and how its tables were read, where
+   !> task, title, output, im, polarity, engine, states, then walls, their groups, and records, and how its tables were read, where
    !> there is something to say of it
    subroutine read_case(path, sent, stat, message)
       character(len=*), intent(in) :: path
@@ -58,6 +58,7 @@ contains
          call parcel%lines%add(case%stripes%scaling%name)
          call parcel%lines%add(case%records_input%polarity)
          call parcel%lines%add(trim(case%solver%solver%engine))
+         call parcel%lines%add(case%stripes%states)
          call pack_members(members, parcel)
          call pack_records(case%suite%records, parcel, error)
          do i = 1, case%notes%count

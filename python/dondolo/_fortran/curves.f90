@@ -8,6 +8,7 @@ module curves
    use dondolo_handles, only : find_walls
    use dondolo_lines, only : lines_type
    use dondolo_members, only : choose_members, members_type, population_probabilities
+   use dondolo_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population_counts, only : new_population_counts, population_counts_type
    use dondolo_roster, only : number_of_group, roster_row_type, roster_type
@@ -21,7 +22,7 @@ module curves
    implicit none
    private
 
-   public :: fit_curves, cluster_curves, cluster_changes, probability, in_series, warn_of_curve, fit_walls
+   public :: fit_curves, cluster_curves, cluster_changes, fit_ordinal, probability, in_series, warn_of_curve, fit_walls
    public :: curve_of_population
 
 contains
@@ -121,6 +122,35 @@ contains
       call cluster_errors(curve, levels, collapses, histories, changes)
       errors = findloc(error_names, curve%errors, dim=1)
    end subroutine cluster_changes
+
+   !> Curves of k damage states with one dispersion, from the histories of each of g clusters that reach each state at each of
+   !> m levels; changes and errors are as cluster_changes has them
+   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, errors, stat, message)
+      integer(c_int), intent(in) :: m, k, g
+      real(c_double), intent(in) :: levels(m), reached(m, k, g), histories(m, g)
+      real(c_double), intent(out) :: curves(8, k), changes(2, k, g)
+      integer(c_int), intent(out) :: statuses(k), errors(k), stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: curve(k)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      curves = 0
+      changes = 0
+      statuses = 0
+      errors = 0
+      call check_room(error, reals=8.0_c_double*m*(real(k, c_double)*g + g))
+      if (.not. allocated(error)) call ordinal_fit(curve, levels, sum(reached, 3), sum(histories, 2), error)
+      if (.not. allocated(error)) then
+         do i = 1, k
+            curves(:, i) = pack_curve(curve(i))
+            statuses(i) = status_code(curve(i))
+         end do
+         call ordinal_errors(curve, levels, reached, histories, changes)
+         errors = [(findloc(error_names, curve(i)%errors, dim=1), i=1, k)]
+      end if
+      call report(error, stat, message)
+   end subroutine fit_ordinal
 
    !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
    subroutine probability(theta, beta, x, n, p)

@@ -85,6 +85,24 @@ def cluster_changes(
     return changes.T, constants().errors[code - 1]
 
 
+def fit_ordinal(
+    levels: FloatArray, reached: FloatArray, histories: FloatArray
+) -> list[tuple[CurveData, FloatArray, str]]:
+    """Curves of damage states with one dispersion: each with its changes, and what standard errors it has.
+
+    Histories that reach each state are (clusters, states, levels), histories (clusters, levels); changes, of ln theta
+    and beta if each cluster is left out, (clusters, 2).
+    """
+    found = _core.curves.fit_ordinal(levels, np.ascontiguousarray(reached).T, np.ascontiguousarray(histories).T)
+    curves, statuses, changes, errors, stat, message = found
+    check(stat, message)
+    names, known = constants().statuses, constants().errors
+    return [
+        (CurveData(names[statuses[i] - 1], curves[:, i]), changes[:, i].T.copy(), known[errors[i] - 1])
+        for i in range(reached.shape[1])
+    ]
+
+
 def cluster_curves(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
 ) -> tuple[FloatArray, list[str], NDArray[np.int32]]:

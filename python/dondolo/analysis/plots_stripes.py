@@ -7,18 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_array
 from dondolo.analysis.incremental import Incremental
 from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.plots import parameters
 from dondolo.figures import curves, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-
-# Damage states if none are named, as shares of the collapse limit
-_STATES = (0.1, 0.4, 1.0)
 
 
 def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
@@ -64,16 +61,13 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     return ax
 
 
-def draw_damage_states(stripes: Stripes, ax: Axes | None, edp_thresholds: Sequence[float] | None) -> Axes:
+def draw_damage_states(stripes: Stripes, ax: Axes | None, fits: Sequence[Fragility]) -> Axes:
     """Draw the fitted curve of each damage state, collapse the boldest."""
-    if edp_thresholds is None:
-        states = [share * stripes.edp_limit for share in _STATES]
-    else:
-        states = as_array("edp_thresholds", edp_thresholds).tolist()
+    states = {float(fit.edp_threshold or 0.0): fit for fit in fits}
     ax = curves.axes(ax, len(states) + 1)
     grid = curves.grid(stripes.levels)
-    for threshold, look, marks in curves.state_looks(states):
-        curve = stripes.fit(threshold)
+    for threshold, look, marks in curves.state_looks(list(states)):
+        curve = states[threshold]
         text = f"EDP ≥ {threshold:g}: {parameters(curve)}"
         ax.plot(stripes.levels, curve.collapses / curve.histories, **marks, label=None if curve.has_fit else text)
         if curve.has_fit:

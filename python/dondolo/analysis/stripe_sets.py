@@ -112,6 +112,14 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     return dataclasses.replace(joined, record_names=names_twice, polarity=polarity, work=work, **of_records)
 
 
+def stack(parts: Sequence[Stripes]) -> Stripes:
+    """The stripes of runs of the same histories at other levels."""
+    several = sorted(parts, key=lambda part: float(part.levels[0]))
+    levels = np.concatenate([part.levels for part in several])
+    whole = _with(several[0], levels, lambda name, _: np.concatenate([getattr(part, name) for part in several]))
+    return dataclasses.replace(whole, work=Work.total(part.work for part in several))
+
+
 def _of_records(what: str, parts: Sequence[Stripes], joint: Sequence[str]) -> tuple[str, ...]:
     """A text of each record of two runs."""
     found: dict[str, str] = {}

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.histories import warnings_of_errors
@@ -19,10 +19,12 @@ from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Outcome, Plan, Polarity, Request, new_request, polarity_names
+from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
+from dondolo.analysis.request import Outcome, Pace, Plan, Polarity, Request, new_request, polarity_names, progress_bar
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_sets import cut, in_matrix, join, span
+from dondolo.analysis.stripe_sets import cut, in_matrix, join, span, stack
 from dondolo.analysis.work import Work
+from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fragility import Fragility, fit
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import DondoloWarning, InputError, Interrupted
@@ -33,6 +35,12 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _Table = Literal["histories", "stripes", "walls"]
+
+#: Fits of damage states: each on its own, or all with one dispersion
+States = Literal["separate", "ordinal"]
+
+# Damage states if none are named, as shares of the collapse limit
+_SHARES = (0.1, 0.4, 1.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -189,14 +197,76 @@ class Stripes(Shown, Saved):
             edp_threshold=state.edp_limit,
             sample=state._sample(events),
         )
+        self._warn_of(curve, "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: ")
+        return curve
+
+    def fit_damage_states(
+        self,
+        edp_thresholds: ArrayLike | None = None,
+        *,
+        states: States = "separate",
+        events: Sequence[Any] | None = None,
+    ) -> tuple[Fragility, ...]:
+        """Fit the curve of each damage state, each on its own or all with one dispersion.
+
+        Parameters
+        ----------
+        edp_thresholds : array_like, optional
+            Rotation / capacity of the states, increasing; 0.1, 0.4 and 1 times `edp_limit` if left out.
+        states : {'separate', 'ordinal'}
+            'separate': each as `fit` does; their curves may cross. 'ordinal': the cumulative probit model, with one
+            beta for all, so that no curve crosses another (McCullagh 1980). States that the same histories reach share
+            a curve.
+        events : sequence, optional
+            As for `fit`.
+
+        Returns
+        -------
+        tuple of Fragility
+            One for each state. 'ordinal': their log likelihood is that of all together, of the numbers of histories
+            between one threshold and the next, and `bootstrap` is not for them.
+
+        Raises
+        ------
+        InputError
+            Thresholds that do not increase, are not positive, or above `edp_limit`.
+
+        Warns
+        -----
+        DondoloWarning
+            As `fit`.
+        """
+        one_of("states", states, ("separate", "ordinal"))
+        limits = self._thresholds(edp_thresholds)
+        if states == "separate":
+            return tuple(self.fit(threshold, events=events) for threshold in limits)
+        samples = [self._state(threshold)._sample(events) for threshold in limits]
+        curves = fit_states(samples, limits, im=self.im, wall=self.wall)
+        for curve in curves:
+            self._warn_of(curve, f"damage state {curve.edp_threshold:g} in place of collapse: ")
+        return curves
+
+    def _thresholds(self, edp_thresholds: ArrayLike | None) -> list[float]:
+        """Thresholds of damage states, checked."""
+        if edp_thresholds is None:
+            return [share * self.edp_limit for share in _SHARES]
+        limits: list[float] = as_array("edp_thresholds", edp_thresholds).tolist()
+        if not limits:
+            raise InputError("edp_thresholds: must be given")
+        for before, threshold in zip([0.0, *limits], limits, strict=False):
+            self.exceedances(threshold)
+            if not threshold > before:
+                raise InputError(f"edp_thresholds = {before:g}, {threshold:g}: must increase strictly")
+        return limits
+
+    def _warn_of(self, curve: Fragility, where: str) -> None:
+        """Warn of a curve as the executable does."""
         low, high = curve.bracket
         numbers = np.zeros(8)
         numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
         data = CurveData(curve.status, numbers)
         sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
-        where = "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: "
         warn(sentence.placed(where) for sentence in sentences)
-        return curve
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw every history: EDP against intensity, collapses set apart above.
@@ -217,15 +287,17 @@ class Stripes(Shown, Saved):
 
         return draw_stripes(self, ax)
 
-    def plot_damage_states(self, ax: Axes | None = None, *, edp_thresholds: Sequence[float] | None = None) -> Axes:
+    def plot_damage_states(
+        self, ax: Axes | None = None, *, edp_thresholds: ArrayLike | None = None, states: States = "separate"
+    ) -> Axes:
         """Draw the fitted curve of each damage state, collapse the boldest.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        edp_thresholds : sequence of float, optional
-            Rotation / capacity of the states, as for `fit`; 0.1, 0.4 and 1 times `edp_limit` if left out.
+        edp_thresholds, states
+            As for `fit_damage_states`.
 
         Returns
         -------
@@ -235,11 +307,11 @@ class Stripes(Shown, Saved):
         Raises
         ------
         InputError
-            A threshold that is not positive, or above `edp_limit`.
+            As `fit_damage_states`.
         """
         from dondolo.analysis.plots_stripes import draw_damage_states
 
-        return draw_damage_states(self, ax, edp_thresholds)
+        return draw_damage_states(self, ax, self.fit_damage_states(edp_thresholds, states=states))
 
     def _state(self, edp_threshold: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
@@ -306,8 +378,9 @@ class Stripes(Shown, Saved):
 def multiple_stripe(
     wall: Wall,
     records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
-    levels: ArrayLike | None = None,
+    levels: ArrayLike | Literal["auto"] | None = None,
     *,
+    budget: int | None = None,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
@@ -324,9 +397,13 @@ def multiple_stripe(
     records : Record, iterable of Record, RecordSet, or mapping of float to these
         The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its
         levels only, with the factor of the set where it has one.
-    levels : array_like, shape (levels,)
+    levels : array_like, shape (levels,), or 'auto'
         Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
-        levels.
+        levels. 'auto': stripe by stripe, each level is chosen where the histories so far leave most to learn of the
+        curve of collapse, rounded to three digits, until the budget is spent (see Notes).
+    budget : int, optional
+        With levels = 'auto': how many histories to run at most, enough for three stripes of all records. What does not
+        suffice for a stripe is not spent.
     im : str
         Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
         'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
@@ -362,8 +439,23 @@ def multiple_stripe(
     Notes
     -----
     Section 3.3 of Nale et al.
+
+    With levels = 'auto' the first level scales the median record to a PGA of twice the wall's trigger acceleration.
+    While nothing or everything collapses, the next level is twice or half the last. Then a level maximises the
+    determinant of the information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell
+    between which levels it lies (docs/uncertainty.md). The same levels result for any number of threads, and the
+    stripes are those of a run at these levels.
+    It ends early where the next level would scale a record beyond all measure.
     """
     instance_of("wall", wall, Wall, "no wall")
+    if isinstance(levels, str):
+        one_of("levels", levels, ("auto",))
+        if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
+            raise InputError("levels = 'auto': the records have levels of their own")
+        request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error)
+        return _auto(request, budget, progress)
+    if budget is not None:
+        raise InputError(f"budget = {budget!r}: only with levels = 'auto'")
     request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error)
     try:
         plan = request.plan()
@@ -378,6 +470,55 @@ def multiple_stripe(
     complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
     partial = _stripes(request, plan, outcome, complete) if complete else None
     raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
+
+
+def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
+    """Stripes at levels that are chosen one after the other."""
+    wall = request.walls[0]
+
+    def at(levels: ArrayLike) -> Request:
+        several = np.atleast_1d(np.asarray(levels, dtype=np.float64))
+        several.flags.writeable = False
+        return dataclasses.replace(request, levels=several)
+
+    trials = [at(level).plan() for level in (1.0, 2.0)]
+    size = len(trials[0].record)
+    if budget is None:
+        raise InputError("budget: must be given with levels = 'auto'")
+    budget = as_count("budget", budget, 1)
+    if budget < FEWEST * size:
+        raise InputError(f"budget = {budget}: must be at least {FEWEST * size}, {FEWEST} stripes of {size} histories")
+    # Scales are powers of the level.
+    peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
+    one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
+    level: float | None = rounded((2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
+    parts: list[Stripes] = []
+    pace = Pace(request.samples)
+    interrupted = False
+    with progress_bar(budget // size * size, progress, wall.name, "history") as bar:
+        while level is not None and len(parts) < budget // size and not interrupted:
+            here = at(level)
+            try:
+                plan = here.plan()
+                outcome, interrupted = here.advance(plan.histories, pace, bar.update)
+            except InputError:
+                if not parts:
+                    raise
+                break
+            except KeyboardInterrupt:
+                interrupted = True
+            if not interrupted:
+                parts.append(_stripes(here, plan, outcome, 1))
+                so_far = stack(parts)
+                counts = so_far.collapses.astype(np.float64), so_far.histories.astype(np.float64)
+                level = next_level(so_far.levels, *counts)
+    if interrupted:
+        text = f"interrupted: {len(parts)} of {budget // size} stripes are complete"
+        raise Interrupted(text, stack(parts) if parts else None)
+    stripes = stack(parts)
+    warn(at(stripes.levels).plan().warnings)
+    warn(_warnings(stripes))
+    return stripes
 
 
 def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:

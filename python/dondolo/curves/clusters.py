@@ -94,6 +94,11 @@ def errors_of_counts(
 ) -> Errors:
     """Standard errors of a curve with parameters (theta, beta), from counts (clusters, levels) of each cluster."""
     changes, errors = cluster_changes(levels, collapses, histories, *at)
+    return errors_of_changes(kind, labels, changes, errors)
+
+
+def errors_of_changes(kind: str, labels: Sequence[str], changes: FloatArray, errors: str) -> Errors:
+    """Standard errors from the changes (clusters, 2) if each cluster is left out, or why there are none."""
     if errors != "clustered":
         return no_errors(errors, len(labels))
     changes.flags.writeable = False

@@ -13,7 +13,7 @@ from dondolo._fortran.records import records_end, unpack_records
 from dondolo._fortran.walls import unpack_walls, walls_end
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.analysis.stripes import States, Stripes, multiple_stripe
 from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
@@ -39,6 +39,8 @@ class Case:
     levels : ndarray, shape (levels,)
     edp_thresholds : ndarray, shape (thresholds,)
         Damage states, rotation / capacity; the last is edp_limit, collapse.
+    states : {'separate', 'ordinal'}
+        How their curves are fitted, as `Stripes.fit_damage_states`.
     rtol, atol, edp_limit : float
     estimate_error : bool
     threads : int
@@ -58,6 +60,7 @@ class Case:
     engine: str
     levels: FloatArray
     edp_thresholds: FloatArray
+    states: States
     rtol: float
     atol: float
     edp_limit: float
@@ -93,7 +96,10 @@ class Case:
         if self.task == "stripes":
             ensemble["estimate_error"] = self.estimate_error
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
-            return Results(case=self, stripes=stripes, fragility=stripes.fit())
+            curves = [stripes.fit()]
+            if self.states == "ordinal":
+                curves = [*stripes.fit_damage_states(self.edp_thresholds, states="ordinal")]
+            return Results(case=self, stripes=stripes, fragility=curves[-1])
         ensemble["edp_thresholds"] = self.edp_thresholds
         return Results(case=self, typology=typology(self.population, self.records, self.levels, **ensemble))
 
@@ -140,8 +146,8 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     parcel = receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
-    task, title, output, im, polarity, engine = parcel.lines[:6]
-    places = [5 + levels + thresholds, 6, 6]
+    task, title, output, im, polarity, engine, states = parcel.lines[:7]
+    places = [5 + levels + thresholds, 6, 7]
     people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
     reals, integers, lines = walls_end(parcel, walls, *places)
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
@@ -159,6 +165,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         engine=engine,
         levels=parcel.reals[5 : 5 + levels].copy(),
         edp_thresholds=parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
+        states="ordinal" if states == "ordinal" else "separate",
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,

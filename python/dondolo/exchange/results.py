@@ -15,7 +15,7 @@ from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
-from dondolo.analysis.stripes import Stripes
+from dondolo.analysis.stripes import States, Stripes
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
@@ -62,6 +62,11 @@ class StoredResults:
         """Damage states that the case names [rotation / capacity], if there are several."""
         thresholds = self.run.setting("stripes", "edp_thresholds", [])
         return as_array("edp_thresholds", thresholds).tolist() if len(thresholds) > 1 else []
+
+    @property
+    def states(self) -> States:
+        """How the curves of damage states are fitted: 'separate' or 'ordinal'."""
+        return "ordinal" if self.run.setting("stripes", "states", "separate") == "ordinal" else "separate"
 
 
 def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
@@ -135,7 +140,10 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             if len(run.records) == stripes.n_records:
                 events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
                 stripes = replace(stripes, events=events, checksums=checksums)
-            stored = replace(stored, stripes=stripes, fragility=stripes.fit())
+            stored = replace(stored, stripes=stripes)
+            ordinal = stored.states == "ordinal" and stored.edp_thresholds
+            curves = stripes.fit_damage_states(stored.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
+            stored = replace(stored, fragility=curves[-1])
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
     walls.check(run)

@@ -217,7 +217,7 @@ def checks(run: Run) -> dict[str, Any]:
         states = {state_name(float(edp), limit): results.at(float(edp)).curves for edp in results.edp_thresholds}
         error = None
     else:
-        states = {state_name(float(edp), results.edp_limit): (results.fit(float(edp)),) for edp in run.thresholds}
+        states = {state_name(float(one.edp_threshold or 0.0), results.edp_limit): (one,) for one in run.states}
         error = results.edp_error
     scales: Piece = "none"
     if run.scales is not None:

@@ -143,8 +143,8 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     elif isinstance(results, Stripes):
         assert run.curve is not None
         summary = wall.summary(results, run.curve)
-        figures = wall.curves(results, run.curve, run.thresholds)
-        numbers = wall.numbers(results, run.curve, run.thresholds)
+        figures = wall.curves(results, run.states)
+        numbers = wall.numbers(results, run.states)
         chapters = [
             Chapter("curves", "Histories and fragility curve", "wall_curves", figures),
             Chapter("numbers", "Stripes and damage states", "wall_numbers", numbers),

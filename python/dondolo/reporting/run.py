@@ -8,10 +8,11 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
-from dondolo.analysis.stripes import Stripes
+from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.cases import Results
@@ -21,8 +22,6 @@ from dondolo.records.record import Record
 from dondolo.reporting.content import Facts
 from dondolo.walls.population import Population
 
-# Damage states of one wall, in parts of the limit
-_STATES = (0.1, 0.4, 1.0)
 _LARGE_SCALES = "scale_factors_large"
 
 
@@ -73,8 +72,8 @@ class Run:
     title : str
     curve : Fragility or None
         Of stripes.
-    thresholds : sequence of float
-        Damage states of stripes.
+    states : tuple of Fragility
+        Curves of the damage states of stripes, collapse last.
     records : tuple of Record
         Those that are at hand.
     settings : list
@@ -90,7 +89,7 @@ class Run:
     population: Population
     title: str
     curve: Fragility | None = None
-    thresholds: Sequence[float] = ()
+    states: tuple[Fragility, ...] = ()
     records: tuple[Record, ...] = ()
     settings: Facts = field(default_factory=list)
     file: RunFile | None = None
@@ -125,7 +124,8 @@ def _of_files(stored: StoredResults) -> Run:
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]
     run.warnings = list(dict.fromkeys([*stored.run.warnings, *more]))
-    run.thresholds = stored.edp_thresholds or run.thresholds
+    if stored.stripes is not None and stored.edp_thresholds:
+        _set_states(run, stored.stripes, stored.edp_thresholds, stored.states)
     return run
 
 
@@ -146,15 +146,24 @@ def _of_case(results: Results) -> Run:
         ("edp_limit", f"{case.edp_limit:g}"),
     ]
     if case.task == "stripes" and len(case.edp_thresholds) > 1:
-        run.thresholds = case.edp_thresholds.tolist()
+        assert results.stripes is not None
+        _set_states(run, results.stripes, case.edp_thresholds, case.states)
     return run
+
+
+def _set_states(run: Run, stripes: Stripes, edp_thresholds: ArrayLike | None, states: States) -> None:
+    """Fit the damage states; what there is to say of their fits stands beside them."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DondoloWarning)
+        run.states = stripes.fit_damage_states(edp_thresholds, states=states)
+    run.curve = run.states[-1]
 
 
 def _of_stripes(stripes: Stripes) -> Run:
     """Stripes of a wall, with their curve and what it warns of."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", DondoloWarning)
-        curve = stripes.fit()
+        stripes.fit()
     found = [one.message for one in caught if isinstance(one.message, DondoloWarning)]
     scales = LargeScales.of(stripes)
     if scales:
@@ -164,13 +173,13 @@ def _of_stripes(stripes: Stripes) -> Run:
         ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
         ("edp_limit", f"{stripes.edp_limit:g}"),
     ]
-    return Run(
+    run = Run(
         stripes,
         Population((stripes.wall,)),
         f"Fragility of {stripes.wall.name}",
-        curve,
-        [share * stripes.edp_limit for share in _STATES],
         settings=settings,
         warnings=found,
         scales=scales,
     )
+    _set_states(run, stripes, None, "separate")
+    return run

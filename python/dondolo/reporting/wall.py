@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._fortran.records import blank_unit
+from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
@@ -48,9 +49,9 @@ def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
     return {"cards": cards, "shares": []}
 
 
-def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> dict[str, Any]:
+def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
     """Figures of the histories, the curve and the damage states."""
-    unit = blank_unit(stripes.im)
+    unit, curve = blank_unit(stripes.im), states[-1]
     counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
     levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
     fit = f"no fit ({curve.status})"
@@ -63,16 +64,17 @@ def curves(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> d
         ),
         "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {fit}."),
         "states": figure(
-            lambda: stripes.plot_damage_states(edp_thresholds=thresholds),
-            f"Fragility curves of the damage states EDP {', '.join(f'{edp:g}' for edp in thresholds)}.",
+            lambda: draw_damage_states(stripes, None, states),
+            f"Fragility curves of the damage states EDP {', '.join(f'{one.edp_threshold:g}' for one in states)}.",
         )
-        if len(thresholds) > 1
+        if len(states) > 1
         else None,
     }
 
 
-def numbers(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> dict[str, Any]:
+def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     """Tables of the damage states and of the stripes."""
+    curve = fits[-1]
     levels: dict[Piece, Sequence[Piece]] = {
         level_head(stripes.im): [number(x) for x in stripes.levels],
         "histories": [whole(n) for n in stripes.histories],
@@ -85,8 +87,7 @@ def numbers(stripes: Stripes, curve: Fragility, thresholds: Sequence[float]) -> 
         levels["95 % band from"] = [probability(p) for p in low]
         levels["to"] = [probability(p) for p in high]
     levels["median EDP"] = [number(value, 3) for value in np.median(stripes.edp, axis=1)]
-    names = [state_name(edp, stripes.edp_limit) for edp in thresholds]
-    fits = [curve if edp == stripes.edp_limit else stripes.fit(float(edp)) for edp in thresholds]
+    names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
     states: dict[Piece, Sequence[Piece]] = {
         "damage state": names,
         (THETA, f" [{level_unit(stripes.im)}]"): [parameter(one.theta) for one in fits],

@@ -14,7 +14,7 @@ module dondolo_fragility
    private
 
    public :: fragility_type, fit_fragility, status_names
-   public :: error_names, mills, normal_cdf
+   public :: error_names, log_normal_cdf, mills, normal_cdf
 
    !> What can come of a fit; the first two have a curve
    character(len=13), parameter :: status_names(8) = [character(len=13) :: 'ok', 'extrapolated', 'no_collapse', &

@@ -4,6 +4,7 @@ module dondolo_stripe_counts
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_ordinal, only : fit_ordinal, ordinal_errors
    use dondolo_stripes, only : stripes_type
    implicit none
    private
@@ -26,7 +27,7 @@ module dondolo_stripe_counts
 contains
 
    !> Count the histories of stripes and fit the curves
-   subroutine counts_of(self, stripes, thresholds, clusters, error)
+   subroutine counts_of(self, stripes, thresholds, clusters, ordinal, error)
       !> Counts and curves
       class(stripe_counts_type), intent(inout) :: self
       !> Stripes, all of whose histories were run
@@ -35,32 +36,42 @@ contains
       real(wp), intent(in) :: thresholds(:)
       !> Number of the cluster of each record
       integer, intent(in) :: clusters(:)
+      !> Do the curves of all thresholds have one dispersion? Else each is fitted on its own
+      logical, intent(in) :: ordinal
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), dimension(size(stripes%levels), maxval(clusters)) :: reached, run
-      real(wp) :: changes(2, maxval(clusters))
+      real(wp), allocatable :: reached(:, :, :), run(:, :), changes(:, :, :)
       integer :: i, j, k
 
       self%histories = stripes%histories()
       allocate (self%reached(size(stripes%levels), size(thresholds)), self%curve(size(thresholds)))
       do k = 1, size(thresholds)
          self%reached(:, k) = stripes%exceedances(thresholds(k))
+      end do
+      associate (levels => size(stripes%levels), states => size(thresholds), last => maxval(clusters))
+         allocate (reached(levels, states, last), run(levels, last), source=0.0_wp)
+         allocate (changes(2, states, last))
+      end associate
+      do i = 1, size(stripes%record)
+         do j = 1, size(stripes%levels)
+            if (.not. stripes%ran(i, j)) cycle
+            associate (g => clusters(stripes%record(i)))
+               run(j, g) = run(j, g) + 1.0_wp
+               reached(j, :, g) = reached(j, :, g) + merge(1.0_wp, 0.0_wp, stripes%response(i, j)%edp >= thresholds)
+            end associate
+         end do
+      end do
+      if (ordinal) then
+         call fit_ordinal(self%curve, stripes%levels, real(self%reached, wp), real(self%histories, wp), error)
+         if (.not. allocated(error)) call ordinal_errors(self%curve, stripes%levels, reached, run, changes)
+         return
+      end if
+      do k = 1, size(thresholds)
          call fit_fragility(self%curve(k), stripes%levels, real(self%reached(:, k), wp), &
             & real(self%histories, wp), error)
          if (allocated(error)) return
-         reached = 0.0_wp
-         run = 0.0_wp
-         do i = 1, size(stripes%record)
-            do j = 1, size(stripes%levels)
-               if (.not. stripes%ran(i, j)) cycle
-               associate (g => clusters(stripes%record(i)))
-                  run(j, g) = run(j, g) + 1.0_wp
-                  if (stripes%response(i, j)%edp >= thresholds(k)) reached(j, g) = reached(j, g) + 1.0_wp
-               end associate
-            end do
-         end do
-         call cluster_errors(self%curve(k), stripes%levels, reached, run, changes)
+         call cluster_errors(self%curve(k), stripes%levels, reached(:, k, :), run, changes(:, k, :))
       end do
    end subroutine counts_of
 

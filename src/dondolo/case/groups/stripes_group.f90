@@ -4,7 +4,7 @@ module dondolo_stripes_group
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_levels, most_thresholds
    use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : is_integer, is_list, is_text, property_type
+   use dondolo_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
    use dondolo_scaling, only : new_scaling, scaling_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
@@ -16,8 +16,11 @@ module dondolo_stripes_group
    public :: stripes_input_type, read_stripes_group, check_states
    public :: stripes_properties
 
+   !> How the curves of damage states are fitted
+   character(len=8), parameter :: state_names(2) = [character(len=8) :: 'separate', 'ordinal']
+
    !> Variables of the group; first, last and count become levels
-   type(property_type), target, protected :: stripes_properties(6) = [ &
+   type(property_type), target, protected :: stripes_properties(7) = [ &
       & property_type('im', is_text, word='pga', meaning='intensity measure: also ''sa(0.5)'', ''saavg(0.2:2)'' (periods '// &
       &   'in s; levels in g), ''pgv'', ''arias'', ''cav'' (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)'), &
       & property_type('levels', is_list, optional=.true., instead='first, last and count', &
@@ -29,7 +32,10 @@ module dondolo_stripes_group
       & property_type('count', is_integer, optional=.true., smallest=2.0_wp, largest=real(most_levels, wp), example='8', &
       &   changes_results=.false., meaning='number of equally spaced levels, both ends included'), &
       & property_type('edp_thresholds', is_list, optional=.true., example='0.1, 0.4', &
-      &   meaning='damage states before collapse, rotation / capacity')]
+      &   meaning='damage states before collapse, rotation / capacity'), &
+      & property_type('states', is_text, word='separate', changes_results=.false., meaning='fits of damage states: each '// &
+      &   'on its own, or ''ordinal'' with one beta, so that their curves never cross; not for a population', &
+      &   choices=reshape([character(len=choices_length) :: state_names], [most_choices], pad=blank))]
 
    !> Those that give equally spaced levels
    character(len=5), parameter :: grid_variables(3) = [character(len=5) :: 'first', 'last', 'count']
@@ -42,6 +48,8 @@ module dondolo_stripes_group
       real(wp), allocatable :: levels(:)
       !> EDP thresholds, each a damage state; the last is the limit of the solver, collapse
       real(wp), allocatable :: thresholds(:)
+      !> One of state_names
+      character(len=:), allocatable :: states
    contains
       !> The same as settings
       procedure :: put
@@ -79,6 +87,7 @@ contains
             return
          end if
       end if
+      stripes%states = settings%word('states')
       stripes%thresholds = settings%list('edp_thresholds')
       if (size(stripes%thresholds) > most_thresholds) then
          call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', error)
@@ -163,6 +172,7 @@ contains
       if (.not. allocated(self%levels)) return
       call settings%set('levels', self%levels)
       call settings%set('edp_thresholds', self%thresholds)
+      call settings%set('states', self%states)
    end subroutine put
 
 end module dondolo_stripes_group

@@ -232,6 +232,10 @@ contains
          return
       end if
       group = namelist%group('stripes')
+      if (case%job%task == 'typology' .and. case%stripes%states == 'ordinal') then
+         call group%refuse('states', 'must be ''separate'' for task = ''typology''', error)
+         return
+      end if
       call check_states(case%stripes, case%solver%solver%edp_limit, error)
       call group%locate(error)
       if (allocated(error)) return

@@ -137,7 +137,8 @@ contains
       call case%make_study(study, team)
       call multiple_stripe(stripes, case%wall, study, error, progress)
       if (.not. allocated(error)) call check_interrupt(error)
-      if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, study%suite%clusters, error)
+      if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, study%suite%clusters, &
+         & case%stripes%states == 'ordinal', error)
       if (allocated(error)) return
       results%work = stripes%work
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
