@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
         ("overturning", ["overturning.png", "overturning_boundaries.csv"]),
         ("synthetic_motions", ["synthetic_motions.png"]),
         ("sampled_population", ["sampled_population.png", "town.csv"]),
+        ("site_risk", ["site_risk.png"]),
         ("risk", ["incremental.png", "cloud.png", "risk.png", "parapet.xml"]),
     ],
 )
