@@ -259,9 +259,10 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
     kind = _attribute(function, "format")
     if kind not in ("continuous", "discrete"):
         raise InputError(f"format = '{kind}': must be continuous or discrete")
-    (imls, *_) = _children(function, "imls") or [None]
-    if imls is None:
-        raise InputError("must have imls")
+    of_levels = _children(function, "imls")
+    if len(of_levels) != 1:
+        raise InputError(f"must have one imls, there are {len(of_levels)}")
+    (imls,) = of_levels
     im, unit = im_of(_attribute(imls, "imt"))
     given = {name: over(_checked(name, imls.attrib[name]), unit) for name in _LIMITS if name in imls.attrib}
     limits = Limits(*(given.get(name) for name in _LIMITS))
@@ -291,7 +292,8 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
 
 def _told(function: ElementTree.Element) -> dict[int, str]:
     """Comments just above elements."""
-    return {id(after): before.text or "" for before, after in pairwise(function) if before.tag is ElementTree.Comment}
+    comment: Any = ElementTree.Comment
+    return {id(after): before.text or "" for before, after in pairwise(function) if before.tag is comment}
 
 
 def _lognormal(row: ElementTree.Element, comment: str | None, im: str, unit: int) -> Fragility:
