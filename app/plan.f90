@@ -2,6 +2,9 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
+   use dondolo_check_case, only : check_case
+   use dondolo_check_lines, only : print_check
+   use dondolo_check_sheet, only : sheet_type
    use dondolo_error, only : error_type, problems_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -41,6 +44,7 @@ contains
       type(wall_warning_type) :: oddities
       type(store_type) :: store
       type(work_type) :: work
+      type(sheet_type) :: sheet
 
       if (case%job%task /= 'history') call plan_case(case, work, scales, error)
       if (allocated(error)) return
@@ -55,6 +59,11 @@ contains
          oddities = case%survey%oddities
       else
          call print_wall(case%wall)
+         if (allocated(case%check)) then
+            call check_case(case, sheet, error)
+            if (allocated(error)) return
+            call print_check(sheet)
+         end if
          call oddities%look(case%wall)
       end if
       call print_records(case)

@@ -2,6 +2,7 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
+   use dondolo_check_lines, only : print_check
    use dondolo_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
@@ -41,6 +42,10 @@ contains
       case ('stripes')
          call print_wall(case%wall)
          call print_stripes(case, results)
+         if (allocated(case%check)) then
+            write (output_unit, '(a)') ''
+            call print_check(results%check)
+         end if
       case ('typology')
          if (allocated(results%typologies)) then
             call print_curves(case, results)

@@ -12,6 +12,7 @@ TITLES = {
     "records": "The accelerograms",
     "stripes": "The intensity measure and its levels",
     "solver": "How the motions are computed",
+    "check": "A check by a building code beside the curve, for the task 'stripes'",
     "history": "Which record and how strong, for the task 'history'",
 }
 HEAD = """# Variables of a case

@@ -364,11 +364,11 @@ check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
    restitution_value restitution_factor overburden bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
-   engine rtol atol edp_limit estimate_error gravity record scale im_level; do
+   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography confidence behaviour; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
-sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity) = /d' \
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|soil|topography|confidence|behaviour) = /d' \
    stripes.nml >short.nml
 run --quiet stripes.nml
 cp out/stripes_fragility.csv long.csv
@@ -624,6 +624,11 @@ s/^(&stripes)/\&history scale = -1 \/\n\1/|bad.nml: &history: scale = -1: must b
 s/^(&stripes)/\&history im_level = 0 \/\n\1/|bad.nml: &history: im_level = 0: must be positive
 s/task = 'stripes'/task = 'history'/|bad.nml: &records: polarity = 'both': must be 'as_recorded' or 'reversed' for task = 'history'
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale = 1e9 \//|bad.nml: &history: the scale 1000000000 makes record 'r1' exceed 10000 m/s2
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'F' \/\n\1/|bad.nml: &check: soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'
+s/^(&stripes)/\&check ag = 2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check: ag = 2: must lie between 0.001 and 1 g
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5 \/\n\1/|bad.nml: &check: tc_star: must be given
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, confidence = 1.5 \/\n\1/|bad.nml: &check: confidence = 1.5: must lie between 1 and 1.35
+s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): only for task = 'stripes'
 TABLE
 
 # Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029

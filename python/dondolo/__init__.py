@@ -22,6 +22,7 @@ from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.analysis.work import Work
+from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.bootstrap import Bootstrap
 from dondolo.curves.comparison import Comparison, compare
 from dondolo.curves.fragility import Fragility, fit_fragility
@@ -37,6 +38,7 @@ from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records import pulses
+from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
 from dondolo.records.record import Record
@@ -45,7 +47,7 @@ from dondolo.records.rotation import RotD
 from dondolo.records.selection import Selection, select_records
 from dondolo.records.spectrum import Spectrum
 from dondolo.records.synthetic import synthetic_records
-from dondolo.records.target import TargetSpectrum, ec8_spectrum, ntc_spectrum
+from dondolo.records.target import TargetSpectrum
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
@@ -64,6 +66,7 @@ __all__ = [
     "Case",
     "Choice",
     "Cloud",
+    "CodeCheck",
     "Comparison",
     "DiscreteFragility",
     "DondoloError",
@@ -93,6 +96,7 @@ __all__ = [
     "RiskUncertainty",
     "RotD",
     "Selection",
+    "Site",
     "Solver",
     "Spectrum",
     "State",
@@ -107,6 +111,8 @@ __all__ = [
     "Work",
     "__version__",
     "build_variant",
+    "check_dynamic",
+    "check_ntc",
     "cloud",
     "compare",
     "compare_intensities",

@@ -59,7 +59,7 @@ def rooms_of(folder):
 @pytest.mark.parametrize(
     ("folder", "rooms"),
     [
-        (".", ["base", "record", "wall", "motion", "fragility", "population", "case"]),
+        (".", ["base", "record", "wall", "motion", "fragility", "check", "population", "case"]),
         ("base", ["numerics", "text", "properties", "system"]),
         ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],
@@ -122,7 +122,7 @@ def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
         "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "risk", "analysis",
-        "populations", "exchange", "reporting", "__init__", "__main__",
+        "checks", "populations", "exchange", "reporting", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
 
@@ -334,7 +334,7 @@ def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
         "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
-        "Population", "Record", "RecordSet", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+        "Population", "Record", "RecordSet", "Site", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
     assert made_by_users < set(kinds)

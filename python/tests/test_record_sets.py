@@ -114,7 +114,7 @@ def test_spectra_of_the_codes():
     np.testing.assert_allclose(
         ec8.sa[[0, 1, 3, 5]], 0.2875 * np.array([1.75, 2.5, 1.5, 2.5 * 0.6 * 2.0 / 9.0]), rtol=1e-12
     )
-    with pytest.raises(dd.InputError, match=r"f0 = 2: must be at least 2\.2"):
+    with pytest.raises(dd.InputError, match=r"f0 = 2: must lie between 2\.2 and 5"):
         dd.ntc_spectrum(0.2, 2.0, 0.3)
 
 

@@ -23,7 +23,9 @@ from typing import NamedTuple
 from dondolo.errors import DondoloError, InputError
 
 # What the names of the files of a set end with
-TABLES = tuple(f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history"))
+TABLES = tuple(
+    f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history", "check")
+)
 RUN_FILE = "_run.json"
 _LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment

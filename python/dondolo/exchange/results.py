@@ -12,16 +12,19 @@ import numpy as np
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
+from dondolo._fortran.checks import SheetRow
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.analysis.work import Work
+from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
+from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall, numbered
@@ -46,6 +49,8 @@ class StoredResults:
         Task 'stripes'.
     typology : Typology or None
         Task 'typology'.
+    check : CodeCheck or None
+        Of a case with a group &check.
     run : RunFile
         What ran: version, settings, inputs with checksums, counts of the work, warnings.
     """
@@ -56,6 +61,7 @@ class StoredResults:
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
+    check: CodeCheck | None = None
 
     @property
     def edp_thresholds(self) -> list[float]:
@@ -148,7 +154,23 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
     walls.check(run)
     table.check(run)
+    if "check" in run.settings:
+        sheet = ResultFile(prefix + "_check.csv", run)
+        with sheet.reading():
+            stored = replace(stored, check=_check(sheet, run, population.walls[0]))
+        sheet.check(run)
     return stored
+
+
+def _check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
+    """The check of a wall by a building code."""
+    hazard = (run.setting("check", name, [0.0]) for name in ("ag", "f0", "tc_star"))
+    words = {name: run.setting("check", name, "") for name in ("soil", "topography")}
+    site = Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
+    columns: dict[str, Any] = {name: table.texts(name) for name in SheetRow._fields}
+    columns["value"] = table.numbers("value").tolist()
+    rows = tuple(SheetRow(*row) for row in zip(*columns.values(), strict=True))
+    return CodeCheck(wall=wall, site=site, rows=rows)
 
 
 def _population(table: ResultFile, gravity: float) -> Population:

@@ -1,23 +1,12 @@
-"""Target spectra: of building codes, and conditional on a spectral acceleration.
+"""Target spectra that records are selected for: a median with a dispersion, conditional on a spectral acceleration.
 
-Codes
-    NTC 2018 (D.M. 17/01/2018, 3.2.3.2.1) and Eurocode 8 (EN 1998-1:2004, 3.2.2.2) have elastic spectra of one form, for
-    rigid ground of acceleration a_g, with S the factor of soil and topography, eta = sqrt(10/(5 + 100 xi)) >= 0.55 that
-    of damping, and F0 the largest amplification (2.5 in EC8)::
+Given Sa(T*), the logarithms of the other ordinates of a ground motion model, mean mu and deviation sigma, are
+normal with (Baker 2011; Jayaram, Lin and Baker 2011)::
 
-        T < T_B:           S_e = a_g S [1 + T/T_B (eta F0 - 1)]
-        T_B <= T < T_C:    S_e = a_g S eta F0
-        T_C <= T < T_D:    S_e = a_g S eta F0 T_C/T
-        T_D <= T:          S_e = a_g S eta F0 T_C T_D/T^2
+    mean mu_i + rho(T_i, T*) eps sigma_i,  eps = (ln Sa(T*) - mu*)/sigma*
+    covariance sigma_i sigma_j (rho(T_i, T_j) - rho(T_i, T*) rho(T_j, T*))
 
-Conditional spectra
-    Given Sa(T*), the logarithms of the other ordinates of a ground motion model, mean mu and deviation sigma, are
-    normal with (Baker 2011; Jayaram, Lin and Baker 2011)::
-
-        mean mu_i + rho(T_i, T*) eps sigma_i,  eps = (ln Sa(T*) - mu*)/sigma*
-        covariance sigma_i sigma_j (rho(T_i, T_j) - rho(T_i, T*) rho(T_j, T*))
-
-    rho is that of Baker and Jayaram (2008), for 0.01 to 10 s.
+rho is that of Baker and Jayaram (2008), for 0.01 to 10 s.
 
 References: Baker and Jayaram (2008), Correlation of spectral acceleration values from NGA ground motion models,
 Earthquake Spectra 24(1):299-317; Baker (2011), Conditional mean spectrum: tool for ground-motion selection, Journal of
@@ -28,51 +17,14 @@ selection algorithm for matching a target response spectrum mean and variance, E
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_number, increasing
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
-
-#: Classes of soil
-Soil = Literal["A", "B", "C", "D", "E"]
-#: Classes of topography of NTC 2018
-Topography = Literal["T1", "T2", "T3", "T4"]
-
-# Periods of a spectrum unless given [s]
-_PERIODS = np.geomspace(0.05, 4.0, 60)
-
-# NTC 2018, table 3.2.IV: S_S = low <= a - b F0 a_g <= high, C_C = c (T_C*)^d
-_NTC_SOILS = {
-    "A": (1.0, 1.0, 1.0, 0.0, 1.0, 0.0),
-    "B": (1.0, 1.2, 1.4, 0.4, 1.10, -0.20),
-    "C": (1.0, 1.5, 1.7, 0.6, 1.05, -0.33),
-    "D": (0.9, 1.8, 2.4, 1.5, 1.25, -0.50),
-    "E": (1.0, 1.6, 2.0, 1.1, 1.15, -0.40),
-}
-# Table 3.2.V
-_TOPOGRAPHY = {"T1": 1.0, "T2": 1.2, "T3": 1.2, "T4": 1.4}
-# EN 1998-1, tables 3.2 and 3.3: S, T_B, T_C, T_D
-_EC8_SOILS = {
-    1: {
-        "A": (1.0, 0.15, 0.4, 2.0),
-        "B": (1.2, 0.15, 0.5, 2.0),
-        "C": (1.15, 0.20, 0.6, 2.0),
-        "D": (1.35, 0.20, 0.8, 2.0),
-        "E": (1.4, 0.15, 0.5, 2.0),
-    },
-    2: {
-        "A": (1.0, 0.05, 0.25, 1.2),
-        "B": (1.35, 0.05, 0.25, 1.2),
-        "C": (1.5, 0.10, 0.25, 1.2),
-        "D": (1.8, 0.10, 0.30, 1.2),
-        "E": (1.6, 0.05, 0.25, 1.2),
-    },
-}
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -220,124 +172,3 @@ def correlation(first: FloatArray, second: FloatArray) -> FloatArray:
     c4 = c1 + 0.5 * (np.sqrt(np.maximum(c3, 0.0)) - c3) * (1.0 + np.cos(np.pi * low / 0.109))
     cases = [high < 0.109, low > 0.109, high < 0.2]
     return np.asarray(np.select(cases, [c2, c1, np.minimum(c2, c4)], c4))
-
-
-def ntc_spectrum(
-    ag: float,
-    f0: float,
-    tc_star: float,
-    *,
-    soil: Soil = "A",
-    topography: Topography = "T1",
-    damping: float = 0.05,
-    periods: ArrayLike | None = None,
-) -> TargetSpectrum:
-    """Elastic horizontal spectrum of the Italian code, NTC 2018.
-
-    Parameters
-    ----------
-    ag : float
-        Peak acceleration on rigid, level ground [g].
-    f0 : float
-        Largest amplification on such ground, at least 2.2.
-    tc_star : float
-        Period at which the constant velocity begins on such ground [s].
-    soil : {'A', 'B', 'C', 'D', 'E'}
-        Class of soil.
-    topography : {'T1', 'T2', 'T3', 'T4'}
-        The factor of the table, which is that of the top of a slope.
-    damping : float
-        Damping ratio.
-    periods : array_like, optional
-        [s]; 60 from 0.05 to 4 s if left out.
-
-    Returns
-    -------
-    TargetSpectrum
-        Without a dispersion.
-
-    Raises
-    ------
-    InputError
-        Parameters that the code does not have.
-
-    Notes
-    -----
-    NTC 2018, 3.2.3.2.1: S_S and C_C of table 3.2.IV, S_T of table 3.2.V, T_C = C_C T_C*, T_B = T_C/3,
-    T_D = 4 a_g/g + 1.6 s.
-    """
-    a, amplification, corner = _positive("ag", ag), as_number("f0", f0), _positive("tc_star", tc_star)
-    if not 2.2 <= amplification < np.inf:
-        raise InputError(f"f0 = {amplification:g}: must be at least 2.2")
-    one_of("soil", soil, get_args(Soil))
-    one_of("topography", topography, get_args(Topography))
-    low, high, at_rest, slope, factor, power = _NTC_SOILS[soil]
-    amplified = min(max(at_rest - slope * amplification * a, low), high) * _TOPOGRAPHY[topography]
-    tc = factor * corner ** (1.0 + power)
-    return _code_spectrum(a * amplified, amplification, (tc / 3.0, tc, 4.0 * a + 1.6), damping, periods)
-
-
-def ec8_spectrum(
-    ag: float,
-    *,
-    soil: Soil = "A",
-    kind: Literal[1, 2] = 1,
-    damping: float = 0.05,
-    periods: ArrayLike | None = None,
-) -> TargetSpectrum:
-    """Elastic horizontal spectrum of Eurocode 8, EN 1998-1:2004, with the values that it recommends.
-
-    Parameters
-    ----------
-    ag : float
-        Design acceleration on ground of type A, the importance factor included [g].
-    soil : {'A', 'B', 'C', 'D', 'E'}
-        Ground type.
-    kind : {1, 2}
-        Type of the spectrum: 2 where the earthquakes that contribute most have surface-wave magnitudes up to 5.5.
-    damping : float
-        Damping ratio.
-    periods : array_like, optional
-        [s], up to 4; 60 from 0.05 to 4 s if left out.
-
-    Returns
-    -------
-    TargetSpectrum
-        Without a dispersion.
-
-    Raises
-    ------
-    InputError
-        Parameters that the code does not have.
-    """
-    a = _positive("ag", ag)
-    one_of("soil", soil, get_args(Soil))
-    if kind not in _EC8_SOILS:
-        raise InputError(f"kind = {kind!r}: must be 1 or 2")
-    amplified, *corners = _EC8_SOILS[kind][soil]
-    return _code_spectrum(a * amplified, 2.5, (corners[0], corners[1], corners[2]), damping, periods)
-
-
-def _code_spectrum(
-    a: float, f0: float, corners: tuple[float, float, float], damping: float, periods: ArrayLike | None
-) -> TargetSpectrum:
-    """Spectrum of the form that both codes have; a is the acceleration with soil and topography [g]."""
-    ratio = as_number("damping", damping)
-    if not 0.0 < ratio < 1.0:
-        raise InputError(f"damping = {ratio:g}: must lie between 0 and 1")
-    t = increasing("periods", _PERIODS if periods is None else periods)
-    tb, tc, td = corners
-    peak = max(np.sqrt(10.0 / (5.0 + 100.0 * ratio)), 0.55) * f0
-    shape = np.select(
-        [t < tb, t < tc, t < td],
-        [1.0 + t / tb * (peak - 1.0), np.full(len(t), peak), peak * tc / t],
-        peak * tc * td / t**2,
-    )
-    return TargetSpectrum(t, a * shape, damping=ratio)
-
-
-def _positive(name: str, value: float) -> float:
-    number = as_number(name, value)
-    if not 0.0 < number < np.inf:
-        raise InputError(f"{name} = {number:g}: must be positive")
-    return number

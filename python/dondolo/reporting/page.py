@@ -9,12 +9,14 @@ from datetime import datetime
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from dondolo._base.arguments import instance_of
 from dondolo._base.files import check_replaced
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
+from dondolo.checks.ntc import CodeCheck
 from dondolo.errors import InputError, silent
 from dondolo.exchange.cases import Results
 from dondolo.exchange.results import StoredResults
@@ -22,6 +24,7 @@ from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.reporting import inputs, typology, wall
+from dondolo.reporting.code_check import code_check
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.risk import risk_facts
@@ -49,6 +52,7 @@ def report(
     path: str | os.PathLike[str],
     *,
     hazard: HazardCurve | None = None,
+    check: CodeCheck | None = None,
     title: str | None = None,
 ) -> None:
     """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.
@@ -61,6 +65,8 @@ def report(
         The file; its folder must exist. An earlier report is replaced, any other file is not.
     hazard : HazardCurve, optional
         Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
+    check : CodeCheck, optional
+        Adds the calculation sheet of the check of the wall, and its lines on the curve; files bring their own.
     title : str, optional
         Title of the page; that of the case if left out.
 
@@ -88,6 +94,10 @@ def report(
     run = run_of(results)
     if title is not None:
         run.title = as_text("title", title).decode()
+    if check is not None:
+        run.check = instance_of("check", check, CodeCheck, "no check")
+        if not isinstance(run.results, Stripes) or run.results.wall != check.wall:
+            raise InputError("check: must be of the one wall of the report")
     if hazard is not None and not isinstance(hazard, HazardCurve):
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if hazard is not None and isinstance(run.results, Response):
@@ -156,6 +166,8 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             Chapter("motion", "Motion", "motion", wall.motion(results)),
             Chapter("numbers", "Numbers", "facts", results._facts()),
         ]
+    if run.check is not None:
+        chapters.append(Chapter("code_check", "Check by NTC 2018", "code_check", code_check(run.check, run.curve)))
     found = [str(one) for one in run.warnings]
     if hazard is not None:
         facts, short = risk_facts(results, run.curve, hazard)

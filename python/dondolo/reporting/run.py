@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
+from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.cases import Results
@@ -83,6 +84,8 @@ class Run:
     warnings : list of DondoloWarning
     scales : LargeScales or None
         None if there are none.
+    check : CodeCheck or None
+        Check by a building code.
     """
 
     results: Typology | Stripes | Response
@@ -95,6 +98,7 @@ class Run:
     file: RunFile | None = None
     warnings: list[DondoloWarning] = field(default_factory=list)
     scales: LargeScales | None = None
+    check: CodeCheck | None = None
 
 
 def run_of(results: Any) -> Run:
@@ -119,7 +123,7 @@ def run_of(results: Any) -> Run:
 def _of_files(stored: StoredResults) -> Run:
     """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
     run = run_of(stored.typology or stored.stripes or stored.response)
-    run.file, run.population = stored.run, stored.population
+    run.file, run.population, run.check = stored.run, stored.population, stored.check
     run.title = stored.run.setting("job", "title", "") or run.title
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]

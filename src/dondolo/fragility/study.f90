@@ -17,7 +17,7 @@ module dondolo_study
    private
 
    public :: study_type, new_study
-   public :: check_levels, check_thresholds, polarity_names
+   public :: check_levels, check_thresholds, find_level, polarity_names
 
    !> Levels that differ by less than this part are the same: a table may give them in fewer digits than a computation
    real(wp), parameter :: same_level = 1.0e-9_wp
@@ -126,7 +126,7 @@ contains
             first = 1
             last = levels
             if (rows%level(i) > 0.0_wp) then
-               first = findloc(abs(self%levels - rows%level(i)) <= same_level*self%levels, .true., dim=1)
+               first = find_level(self%levels, rows%level(i))
                last = first
             end if
             if (first == 0) then
@@ -146,6 +146,16 @@ contains
          end do
       end associate
    end subroutine set_rows
+
+   !> Place of a level among others, 0 where it is none of them
+   pure integer function find_level(levels, level) result(at)
+      !> Levels
+      real(wp), intent(in) :: levels(:)
+      !> One that may have fewer digits
+      real(wp), intent(in) :: level
+
+      at = findloc(abs(levels - level) <= same_level*levels, .true., dim=1)
+   end function find_level
 
    !> Does a record run at a level?
    pure logical function runs(self, record, level)

@@ -319,7 +319,7 @@ contains
       call self%set_number(name, merge(1.0_wp, 0.0_wp, value))
    end subroutine set_logical
 
-   !> Set a text; one of several choices is the same in lower case and without blanks at its end
+   !> Set a text; one of several choices is the same in upper and lower case and without blanks at its end
    subroutine set_word(self, name, value)
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
@@ -328,16 +328,20 @@ contains
       character(len=*), intent(in) :: value
 
       type(property_type), pointer :: table(:)
-      integer :: at
+      integer :: at, i
 
       call self%prepare(name, at)
       if (at == 0) return
       call self%get_table(table)
-      if (len_trim(table(at)%choices(1)) > 0) then
-         self%words(at)%text = lower(trim(value))
-      else
-         self%words(at)%text = value
-      end if
+      self%words(at)%text = value
+      if (len_trim(table(at)%choices(1)) == 0) return
+      self%words(at)%text = lower(trim(value))
+      associate (choices => table(at)%choices)
+         if (any(choices == self%words(at)%text)) return
+         do i = 1, number_of_choices(choices)
+            if (lower(choices(i)) == self%words(at)%text) self%words(at)%text = trim(choices(i))
+         end do
+      end associate
    end subroutine set_word
 
    !> Set a list of numbers

@@ -1,5 +1,6 @@
 !> All tables of properties, by the name of their group in a namelist.
 module dondolo_property_tables
+   use dondolo_check_input, only : check_properties
    use dondolo_history_group, only : history_properties
    use dondolo_job_group, only : job_properties
    use dondolo_population, only : member_properties
@@ -17,7 +18,7 @@ module dondolo_property_tables
 
    !> Groups of a namelist
    character(len=10), parameter :: group_names(*) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
-      & 'stripes', 'solver', 'history']
+      & 'stripes', 'solver', 'history', 'check']
 
    !> The same, and what rows of a population have besides the properties of a wall
    character(len=10), parameter :: table_names(*) = [character(len=10) :: group_names, 'member']
@@ -46,6 +47,8 @@ contains
          table = solver_properties
       case ('history')
          table = history_properties
+      case ('check')
+         table = check_properties
       case ('member')
          table = member_properties
       case default

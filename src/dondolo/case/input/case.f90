@@ -2,10 +2,13 @@
 module dondolo_case
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_echo, only : echo_type
+   use dondolo_check_group, only : read_check_group
+   use dondolo_check_input, only : check_input_type, check_properties, put_check
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, history_input_type, read_history_group
    use dondolo_job_group, only : job_type, read_job
    use dondolo_kinds, only : wp
+   use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_lane_variants, only : check_variant
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_room
@@ -16,7 +19,7 @@ module dondolo_case
    use dondolo_property_tables, only : group_names
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_records_group, only : read_records_group, records_input_type
-   use dondolo_settings, only : group_settings_type
+   use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : echo_settings, read_values
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
@@ -62,6 +65,8 @@ module dondolo_case
       type(solver_input_type) :: solver
       !> Which time history
       type(history_input_type) :: history
+      !> Check by a building code; not allocated: none
+      type(check_input_type), allocatable :: check
       !> How its tables were read, where there is something to say of it
       type(lines_type) :: notes
    contains
@@ -112,6 +117,7 @@ contains
       if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
+      if (.not. allocated(error)) call read_check(namelist, case, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
       if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
       if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
@@ -216,6 +222,28 @@ contains
       call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall
+
+   !> Read the check by a building code
+   subroutine read_check(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      !> The case: its check is read
+      type(case_type), intent(inout) :: case
+      !> What is wrong with it, or a wall that it is not for
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(kinematic_type) :: kinematic
+
+      group = namelist%group('check')
+      call read_check_group(group, case%check, error)
+      if (allocated(error) .or. .not. allocated(case%check)) return
+      if (case%job%task == 'stripes') then
+         call new_kinematic(kinematic, case%wall, error)
+         call group%locate(error)
+      else
+         call raise_input(error, group%place()//' (line '//to_text(group%line)//'): only for task = ''stripes''')
+      end if
+   end subroutine read_check
 
    !> Check what belongs together
    subroutine check_combinations(namelist, case, error)
@@ -458,6 +486,11 @@ contains
       end if
       call self%solver%put(settings)
       call echo_settings('solver', settings, echoed, beside='atol')
+      if (allocated(self%check)) then
+         call new_settings(settings, check_properties)
+         call put_check(self%check, settings)
+         call echo_settings('check', settings, echoed)
+      end if
       if (self%job%task /= 'history') return
       call self%history%put(settings)
       call echo_settings('history', settings, echoed)

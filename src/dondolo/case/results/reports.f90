@@ -2,8 +2,8 @@
 module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
+   use dondolo_check_sheet, only : sheet_head
    use dondolo_error, only : add_place, error_type
-   use dondolo_job_group, only : job_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_report_rows, only : make_typology_row, typology_head
@@ -31,28 +31,28 @@ contains
       type(lines_type) :: inputs
 
       call case%inputs(inputs)
-      call check_output(case%job%output, suffixes(case%job), inputs, error)
+      call check_output(case%job%output, suffixes(case), inputs, error)
       if (allocated(error)) error%message = error%message//case%job%output_line
       call add_place(error, case%file//': &job: output = '''//case%job%output//'''')
    end subroutine check_reports
 
-   !> What the names of the result files of a task end with
-   pure function suffixes(job) result(names)
-      !> What is to be done
-      type(job_type), intent(in) :: job
+   !> What the names of the result files of a case end with
+   pure function suffixes(case) result(names)
+      type(case_type), intent(in) :: case
       !> Ends of the names
       character(len=15), allocatable :: names(:)
 
-      select case (job%task)
+      select case (case%job%task)
       case ('history')
          names = [character(len=15) :: '_walls.csv', '_history.csv', run_suffix]
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
             & run_suffix]
+         if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_check.csv', run_suffix]]
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
-         if (job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
       end select
    end function suffixes
 
@@ -69,7 +69,7 @@ contains
       character(len=15), allocatable :: names(:)
       integer :: i
 
-      names = suffixes(case%job)
+      names = suffixes(case)
       do i = 1, size(names)
          call files%begin(trim(names(i)), error)
          if (allocated(error)) return
@@ -98,6 +98,8 @@ contains
 
       if (name == '_typology.csv') then
          call write_typology(case, results, files)
+      else if (name == '_check.csv') then
+         call write_check(results, files)
       else if (name == '_history.csv') then
          call write_history(case, results, files)
       else if (case%job%task == 'typology') then
@@ -180,6 +182,21 @@ contains
          end do
       end do
    end subroutine write_typology
+
+   !> The sheet of the check
+   subroutine write_check(results, files)
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      call files%line(sheet_head)
+      do i = 1, size(results%check%rows)
+         call results%check%make_row(i, line)
+         call files%line(line)
+      end do
+   end subroutine write_check
 
    !> The time history
    subroutine write_history(case, results, files)

@@ -1,5 +1,6 @@
 !> What comes of a case.
 module dondolo_results
+   use dondolo_check_sheet, only : sheet_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_population_counts, only : population_counts_type
@@ -49,6 +50,8 @@ module dondolo_results
       type(shown_row_type), allocatable :: shown(:)
       !> How many rows an earlier run had left: task 'typology'
       integer :: resumed = 0
+      !> Check by a building code; without rows: none was asked for
+      type(sheet_type) :: check
       !> The one response: task 'history'
       type(response_type) :: response
       !> Its time history

@@ -2,6 +2,7 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
+   use dondolo_check_case, only : check_case, check_stripes
    use dondolo_error, only : error_type, raise_failure
    use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
@@ -146,6 +147,12 @@ contains
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
       call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)
+      if (allocated(case%check)) then
+         call check_case(case, results%check, error, results%row%curve(size(study%thresholds)))
+         if (.not. allocated(error)) call check_stripes(case, stripes, results%check, error, team)
+         if (.not. allocated(error)) call check_interrupt(error)
+         if (allocated(error)) return
+      end if
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
 

@@ -1,0 +1,75 @@
+!> What is printed of a check by a building code.
+module dondolo_check_lines
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_check_input, only : state_names
+   use dondolo_check_sheet, only : sheet_type
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : counted, right, rounded, to_text
+   implicit none
+   private
+
+   public :: print_check
+
+contains
+
+   !> Print a check at a glance; the whole sheet is in its table
+   subroutine print_check(sheet)
+      type(sheet_type), intent(in) :: sheet
+
+      character(len=*), parameter :: methods(2) = [character(len=9) :: 'linear', 'nonlinear']
+      integer :: i, k
+
+      write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1: alpha_0 '// &
+         & rounded(sheet%value('mechanism', '', 'alpha_0'))//', e* '//rounded(sheet%value('mechanism', '', 'mass_ratio'))// &
+         & ', a_0* '//rounded(sheet%value('mechanism', '', 'a_0'))//' m/s2, d_0* '// &
+         & rounded(sheet%value('mechanism', '', 'd_0'))//' m'
+      write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'stands, g', 'ratio', 'P(collapse)'
+      do i = 1, size(methods)
+         do k = 1, size(state_names)
+            if (sheet%value(methods(i), state_names(k), 'ratio') < 0.0_wp) cycle
+            write (output_unit, '(a, 5a14)') methods(i)//'    ', state_names(k), cell('site', 'pga'), &
+               & cell(methods(i), 'capacity_pga'), cell(methods(i), 'ratio'), cell(methods(i), 'probability')
+         end do
+      end do
+      do k = 2, size(state_names)
+         call print_histories(sheet, state_names(k))
+      end do
+      if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
+         & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//rounded(sheet%value('site', 'SLV', 'probability'))// &
+         & '; P(collapse) above is that at what the wall stands by each formula'
+      write (output_unit, '(a)') ''
+
+   contains
+
+      !> A number of the sheet in the table, right in its column
+      function cell(method, name)
+         character(len=*), intent(in) :: method, name
+         !> Its text, a dash where there is none
+         character(len=14) :: cell
+
+         real(wp) :: value
+
+         value = sheet%value(method, state_names(k), name)
+         cell = right('-', len(cell))
+         if (value >= 0.0_wp) cell = right(rounded(value), len(cell))
+      end function cell
+
+   end subroutine print_check
+
+   !> Print the criterion for time histories
+   subroutine print_histories(sheet, state)
+      type(sheet_type), intent(in) :: sheet
+      !> Limit state
+      character(len=*), intent(in) :: state
+
+      if (sheet%value('dynamic', state, 'histories') < 0.0_wp) return
+      write (output_unit, '(a)') 'dynamic '//state//' at a_g S = '//rounded(sheet%value('dynamic', state, 'pga'))//' g: '// &
+         & to_text(nint(sheet%value('dynamic', state, 'beyond')))//' of '// &
+         & to_text(nint(sheet%value('dynamic', state, 'histories')))//' histories of '// &
+         & counted(nint(sheet%value('dynamic', state, 'records')), 'record')//' beyond d_0*, mean of the largest d '// &
+         & rounded(sheet%value('dynamic', state, 'mean_displacement'))//' m, allowed '// &
+         & rounded(sheet%value('dynamic', state, 'displacement'))//' m: '// &
+         & trim(merge('verified    ', 'not verified', sheet%value('dynamic', state, 'verified') > 0.0_wp))
+   end subroutine print_histories
+
+end module dondolo_check_lines

@@ -1,0 +1,156 @@
+!> Checks by building codes, and elastic spectra.
+module checks
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : next_line, report
+   use dondolo_check_input, only : check_input_type, check_properties, take_check
+   use dondolo_check_sheet, only : sheet_type
+   use dondolo_code_spectrum, only : elastic_spectrum_type
+   use dondolo_error, only : error_type, problems_type
+   use dondolo_handles, only : find_walls
+   use dondolo_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: ntc_parameters, code_spectrum, check_ntc, check_histories
+
+contains
+
+   !> What a user says of a check: a line each for code, soil and topography, and ag, f0 and tc_star with their counts, then
+   !> confidence and behaviour
+   subroutine read_input(texts, numbers, given, input, error)
+      character(len=*), intent(in) :: texts
+      real(c_double), intent(in) :: numbers(:)
+      integer(c_int), intent(in) :: given(3)
+      type(check_input_type), intent(out) :: input
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=*), parameter :: lists(3) = [character(len=7) :: 'ag', 'f0', 'tc_star']
+      character(len=*), parameter :: words(2) = [character(len=10) :: 'soil', 'topography']
+      type(group_settings_type) :: settings
+      type(problems_type) :: problems
+      character(len=:), allocatable :: text
+      integer :: i, at, next
+
+      call new_settings(settings, check_properties)
+      at = 1
+      do i = 1, size(words)
+         call next_line(texts, at, text)
+         call settings%set(trim(words(i)), text)
+      end do
+      next = 0
+      do i = 1, size(lists)
+         call settings%set(trim(lists(i)), numbers(next + 1:next + given(i)))
+         next = next + given(i)
+      end do
+      call settings%set('confidence', numbers(next + 1))
+      call settings%set('behaviour', numbers(next + 2))
+      call take_check(input, settings, problems)
+      call problems%raise(error)
+   end subroutine read_input
+
+   !> Spectrum of the ground of NTC 2018 in a limit state, 1 to 3: a_g S [g], F_0, T_B, T_C and T_D [s]
+   subroutine ntc_parameters(texts, numbers, n, given, state, parameters, stat, message)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: n, given(3), state
+      real(c_double), intent(in) :: numbers(n)
+      real(c_double), intent(out) :: parameters(5)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(check_input_type) :: input
+      type(elastic_spectrum_type) :: spectrum
+      type(error_type), allocatable :: error
+
+      parameters = 0
+      call read_input(texts, numbers, given, input, error)
+      if (.not. allocated(error)) then
+         spectrum = input%spectrum(state)
+         parameters = [spectrum%pga, spectrum%amplification, spectrum%corners]
+      end if
+      call report(error, stat, message)
+   end subroutine ntc_parameters
+
+   !> Ordinates [g] at n periods [s] of the spectrum of a code with the parameters that ntc_parameters has
+   subroutine code_spectrum(parameters, damping, periods, n, ordinates)
+      real(c_double), intent(in) :: parameters(5), damping
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: periods(n)
+      real(c_double), intent(out) :: ordinates(n)
+      type(elastic_spectrum_type) :: spectrum
+
+      spectrum = elastic_spectrum_type(1.0_c_double, parameters(1), parameters(2), parameters(3:))
+      ordinates = spectrum%acceleration(periods, damping)
+   end subroutine code_spectrum
+
+   !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them. Of the building's modes, a period, a damping
+   !> ratio and a participation times shape each, those after the first m are not looked at, since f2py takes no empty arrays
+   subroutine check_ntc(walls, texts, numbers, n, given, modes, k, m, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: n, given(3), k, m
+      real(c_double), intent(in) :: numbers(n), modes(3, k)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(check_input_type) :: input
+      type(kinematic_type) :: kinematic
+      type(sheet_type) :: sheet
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call read_input(texts, numbers, given, input, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, people(1), error)
+      if (.not. allocated(error)) then
+         call check_by_ntc(sheet, kinematic, input, modes(:, :m))
+         call pack_sheet(sheet, parcel)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine check_ntc
+
+   !> Criterion for time histories in a limit state, 2 or 3, from their largest rotations / capacity, 1 where they collapsed
+   subroutine check_histories(walls, state, pga, records, edp, n, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: state, records, n
+      real(c_double), intent(in) :: pga, edp(n)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(kinematic_type) :: kinematic
+      type(sheet_type) :: sheet
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, people(1), error)
+      if (.not. allocated(error)) then
+         call check_peaks(sheet, kinematic, state, pga, records, edp)
+         call pack_sheet(sheet, parcel)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine check_histories
+
+   !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula and meaning; reals: its values
+   subroutine pack_sheet(sheet, parcel)
+      type(sheet_type), intent(in) :: sheet
+      type(parcel_type), intent(inout) :: parcel
+
+      character(len=*), parameter :: tab = achar(9)
+      integer :: i
+
+      call parcel%add(real(sheet%rows%value, c_double))
+      do i = 1, size(sheet%rows)
+         associate (row => sheet%rows(i))
+            call parcel%lines%add(trim(row%method)//tab//trim(row%state)//tab//trim(row%quantity%name)//tab// &
+               & trim(row%quantity%symbol)//tab//trim(row%quantity%unit)//tab//trim(row%formula)//tab// &
+               & trim(row%quantity%meaning))
+         end associate
+      end do
+   end subroutine pack_sheet
+
+end module checks

@@ -1,0 +1,91 @@
+"""Checks by building codes, and elastic spectra."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import Parcel, check, properties, receive
+
+#: Limit states: damage, life safety, collapse
+STATES = ("SLD", "SLV", "SLC")
+CHECK_PROPERTIES = {row.name: row for row in properties("check")}
+
+
+class SheetRow(NamedTuple):
+    """A line of the sheet of a check.
+
+    Attributes
+    ----------
+    method : str
+        'site', 'mechanism', 'linear', 'nonlinear' or 'dynamic'.
+    limit_state : str
+        'SLD', 'SLV' or 'SLC'; '' for all.
+    quantity : str
+        What the number is.
+    symbol : str
+        In the code; '' where it has none.
+    value : float
+        In its unit.
+    unit : str
+        '' for a number.
+    formula : str
+        Where the code has the formula.
+    meaning : str
+        The quantity in words.
+    """
+
+    method: str
+    limit_state: str
+    quantity: str
+    symbol: str
+    value: float
+    unit: str
+    formula: str
+    meaning: str
+
+
+class SiteInput(NamedTuple):
+    """What a user says of a check, as Fortran takes it."""
+
+    texts: bytes
+    numbers: FloatArray
+    given: tuple[int, int, int]
+
+
+def ntc_parameters(site: SiteInput, state: str) -> FloatArray:
+    """a_g S [g], F_0, T_B, T_C and T_D [s] of the spectrum of NTC 2018 in a limit state."""
+    parameters, stat, message = _core.checks.ntc_parameters(*site, STATES.index(state) + 1)
+    check(stat, message)
+    return np.asarray(parameters)
+
+
+def code_spectrum(parameters: Sequence[float] | FloatArray, damping: float, periods: FloatArray) -> FloatArray:
+    """Ordinates [g] of the spectrum of a code at periods [s]."""
+    return np.asarray(_core.checks.code_spectrum(parameters, damping, periods))
+
+
+def kinematic_sheet(wall: Handle, site: SiteInput, modes: FloatArray) -> tuple[SheetRow, ...]:
+    """The sheet of a kinematic check; modes have a row of periods, one of damping ratios, one of participations."""
+    # f2py takes no empty arrays
+    padded = np.hstack([modes, np.ones((3, 1))])
+    return _rows(receive(*_core.checks.check_ntc(wall.number, *site, padded, modes.shape[1])))
+
+
+def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: FloatArray) -> tuple[SheetRow, ...]:
+    """The sheet of the criterion for time histories in a limit state."""
+    return _rows(receive(*_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
+
+
+def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
+    """Lines of a sheet."""
+    rows = []
+    for line, value in zip(parcel.lines, parcel.reals.tolist(), strict=True):
+        method, state, quantity, symbol, unit, formula, meaning = line.split("\t")
+        rows.append(SheetRow(method, state, quantity, symbol, value, unit, formula, meaning))
+    return tuple(rows)

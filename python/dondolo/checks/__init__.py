@@ -1,0 +1,1 @@
+"""Checks of walls by building codes."""

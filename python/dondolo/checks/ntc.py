@@ -1,0 +1,281 @@
+"""Checks of a wall by NTC 2018 and Circolare 7/2019: kinematic, and the criterion for time histories.
+
+What is computed, and by which formulas, is in Fortran (``check/ntc_check.f90``) and in docs/code_checks.md.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_array, instance_of
+from dondolo._base.shown import Shown
+from dondolo._fortran.checks import SheetRow, dynamic_sheet, kinematic_sheet
+from dondolo._storage import tables
+from dondolo._storage.saved import Saved, part_of_results
+from dondolo.analysis.request import Polarity
+from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import InputError
+from dondolo.records.codes import LimitState, Site
+from dondolo.records.record import Record
+from dondolo.walls.wall import Wall, upload
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+part_of_results(SheetRow)
+
+# Levels that differ by less than this part are the same (fragility/study.f90)
+_SAME_LEVEL = 1e-9
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class CodeCheck(Shown, Saved):
+    """A check of a wall by a building code: a sheet, every number with its formula.
+
+    Attributes
+    ----------
+    wall : Wall
+        The wall.
+    site : Site
+        The hazard.
+    rows : tuple of SheetRow
+        The sheet: method, limit state, quantity, symbol, value, unit, formula and meaning of each number.
+    """
+
+    wall: Wall
+    site: Site
+    rows: tuple[SheetRow, ...]
+
+    @property
+    def pga(self) -> float:
+        """Peak acceleration at the site a_g S [g], of SLV where limit states differ."""
+        return self.value("site", "SLV", "pga")
+
+    def value(self, method: str, limit_state: str, quantity: str) -> float:
+        """A number of the sheet.
+
+        Parameters
+        ----------
+        method : str
+            'site', 'mechanism', 'linear', 'nonlinear' or 'dynamic'.
+        limit_state : str
+            'SLD', 'SLV' or 'SLC'; of numbers that are the same in all, any.
+        quantity : str
+            Its name, such as 'alpha_0', 'd_0' or 'capacity_pga'.
+
+        Returns
+        -------
+        float
+            In the unit of the sheet.
+
+        Raises
+        ------
+        InputError
+            The sheet has no such number.
+        """
+        for row in self.rows:
+            if (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state):
+                return row.value
+        raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+
+    @property
+    def capacities(self) -> dict[tuple[str, str], float]:
+        """Peak acceleration at the site that the wall stands [g] by each kinematic check: (method, limit state)."""
+        return self._of("capacity_pga")
+
+    @property
+    def verified(self) -> dict[tuple[str, str], bool]:
+        """The verdict of each check: (method, limit state)."""
+        return {key: value == 1.0 for key, value in self._of("verified").items()}
+
+    def probabilities(self, curve: Fragility) -> dict[tuple[str, str], float]:
+        """Probability of collapse at the peak accelerations of the check, by a fragility curve.
+
+        Parameters
+        ----------
+        curve : Fragility
+            Its measure is 'pga'.
+
+        Returns
+        -------
+        dict
+            (method, limit state): at what the wall stands by each kinematic check, and at a_g S of the site.
+
+        Raises
+        ------
+        InputError
+            A curve of another measure.
+        DondoloError
+            There is no curve.
+        """
+        if instance_of("curve", curve, Fragility, "no fragility curve").im != "pga":
+            raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")
+        return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
+
+    def plot(self, curve: Fragility, ax: Axes | None = None) -> Axes:
+        """Draw the checks as lines on a fragility curve, with the probability of collapse at each.
+
+        Parameters
+        ----------
+        curve : Fragility
+            Its measure is 'pga'.
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against PGA.
+
+        Raises
+        ------
+        InputError
+            A curve of another measure.
+        DondoloError
+            There is no curve.
+        """
+        from dondolo.checks.plots import draw_check
+
+        return draw_check(self, curve, ax)
+
+    def to_frame(self) -> Any:
+        """The sheet as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Write the sheet as the executable's ``_check.csv``."""
+        tables.write_csv(path, self._table())
+
+    def _table(self) -> tables.Table:
+        return {name: [getattr(row, name) for row in self.rows] for name in SheetRow._fields}
+
+    def _of(self, quantity: str, *methods: str) -> dict[tuple[str, str], float]:
+        return {
+            (row.method, row.limit_state): row.value
+            for row in self.rows
+            if row.quantity == quantity and (not methods or row.method in methods)
+        }
+
+    def _facts(self) -> list[tuple[str, str]]:
+        names = ("alpha_0", "mass_ratio", "a_0", "d_0")
+        shown = {row.quantity: row for row in self.rows if row.method == "mechanism"}
+        facts = [(shown[name].symbol, f"{shown[name].value:.6g} {shown[name].unit}".strip()) for name in names]
+        for (method, state), holds in self.verified.items():
+            text = "verified" if holds else "not verified"
+            if (method, state) in self.capacities:
+                text += f", a_g S up to {self.capacities[method, state]:.4g} g"
+            else:
+                count = [self.value(method, state, name) for name in ("beyond", "histories", "records")]
+                text += ", {:.0f} of {:.0f} histories of {:.0f} records beyond d_0*".format(*count)
+            facts.append((f"{method} {state}", text))
+        return facts
+
+
+def check_ntc(
+    wall: Wall, site: Site, *, building: Any = None, confidence: float = 1.35, behaviour: float = 2.0
+) -> CodeCheck:
+    """Kinematic check of a wall by NTC 2018 and Circolare 7/2019, C8.7.1.2.1.
+
+    Parameters
+    ----------
+    wall : Wall
+        Of one block.
+    site : Site
+        The hazard.
+    building : optional
+        What the wall stands on: `period` [s], `damping` and `participation` (factor times shape at the level of the
+        wall) of its modes. The ground if left out.
+    confidence : float
+        Confidence factor FC, 1 to 1.35; 1.35 where no compressive strength moves the hinge.
+    behaviour : float
+        Behaviour factor q of the linear check, 1 to 2.
+
+    Returns
+    -------
+    CodeCheck
+        SLD and SLV linear, SLV and SLC nonlinear.
+
+    Raises
+    ------
+    InputError
+        A wall of two blocks, factors that the code does not have, a mode without damping.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+    >>> check = dd.check_ntc(dd.OneSidedWall(height=3.0, thickness=0.25), site)
+    >>> round(check.value("nonlinear", "SLV", "capacity_ag"), 11)
+    0.08206169897
+    """
+    handle = upload((instance_of("wall", wall, Wall, "no wall"),))
+    given = instance_of("site", site, Site, "no site")._input(confidence, behaviour)
+    return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given, _modes(building)))
+
+
+def _modes(building: Any) -> FloatArray:
+    """Modes of a building, a row of periods, one of damping ratios, one of participations; on the ground none."""
+    if building is None:
+        return np.empty((3, 0))
+    modes = np.stack([as_array(name, np.atleast_1d(getattr(building, name))) for name in _MODE])
+    if not np.all(modes[:2] > 0.0):
+        raise InputError("building: periods and damping ratios must be positive for the spectrum of a floor")
+    return modes
+
+
+_MODE = ("period", "damping", "participation")
+
+
+def check_dynamic(
+    check: CodeCheck, stripes: Stripes | Record | Iterable[Record], *, polarity: Polarity = "as_recorded"
+) -> CodeCheck:
+    """Add the criterion of Circolare 7/2019, C8.7.1.2.1.9, for time histories at the peak acceleration of the site.
+
+    SLV and SLC are verified if no history goes beyond d_0* and the mean of the largest displacements is at most that
+    which the nonlinear check allows. That no history may makes the verdict depend on their number.
+
+    Parameters
+    ----------
+    check : CodeCheck
+        The kinematic check.
+    stripes : Stripes, or records
+        Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
+        levels; of records, one stripe is run.
+    polarity : {'as_recorded', 'reversed', 'both'}
+        Of records.
+
+    Returns
+    -------
+    CodeCheck
+        With the lines of method 'dynamic'.
+
+    Raises
+    ------
+    InputError
+        Stripes of another wall or measure, or without the level.
+    """
+    instance_of("check", check, CodeCheck, "no check")
+    states: tuple[LimitState, ...] = ("SLV", "SLC")
+    levels = {state: check.site.pga(limit_state=state) for state in states}
+    if not isinstance(stripes, Stripes):
+        several: Sequence[float] = sorted(set(levels.values()))
+        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False)
+    if stripes.im != "pga" or stripes.wall != check.wall:
+        raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
+    rows = tuple(row for row in check.rows if row.method != "dynamic")
+    handle = upload((check.wall,))
+    for state, level in levels.items():
+        found = np.flatnonzero(np.abs(stripes.levels - level) <= _SAME_LEVEL * level)
+        if not len(found):
+            raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
+        ran = stripes.ran[found[0]]
+        # A history that collapsed at a limit below the capacity was not followed to d_0*.
+        edp = np.where(stripes.collapsed[found[0]], np.maximum(stripes.edp[found[0]], 1.0), stripes.edp[found[0]])[ran]
+        rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)
+    return replace(check, rows=rows)

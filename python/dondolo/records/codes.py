@@ -1,0 +1,251 @@
+"""Elastic spectra of building codes.
+
+NTC 2018 (D.M. 17/01/2018, 3.2.3.2.1) and Eurocode 8 (EN 1998-1:2004, 3.2.2.2) have elastic spectra of one form, which
+Fortran has (``check/code_spectrum.f90``), for rigid ground of acceleration a_g, with S the factor of soil and
+topography, eta = sqrt(10/(5 + 100 xi)) >= 0.55 that of damping, and F0 the largest amplification (2.5 in EC8)::
+
+    T < T_B:           S_e = a_g S [1 + T/T_B (eta F0 - 1)]
+    T_B <= T < T_C:    S_e = a_g S eta F0
+    T_C <= T < T_D:    S_e = a_g S eta F0 T_C/T
+    T_D <= T:          S_e = a_g S eta F0 T_C T_D/T^2
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
+from dondolo._base.shown import Shown
+from dondolo._fortran.checks import STATES, SiteInput, code_spectrum, ntc_parameters
+from dondolo._fortran.library import as_text
+from dondolo._storage.saved import part_of_results
+from dondolo.errors import InputError
+from dondolo.records.target import TargetSpectrum
+
+#: Classes of soil
+Soil = Literal["A", "B", "C", "D", "E"]
+#: Classes of topography of NTC 2018
+Topography = Literal["T1", "T2", "T3", "T4"]
+#: Limit states of NTC 2018: damage, life safety, collapse
+LimitState = Literal["SLD", "SLV", "SLC"]
+
+# Periods of a spectrum unless given [s]
+_PERIODS = np.geomspace(0.05, 4.0, 60)
+
+# EN 1998-1, tables 3.2 and 3.3: S, T_B, T_C, T_D
+_EC8_SOILS = {
+    1: {
+        "A": (1.0, 0.15, 0.4, 2.0),
+        "B": (1.2, 0.15, 0.5, 2.0),
+        "C": (1.15, 0.20, 0.6, 2.0),
+        "D": (1.35, 0.20, 0.8, 2.0),
+        "E": (1.4, 0.15, 0.5, 2.0),
+    },
+    2: {
+        "A": (1.0, 0.05, 0.25, 1.2),
+        "B": (1.35, 0.05, 0.25, 1.2),
+        "C": (1.5, 0.10, 0.25, 1.2),
+        "D": (1.8, 0.10, 0.30, 1.2),
+        "E": (1.6, 0.05, 0.25, 1.2),
+    },
+}
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False)
+class Site(Shown):
+    """The hazard of a site by NTC 2018: what the map of the code gives for it, and its ground.
+
+    Parameters
+    ----------
+    ag : float or sequence of three floats
+        Peak acceleration on rigid, level ground [g]: one for all limit states, or those of SLD, SLV and SLC.
+    f0 : float or sequence of three floats
+        Largest amplification on such ground, 2.2 to 5.
+    tc_star : float or sequence of three floats
+        Period at which the constant velocity begins on such ground [s].
+    soil : {'A', 'B', 'C', 'D', 'E'}
+        Class of soil.
+    topography : {'T1', 'T2', 'T3', 'T4'}
+        The factor of the table, which is that of the top of a slope.
+
+    Raises
+    ------
+    InputError
+        Parameters that the code does not have.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+    >>> round(site.pga(), 12)
+    0.24
+    """
+
+    ag: float | Sequence[float]
+    f0: float | Sequence[float]
+    tc_star: float | Sequence[float]
+    _: KW_ONLY
+    soil: Soil = "A"
+    topography: Topography = "T1"
+
+    def __post_init__(self) -> None:
+        for name in ("ag", "f0", "tc_star"):
+            value = getattr(self, name)
+            several = tuple(as_array(name, value).tolist()) if np.ndim(value) else as_number(name, value)
+            object.__setattr__(self, name, several)
+        self._parameters("SLV")
+
+    def _input(self, confidence: float = 1.35, behaviour: float = 2.0) -> SiteInput:
+        """The site as Fortran takes it, with what a check needs besides."""
+        words = b"\n".join(as_text(name, getattr(self, name)) for name in ("soil", "topography"))
+        lists = [np.atleast_1d(values) for values in (self.ag, self.f0, self.tc_star)]
+        factors = as_number("confidence", confidence), as_number("behaviour", behaviour)
+        a, b, c = map(len, lists)
+        return SiteInput(words, np.concatenate([*lists, factors]), (a, b, c))
+
+    def pga(self, *, limit_state: LimitState = "SLV") -> float:
+        """Peak acceleration at the site a_g S [g] in a limit state."""
+        return float(self._parameters(limit_state)[0])
+
+    def spectrum(
+        self, *, periods: ArrayLike | None = None, damping: float = 0.05, limit_state: LimitState = "SLV"
+    ) -> TargetSpectrum:
+        """Elastic horizontal spectrum.
+
+        Parameters
+        ----------
+        periods : array_like, optional
+            [s]; 60 from 0.05 to 4 s if left out.
+        damping : float
+            Damping ratio.
+        limit_state : {'SLD', 'SLV', 'SLC'}
+            Whose hazard, where each has its own.
+
+        Returns
+        -------
+        TargetSpectrum
+            Without a dispersion.
+
+        Raises
+        ------
+        InputError
+            Periods that do not increase, a damping ratio beyond 0 and 1.
+
+        Notes
+        -----
+        NTC 2018, 3.2.3.2.1: S_S and C_C of table 3.2.IV, S_T of table 3.2.V, T_C = C_C T_C*, T_B = T_C/3,
+        T_D = 4 a_g/g + 1.6 s.
+        """
+        return _spectrum(self._parameters(limit_state), damping, periods)
+
+    def _parameters(self, limit_state: str) -> FloatArray:
+        one_of("limit_state", limit_state, STATES)
+        return ntc_parameters(self._input(), limit_state)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        def words(values: Any) -> str:
+            return ", ".join(f"{value:g}" for value in np.atleast_1d(values))
+
+        ground = f"soil {self.soil}, topography {self.topography}"
+        return [
+            ("ag", f"{words(self.ag)} g"),
+            ("f0", words(self.f0)),
+            ("tc_star", f"{words(self.tc_star)} s"),
+            ("ground", ground),
+        ]
+
+
+def ntc_spectrum(
+    ag: float,
+    f0: float,
+    tc_star: float,
+    *,
+    soil: Soil = "A",
+    topography: Topography = "T1",
+    damping: float = 0.05,
+    periods: ArrayLike | None = None,
+) -> TargetSpectrum:
+    """Elastic horizontal spectrum of the Italian code, NTC 2018: ``Site(...).spectrum(...)`` in one call.
+
+    Parameters
+    ----------
+    ag, f0, tc_star : float
+        As those of `Site`.
+    soil : {'A', 'B', 'C', 'D', 'E'}
+        Class of soil.
+    topography : {'T1', 'T2', 'T3', 'T4'}
+        The factor of the table, which is that of the top of a slope.
+    damping : float
+        Damping ratio.
+    periods : array_like, optional
+        [s]; 60 from 0.05 to 4 s if left out.
+
+    Returns
+    -------
+    TargetSpectrum
+        Without a dispersion.
+
+    Raises
+    ------
+    InputError
+        Parameters that the code does not have.
+    """
+    return Site(ag, f0, tc_star, soil=soil, topography=topography).spectrum(periods=periods, damping=damping)
+
+
+def ec8_spectrum(
+    ag: float,
+    *,
+    soil: Soil = "A",
+    kind: Literal[1, 2] = 1,
+    damping: float = 0.05,
+    periods: ArrayLike | None = None,
+) -> TargetSpectrum:
+    """Elastic horizontal spectrum of Eurocode 8, EN 1998-1:2004, with the values that it recommends.
+
+    Parameters
+    ----------
+    ag : float
+        Design acceleration on ground of type A, the importance factor included [g].
+    soil : {'A', 'B', 'C', 'D', 'E'}
+        Ground type.
+    kind : {1, 2}
+        Type of the spectrum: 2 where the earthquakes that contribute most have surface-wave magnitudes up to 5.5.
+    damping : float
+        Damping ratio.
+    periods : array_like, optional
+        [s], up to 4; 60 from 0.05 to 4 s if left out.
+
+    Returns
+    -------
+    TargetSpectrum
+        Without a dispersion.
+
+    Raises
+    ------
+    InputError
+        Parameters that the code does not have.
+    """
+    a = as_number("ag", ag)
+    if not 0.0 < a < np.inf:
+        raise InputError(f"ag = {a:g}: must be positive")
+    one_of("soil", soil, get_args(Soil))
+    if kind not in _EC8_SOILS:
+        raise InputError(f"kind = {kind!r}: must be 1 or 2")
+    amplified, *corners = _EC8_SOILS[kind][soil]
+    return _spectrum(np.array([a * amplified, 2.5, *corners]), damping, periods)
+
+
+def _spectrum(parameters: FloatArray, damping: float, periods: ArrayLike | None) -> TargetSpectrum:
+    """Spectrum of the form that both codes have."""
+    ratio = as_number("damping", damping)
+    if not 0.0 < ratio < 1.0:
+        raise InputError(f"damping = {ratio:g}: must lie between 0 and 1")
+    t = increasing("periods", _PERIODS if periods is None else periods)
+    return TargetSpectrum(t, code_spectrum(parameters, ratio, t), damping=ratio)

@@ -1,0 +1,82 @@
+"""Facts of a report on the check of a wall by a building code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from dondolo._fortran.checks import SheetRow
+from dondolo.checks.ntc import CodeCheck
+from dondolo.curves.fragility import Fragility
+from dondolo.reporting.content import Piece, Symbol, Table, figure
+from dondolo.reporting.numerals import NONE, number, whole
+
+
+def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
+    """Tables of the verdicts and of the sheet, and the lines of the check on the curve."""
+    drawn = None
+    chances: dict[tuple[str, str], float] = {}
+    if curve is not None and curve.has_fit and curve.im == "pga":
+        chances = check.probabilities(curve)
+        words = "; ".join(f"{' '.join(key).strip()} {value:.2g}" for key, value in chances.items())
+        drawn = figure(
+            lambda: check.plot(curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
+        )
+    kinematic = list(check.capacities)
+    dynamic = [key for key in check.verified if key[0] == "dynamic"]
+    columns: dict[Piece, Sequence[Piece]] = {
+        "check": [f"{method}, {state}" for method, state in kinematic],
+        (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
+        "stands [g]": [number(level) for level in check.capacities.values()],
+        "capacity / demand": [number(check.value(*key, "ratio"), 3) for key in kinematic],
+        "verdict": [_verdict(check, key) for key in kinematic],
+    }
+    if chances:
+        columns["P(collapse) at the site"] = [
+            number(chances.get(("site", state), chances.get(("site", ""))), 2) for _, state in kinematic
+        ]
+        columns["at what it stands"] = [number(chances[key], 2) for key in kinematic]
+    histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
+    for name, head in _DYNAMIC.items():
+        histories[head] = [number(check.value(*key, name)) for key in dynamic]
+    histories["verdict"] = [_verdict(check, key) for key in dynamic]
+    return {
+        "checks": Table.of(columns, ("verdict",)),
+        "histories": Table.of(histories, ("verdict",)) if dynamic else None,
+        "figure": drawn,
+        "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
+        "sheet": _sheet(check.rows),
+    }
+
+
+_DYNAMIC = {
+    "pga": "PGA [g]",
+    "records": "records",
+    "histories": "histories",
+    "beyond": "beyond collapse",
+    "mean_displacement": "mean displacement [m]",
+    "displacement": "capacity [m]",
+}
+
+
+def _site(check: CodeCheck, state: str) -> float:
+    return check.value("site", state, "pga")
+
+
+def _verdict(check: CodeCheck, key: tuple[str, str]) -> str:
+    return "verified" if check.verified[key] else "not verified"
+
+
+def _sheet(rows: tuple[SheetRow, ...]) -> Table:
+    """All numbers, in the order of the calculation."""
+    counts = ("records", "histories", "beyond", "verified")
+    shown = [row for row in rows if row.quantity != "probability"]
+    columns: dict[Piece, Sequence[Piece]] = {
+        "quantity": [row.meaning for row in shown],
+        "check": [f"{row.method} {row.limit_state}".strip() for row in shown],
+        "symbol": [row.symbol or NONE for row in shown],
+        "value": [whole(row.value) if row.quantity in counts else number(row.value, 6) for row in shown],
+        "unit": [row.unit or NONE for row in shown],
+        "formula": [row.formula or NONE for row in shown],
+    }
+    return Table.of(columns, ("check", "symbol", "unit", "formula"))

@@ -1,0 +1,140 @@
+"""Checks by NTC 2018: values, histories at the level of the site, figure, files and report.
+
+The formulas are held against worked numbers in test/test_code_check.f90.
+"""
+
+import subprocess
+
+import matplotlib
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+matplotlib.use("agg")
+
+SITE = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+WALL = dd.OneSidedWall(3.0, 0.25)
+
+
+@pytest.fixture(scope="module")
+def records(root):
+    return dd.read_catalogue(root / "data/records/synthetic44.csv")[:6]
+
+
+@pytest.fixture(scope="module")
+def stripes(records):
+    return dd.multiple_stripe(WALL, records, levels=[0.24, 0.4, 0.6, 0.8, 1.0], polarity="both", progress=False)
+
+
+def test_numbers_of_a_wall():
+    check = dd.check_ntc(WALL, SITE)
+    assert check.pga == pytest.approx(0.24, rel=1e-14)
+    assert check.value("mechanism", "", "d_0") == pytest.approx(0.124568219781, rel=1e-11)
+    assert check.capacities["linear", "SLV"] == pytest.approx(1.2 * 0.1028806584, rel=1e-9)
+    assert check.verified == {
+        ("linear", "SLD"): False, ("linear", "SLV"): False, ("nonlinear", "SLV"): False, ("nonlinear", "SLC"): False,
+    }  # fmt: skip
+    with pytest.raises(dd.InputError, match="quantity = 'capacity': the check has none"):
+        check.value("linear", "SLV", "capacity")
+
+
+class Building:
+    period, damping, participation = 0.3, 0.05, 9.0 / 7.0
+
+
+def test_a_building():
+    check = dd.check_ntc(dd.OneSidedWall(1.5, 0.25), SITE, building=Building)
+    assert check.value("site", "SLV", "floor_pga") == pytest.approx(0.7752761193436115, rel=1e-12)
+    assert check.value("nonlinear", "SLV", "capacity_ag") == pytest.approx(0.08916273855, rel=1e-9)
+
+
+def test_spectrum_of_a_site():
+    several = dd.Site((0.08, 0.2, 0.26), 2.5, (0.3, 0.35, 0.36), soil="C", topography="T2")
+    for state, ag, tc in (("SLD", 0.08, 0.3), ("SLV", 0.2, 0.35), ("SLC", 0.26, 0.36)):
+        alone = dd.ntc_spectrum(ag, 2.5, tc, soil="C", topography="T2")
+        np.testing.assert_array_equal(several.spectrum(limit_state=state).sa, alone.sa)
+
+
+def test_histories_at_the_level_of_the_site(stripes, records):
+    check = dd.check_dynamic(dd.check_ntc(WALL, SITE), stripes)
+    edp = stripes.edp[0]
+    mean = np.mean(1.5 * np.sin(np.minimum(edp, 1.0) * WALL.capacity_angle))
+    assert check.value("dynamic", "SLV", "mean_displacement") == pytest.approx(mean, rel=1e-12)
+    assert check.value("dynamic", "SLV", "histories") == 12
+    assert check.value("dynamic", "SLC", "records") == 6
+    assert check.value("dynamic", "SLV", "beyond") == stripes.collapses[0]
+    assert check.verified["dynamic", "SLV"] == (stripes.collapses[0] == 0 and mean <= 0.4 * 0.124568219781)
+    # Records of their own: one stripe more
+    assert dd.check_dynamic(check, records, polarity="both").rows == check.rows
+    with pytest.raises(dd.InputError, match=r"no level of 0\.24 g"):
+        dd.check_dynamic(check, stripes[1:])
+    with pytest.raises(dd.InputError, match="of the wall of the check"):
+        dd.check_dynamic(dd.check_ntc(dd.OneSidedWall(2.0, 0.25), SITE), stripes)
+
+
+def test_lines_on_the_curve(stripes, tmp_path):
+    check, curve = dd.check_ntc(WALL, SITE), stripes.fit()
+    chances = check.probabilities(curve)
+    assert chances["site", ""] == curve(check.pga)
+    assert chances["nonlinear", "SLV"] == curve(check.capacities["nonlinear", "SLV"])
+    ax = check.plot(curve)
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert sum("stands: " in label for label in labels) == 4
+    other = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], 10, im="pgv")
+    with pytest.raises(dd.InputError, match="its measure is 'pgv'"):
+        check.probabilities(other)
+    check.save(tmp_path / "check.npz")
+    assert dd.load(tmp_path / "check.npz").rows == check.rows
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: dd.Site(2.0, 2.5, 0.35), r"ag = 2: must lie between 0\.001 and 1 g"),
+        (lambda: dd.Site((0.1, 0.2), 2.5, 0.35), "ag: has 2 values, must have one, or three"),
+        (lambda: dd.Site(0.2, 2.5, 0.35, soil="F"), "soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'"),
+        (lambda: dd.check_ntc(WALL, SITE, confidence=1.5), r"confidence = 1\.5: must lie between 1 and 1\.35"),
+        (lambda: dd.check_ntc(dd.TwoBlockWall(3.0, 0.25), SITE), "mechanism = 'two_block': the kinematic check"),
+        (lambda: dd.check_ntc(WALL, 0.2), "site: float is no site"),
+    ],
+)
+def test_wrong_input(make, words):
+    with pytest.raises(dd.InputError, match=words) as caught:
+        make()
+    assert "\n" not in str(caught.value)
+
+
+CASE = """&job output = 'out/wall' /
+&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /
+&records catalogue = '{root}/data/records/synthetic44.csv' /
+&stripes levels = 0.2, 0.4, 0.6, 0.8 /
+&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'b' /
+"""
+
+
+def test_case_and_report(root, executable, tmp_path):
+    (tmp_path / "wall.nml").write_text(CASE.format(root=root))
+    subprocess.run([executable, "wall.nml"], cwd=tmp_path, check=True, capture_output=True)
+    stored = dd.read_results(tmp_path / "out/wall")
+    check = dd.check_ntc(stored.stripes.wall, SITE)
+    assert stored.check.site == SITE
+    assert [row for row in stored.check.rows if row.quantity != "probability" and row.method != "dynamic"] == [
+        *check.rows
+    ]
+    # No stripe stands at the level of the site: the executable has run one more
+    more = dd.check_dynamic(check, dd.read_catalogue(root / "data/records/synthetic44.csv"))
+    assert stored.check.value("dynamic", "SLV", "mean_displacement") == pytest.approx(
+        more.value("dynamic", "SLV", "mean_displacement"), rel=1e-12
+    )
+    assert stored.check.value("site", "", "probability") == pytest.approx(stored.fragility(0.24), rel=1e-9)
+    dd.report(stored, tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text()
+    assert "Check by NTC 2018" in page
+    assert "C8.7.1.12" not in page
+    assert f"{check.value('nonlinear', 'SLV', 'period'):.6g}" in page
+    wrong = CASE.format(root=root).replace("'b'", "'F'")
+    (tmp_path / "wrong.nml").write_text(wrong)
+    run = subprocess.run([executable, "wrong.nml"], cwd=tmp_path, check=False, capture_output=True, text=True)
+    assert run.returncode == 2
+    assert "wrong.nml: &check: soil = 'f': must be one of" in run.stderr

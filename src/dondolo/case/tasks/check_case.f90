@@ -1,0 +1,112 @@
+!> The check of a case by a building code: the kinematic sheet, and the criterion for time histories at the site's level.
+module dondolo_check_case
+   use dondolo_case, only : case_type
+   use dondolo_check_input, only : state_names
+   use dondolo_check_sheet, only : sheet_type
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_ntc_check, only : check_histories, check_ntc
+   use dondolo_response, only : response_type
+   use dondolo_scaling, only : new_scaling
+   use dondolo_stripes, only : multiple_stripe, stripes_type
+   use dondolo_study, only : find_level, new_study, study_type
+   implicit none
+   private
+
+   public :: check_case, check_stripes
+
+contains
+
+   !> The kinematic check of a case that has one
+   subroutine check_case(case, sheet, error, curve)
+      type(case_type), intent(in) :: case
+      type(sheet_type), intent(out) :: sheet
+      !> The wall cannot be checked so
+      type(error_type), allocatable, intent(out) :: error
+      !> Curve of collapse, for probabilities where its measure is the peak acceleration
+      type(fragility_type), intent(in), optional :: curve
+
+      type(kinematic_type) :: kinematic
+      real(wp), parameter :: nothing(3, 0) = reshape([real(wp) ::], [3, 0])
+
+      call new_kinematic(kinematic, case%wall, error)
+      if (allocated(error)) return
+      if (case%stripes%scaling%name == 'pga') then
+         call check_ntc(sheet, kinematic, case%check, nothing, curve)
+      else
+         call check_ntc(sheet, kinematic, case%check, nothing)
+      end if
+   end subroutine check_case
+
+   !> Add the criterion for time histories, from a stripe that stands at the peak acceleration of the site or from one more;
+   !> nothing where each level has records of its own and none stands there
+   subroutine check_stripes(case, stripes, sheet, error, threads)
+      type(case_type), intent(in), target :: case
+      !> What was run
+      type(stripes_type), intent(in) :: stripes
+      type(sheet_type), intent(inout) :: sheet
+      !> What cannot be run
+      type(error_type), allocatable, intent(out) :: error
+      !> Number of threads; 0: all
+      integer, intent(in) :: threads
+
+      type(kinematic_type) :: kinematic
+      type(study_type) :: study
+      type(stripes_type) :: more
+      real(wp) :: level
+      integer :: state, at
+
+      call new_kinematic(kinematic, case%wall, error)
+      do state = 2, size(state_names)
+         if (allocated(error)) return
+         associate (spectrum => case%check%spectrum(state))
+            level = spectrum%pga
+         end associate
+         at = 0
+         if (stripes%im == 'pga') at = find_level(stripes%levels, level)
+         if (at > 0) then
+            call put(stripes%response(:, at), stripes%ran(:, at))
+         else if (.not. allocated(case%factor)) then
+            if (state == 2 .or. case%check%has_states()) then
+               call case%make_study(study, threads)
+               call new_scaling(study%scaling, 'pga', error)
+               study%values = case%suite%values(study%scaling%measure, threads)
+               study%levels = [level]
+               study%solver%estimate_error = .false.
+               if (.not. allocated(error)) call multiple_stripe(more, case%wall, study, error)
+               if (allocated(error)) return
+            end if
+            call put(more%response(:, 1), more%ran(:, 1))
+         end if
+      end do
+
+   contains
+
+      !> Put the criterion of a stripe
+      subroutine put(response, ran)
+         type(response_type), intent(in) :: response(:)
+         !> Which of the histories were run
+         logical, intent(in) :: ran(:)
+
+         real(wp), allocatable :: edp(:)
+
+         ! A history that collapsed at a limit below the capacity was not followed to d_0
+         edp = pack(merge(max(response%edp, 1.0_wp), response%edp, response%collapsed), ran)
+         call check_histories(sheet, kinematic, state, level, count_records(ran), edp)
+      end subroutine put
+
+      !> Records that were run
+      pure integer function count_records(ran)
+         !> Which of the histories were run
+         logical, intent(in) :: ran(:)
+
+         integer :: i
+
+         count_records = count([(any(ran .and. stripes%record == i), i=1, size(case%suite%records))])
+      end function count_records
+
+   end subroutine check_stripes
+
+end module dondolo_check_case

@@ -1,0 +1,154 @@
+!> The sheet of a check: every number with its name, symbol, formula and unit, in the order of the calculation.
+module dondolo_check_sheet
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_table
+   implicit none
+   private
+
+   public :: sheet_type, sheet_head
+
+   !> Length of the names of methods, states and quantities, and of a formula's
+   integer, parameter :: name_length = 20
+
+   !> A quantity of a check
+   type :: quantity_type
+      !> Name, as it stands in tables and in Python
+      character(len=name_length) :: name = ''
+      !> Symbol in the code
+      character(len=12) :: symbol = ''
+      !> Unit; empty for a number
+      character(len=8) :: unit = ''
+      !> What it is
+      character(len=72) :: meaning = ''
+   end type quantity_type
+
+   !> All that there are
+   type(quantity_type), parameter :: quantities(*) = [ &
+      & quantity_type('ag', 'a_g', 'g', 'peak acceleration on rigid, level ground'), &
+      & quantity_type('f0', 'F_0', '', 'largest amplification on such ground'), &
+      & quantity_type('tc_star', 'T_C*', 's', 'period at which the constant velocity begins there'), &
+      & quantity_type('soil_factor', 'S', '', 'factor of soil and topography, S_S S_T'), &
+      & quantity_type('tc', 'T_C', 's', 'period at which the constant velocity begins at the site'), &
+      & quantity_type('pga', 'a_g S', 'g', 'peak acceleration at the site'), &
+      & quantity_type('floor_pga', 'a_Z', 'g', 'peak acceleration at the level of the wall'), &
+      & quantity_type('confidence', 'FC', '', 'confidence factor'), &
+      & quantity_type('behaviour', 'q', '', 'behaviour factor'), &
+      & quantity_type('alpha_0', 'alpha_0', '', 'multiplier that starts the mechanism'), &
+      & quantity_type('mass', 'M*', 'kg/m', 'mass that takes part'), &
+      & quantity_type('mass_ratio', 'e*', '', 'the same / the whole mass'), &
+      & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
+      & quantity_type('d_0', 'd_0*', 'm', 'displacement at which the multiplier vanishes'), &
+      & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall stands'), &
+      & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall stands'), &
+      & quantity_type('displacement', 'd_C', 'm', 'displacement that the wall stands'), &
+      & quantity_type('acceleration', 'a(d_C)', 'm/s2', 'spectral acceleration of capacity there'), &
+      & quantity_type('period', 'T', 's', 'equivalent period'), &
+      & quantity_type('damping', 'xi', '', 'equivalent damping ratio'), &
+      & quantity_type('spectral_demand', 'S_eZ(T)', 'g', 'spectral acceleration at the level of the wall'), &
+      & quantity_type('demand', 'd_D', 'm', 'displacement that the earthquake asks for'), &
+      & quantity_type('ratio', 'C/D', '', 'capacity / demand, a_gC/a_g; at least 1: verified'), &
+      & quantity_type('records', '', '', 'records'), &
+      & quantity_type('histories', '', '', 'time histories at the peak acceleration of the site'), &
+      & quantity_type('beyond', '', '', 'of these beyond d_0*; none may be'), &
+      & quantity_type('mean_displacement', '', 'm', 'mean of the largest displacements, at most d_0* each'), &
+      & quantity_type('verified', '', '', '1: verified, 0: not'), &
+      & quantity_type('probability', 'P', '', 'probability of collapse at the peak acceleration, by the fragility curve')]
+
+   !> A line of a sheet
+   type :: sheet_row_type
+      !> Part of the check: 'site', 'mechanism', 'linear', 'nonlinear', 'dynamic'
+      character(len=name_length) :: method = ''
+      !> Limit state, 'SLD', 'SLV' or 'SLC'; empty: all
+      character(len=4) :: state = ''
+      !> What the number is
+      type(quantity_type) :: quantity
+      !> Value, in its unit
+      real(wp) :: value = 0.0_wp
+      !> Where the code has the formula
+      character(len=name_length) :: formula = ''
+   end type sheet_row_type
+
+   !> Names of the columns of a sheet as a table
+   character(len=*), parameter :: sheet_head = 'method,limit_state,quantity,symbol,value,unit,formula,meaning'
+
+   !> A sheet
+   type :: sheet_type
+      !> Its lines
+      type(sheet_row_type), allocatable :: rows(:)
+   contains
+      !> Add a line
+      procedure :: add
+      !> The value of a line
+      procedure :: value
+      !> A line as a row of a table
+      procedure :: make_row
+   end type sheet_type
+
+contains
+
+   !> Place of a quantity, 0 if there is none of this name
+   pure integer function find_quantity(name) result(at)
+      !> Its name
+      character(len=*), intent(in) :: name
+
+      do at = size(quantities), 1, -1
+         if (quantities(at)%name == name) exit
+      end do
+   end function find_quantity
+
+   !> Add a line
+   pure subroutine add(self, method, state, name, value, formula)
+      class(sheet_type), intent(inout) :: self
+      !> Part of the check, limit state, and name of the quantity
+      character(len=*), intent(in) :: method, state, name
+      !> Value, in its unit
+      real(wp), intent(in) :: value
+      !> Where the code has the formula; absent: it has none
+      character(len=*), intent(in), optional :: formula
+
+      type(sheet_row_type) :: row
+
+      row%method = method
+      row%state = state
+      row%quantity = quantities(find_quantity(name))
+      row%value = value
+      if (present(formula)) row%formula = formula
+      if (.not. allocated(self%rows)) allocate (self%rows(0))
+      self%rows = [self%rows, row]
+   end subroutine add
+
+   !> The value of a line, of the first of its name; -1 where there is none
+   pure real(wp) function value(self, method, state, name)
+      class(sheet_type), intent(in) :: self
+      !> Part of the check, limit state, and name of the quantity; for the lines of all states any state
+      character(len=*), intent(in) :: method, state, name
+
+      integer :: i
+
+      value = -1.0_wp
+      do i = 1, size(self%rows)
+         associate (row => self%rows(i))
+            if (row%method /= method .or. row%quantity%name /= name) cycle
+            if (row%state /= state .and. row%state /= '') cycle
+            value = row%value
+            return
+         end associate
+      end do
+   end function value
+
+   !> A line as a row of a table; no cell needs quotes but the meaning
+   pure subroutine make_row(self, at, line)
+      class(sheet_type), intent(in) :: self
+      !> Number of the line
+      integer, intent(in) :: at
+      !> The row
+      character(len=:), allocatable, intent(out) :: line
+
+      associate (row => self%rows(at))
+         line = trim(row%method)//','//trim(row%state)//','//trim(row%quantity%name)//','//trim(row%quantity%symbol)// &
+            & ','//to_table(row%value)//','//trim(row%quantity%unit)//','//trim(row%formula)//',"'// &
+            & trim(row%quantity%meaning)//'"'
+      end associate
+   end subroutine make_row
+
+end module dondolo_check_sheet

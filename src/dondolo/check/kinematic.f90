@@ -1,0 +1,167 @@
+!> A wall as the kinematic analysis of Circolare 7/2019, C8.7.1.2.1, sees it: multiplier of the horizontal forces, mass that
+!> takes part, and curve of capacity.
+!>
+!> P_k are weights carried by the wall, its own among them, Q_k those of masses that it only pushes. All of both stand in the
+!> denominator, whatever inertia the time histories give a load. X and Y are the horizontal and vertical levers of
+!> dondolo_loaded_block, H thrusts; springs, and thrusts that decay, enter through the restoring moment:
+!>
+!>     alpha(q) = [sum P Y - sum H X ...]/sum (P + Q) X           alpha_0 = alpha(0)                      C8.7.1.1
+!>     M* = [sum (P + Q) z]^2/[g sum (P + Q) z^2]                 e* = g M*/sum (P + Q)                   C8.7.1.5
+!>     a = alpha g/(e* FC)                                                                                C8.7.1.3
+!>     d = d_C sum (P + Q) z^2/[z_C sum (P + Q) z]                d_C = z_C sin q                         C8.7.1.4
+!>
+!> The masonry is one block: a point at its centroid C, as the Circolare has it.
+module dondolo_kinematic
+   use dondolo_error, only : error_type, problems_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_wall, only : wall_type
+   use dondolo_wall_body, only : read_wall_body, wall_body_type
+   implicit none
+   private
+
+   public :: kinematic_type, new_kinematic
+
+   !> The kinematic chain of a wall of one block
+   type :: kinematic_type
+      !> Multiplier that starts the mechanism alpha_0
+      real(wp) :: multiplier = 0.0_wp
+      !> Mass that takes part M* [kg/m]
+      real(wp) :: mass = 0.0_wp
+      !> The same / the whole mass, e*
+      real(wp) :: mass_ratio = 0.0_wp
+      !> Displacement at which the multiplier vanishes d_0 [m]
+      real(wp) :: end_displacement = 0.0_wp
+      !> Displacement at which a load loses its seat [m]; huge: none does
+      real(wp) :: unseating = huge(1.0_wp)
+      !> Gravity [m/s2]
+      real(wp) :: gravity = 0.0_wp
+      !> What gives the moments
+      class(mechanism_type), allocatable, private :: mechanism
+      !> Radius of the edge a [m]
+      real(wp), private :: edge = 0.0_wp
+      !> Sums of P + Q, and of their products with heights and depths from the hinge
+      real(wp), private :: weight = 0.0_wp, weight_f = 0.0_wp, weight_e = 0.0_wp
+      !> Height of the centroid above the hinge [m], and d/d_C
+      real(wp), private :: centroid = 0.0_wp, travel = 0.0_wp
+   contains
+      !> Displacement d at a rotation
+      procedure :: displacement
+      !> Rotation at a displacement
+      procedure :: rotation
+      !> Spectral acceleration of capacity a(d)
+      procedure :: capacity
+      !> Rotation at which the multiplier vanishes
+      procedure :: end_rotation
+      procedure, private :: multiplier_at
+   end type kinematic_type
+
+contains
+
+   !> The kinematic chain of a wall
+   subroutine new_kinematic(kinematic, wall, error)
+      type(kinematic_type), intent(out) :: kinematic
+      type(wall_type), intent(in) :: wall
+      !> A mechanism that the formulas are not for
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), parameter :: right_angle = acos(0.0_wp)
+      type(wall_body_type) :: body
+      type(problems_type) :: problems
+      real(wp), allocatable :: weight(:), height(:), depth(:)
+      real(wp) :: first, second
+
+      if (wall%mechanism_name() == 'two_block') then
+         call raise_input(error, 'mechanism = ''two_block'': the kinematic check is for one block that turns about its '// &
+            & 'base, mechanism = ''one_sided'' or ''free_standing''')
+         return
+      end if
+      call read_wall_body(wall%input, wall%gravity, problems, body)
+      call problems%raise(error)
+      if (allocated(error)) return
+      if (.not. wall%mechanism%capacity < right_angle) then
+         call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
+         return
+      end if
+      kinematic%mechanism = wall%mechanism
+      kinematic%gravity = wall%gravity
+      kinematic%edge = body%actions%edge
+      associate (carried => body%actions%carried, masonry => body%body)
+         weight = [wall%gravity*masonry%mass, carried%weight + &
+            & merge(0.0_wp, wall%gravity*carried%pushed, carried%weight > 0.0_wp)]
+         height = [masonry%height, carried%height]
+         depth = [masonry%depth, carried%depth] - body%actions%hinge
+         kinematic%centroid = masonry%height - kinematic%edge
+      end associate
+      kinematic%weight = sum(weight)
+      kinematic%weight_f = sum(weight*(height - kinematic%edge))
+      kinematic%weight_e = sum(weight*depth)
+      first = sum(weight*height)
+      second = sum(weight*height**2)
+      kinematic%mass = first**2/second/wall%gravity
+      kinematic%mass_ratio = first**2/(kinematic%weight*second)
+      kinematic%travel = second/(height(1)*first)
+      kinematic%multiplier = kinematic%multiplier_at(0.0_wp)
+      kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
+      if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
+   end subroutine new_kinematic
+
+   !> Multiplier alpha at a rotation
+   pure real(wp) function multiplier_at(self, q) result(multiplier)
+      class(kinematic_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      real(wp) :: j, c, g, l, load
+
+      call self%mechanism%terms(q, j, c, g, l, load)
+      multiplier = (g - load)/(self%edge*self%weight + cos(q)*self%weight_f + sin(q)*self%weight_e)
+   end function multiplier_at
+
+   !> Rotation at which the multiplier vanishes [rad]
+   pure real(wp) function end_rotation(self)
+      class(kinematic_type), intent(in) :: self
+
+      end_rotation = self%mechanism%capacity
+   end function end_rotation
+
+   !> Displacement d of the equivalent oscillator at a rotation [m]
+   elemental real(wp) function displacement(self, q)
+      class(kinematic_type), intent(in) :: self
+      !> Rotation, less than a right angle [rad]
+      real(wp), intent(in) :: q
+
+      displacement = self%travel*(self%edge*q + self%centroid*sin(q))
+   end function displacement
+
+   !> Rotation at a displacement, by Newton's method: the displacement grows with the rotation and its slope falls, so that
+   !> from below every step stays below
+   pure real(wp) function rotation(self, d) result(q)
+      class(kinematic_type), intent(in) :: self
+      !> Displacement, 0 to d_0 [m]
+      real(wp), intent(in) :: d
+
+      integer, parameter :: enough = 50
+      real(wp) :: step
+      integer :: i
+
+      q = 0.0_wp
+      do i = 1, enough
+         step = (d - self%displacement(q))/(self%travel*(self%edge + self%centroid*cos(q)))
+         q = q + step
+         if (abs(step) <= epsilon(q)*q) exit
+      end do
+   end function rotation
+
+   !> Spectral acceleration of capacity a = alpha g/(e* FC) at a displacement [m/s2]
+   pure real(wp) function capacity(self, d, confidence) result(a)
+      class(kinematic_type), intent(in) :: self
+      !> Displacement [m]
+      real(wp), intent(in) :: d
+      !> Confidence factor FC
+      real(wp), intent(in) :: confidence
+
+      a = self%multiplier_at(self%rotation(d))*self%gravity/(self%mass_ratio*confidence)
+   end function capacity
+
+end module dondolo_kinematic

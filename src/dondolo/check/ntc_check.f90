@@ -1,0 +1,235 @@
+!> Checks of a wall by NTC 2018 and Circolare 7/2019, C8.7.1.2.1: kinematic, linear and nonlinear, and the criterion for
+!> time histories. What is computed is a sheet, every number with its formula.
+!>
+!>     SLD, linear      a_Z <= a_0*, a_0* = alpha_0 g/(e* FC)                                        C8.7.1.8
+!>     SLV, linear      a_g = q times that of the linear check that starts the mechanism, q = 2
+!>     SLV, nonlinear   d_SLV = 0.4 d_0*, T = 1.68 pi sqrt(d/a(d)), xi = 8 %                         C8.7.1.10
+!>     SLC, nonlinear   d_SLC = 0.6 d_0* or where a load loses its seat, T = 1.56 pi sqrt(d/a(d)), xi = 10 %   C8.7.1.11
+!>     dynamic          no history beyond d_0*, mean of the largest d at most d_SLV or d_SLC         C8.7.1.2.1.9
+!>
+!> The a_g that a wall stands is the site's, scaled until capacity and demand are equal; shape and soil factor of the spectrum
+!> stay. That of the nonlinear check is not below the one that starts the mechanism.
+module dondolo_ntc_check
+   use dondolo_check_input, only : check_input_type, state_names
+   use dondolo_check_sheet, only : sheet_type
+   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_kinematic, only : kinematic_type
+   implicit none
+   private
+
+   public :: check_ntc, check_histories, capacity_displacement
+
+   !> Factors of the period and damping ratios of the nonlinear check, SLV and SLC
+   real(wp), parameter :: period_factors(2:3) = [1.68_wp, 1.56_wp], dampings(2:3) = [0.08_wp, 0.10_wp]
+   !> Displacements that it allows / d_0*
+   real(wp), parameter :: shares(2:3) = [0.4_wp, 0.6_wp]
+
+contains
+
+   !> Kinematic check of a wall
+   pure subroutine check_ntc(sheet, kinematic, input, modes, curve)
+      type(sheet_type), intent(out) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+      !> Period [s], damping ratio, and participation times shape at the level of the wall, of each mode of the building
+      !> (3, modes); no mode: at the ground
+      real(wp), intent(in) :: modes(:, :)
+      !> Curve of collapse over the peak acceleration at the site [g]: the sheet then has probabilities
+      type(fragility_type), intent(in), optional :: curve
+
+      type(floor_spectrum_type) :: spectrum
+      integer :: i
+
+      do i = 1, merge(3, 1, input%has_states())
+         call put_site(sheet, input, i, modes)
+      end do
+      call put_mechanism(sheet, kinematic, input)
+      spectrum = new_floor_spectrum(input%spectrum(1), modes(1, :), modes(2, :), modes(3, :))
+      call put_linear(sheet, kinematic, input, spectrum, 1)
+      spectrum = new_floor_spectrum(input%spectrum(2), modes(1, :), modes(2, :), modes(3, :))
+      call put_linear(sheet, kinematic, input, spectrum, 2)
+      do i = 2, 3
+         spectrum = new_floor_spectrum(input%spectrum(i), modes(1, :), modes(2, :), modes(3, :))
+         call put_nonlinear(sheet, kinematic, input, spectrum, i)
+      end do
+      if (present(curve)) call put_probabilities(sheet, curve)
+   end subroutine check_ntc
+
+   !> Put the probability of collapse behind each peak acceleration at the site, the site's own and what the wall stands
+   pure subroutine put_probabilities(sheet, curve)
+      type(sheet_type), intent(inout) :: sheet
+      type(fragility_type), intent(in) :: curve
+
+      type(sheet_type) :: longer
+      integer :: i
+
+      if (.not. curve%has_fit()) return
+      do i = 1, size(sheet%rows)
+         associate (row => sheet%rows(i))
+            call longer%add(row%method, row%state, row%quantity%name, row%value, row%formula)
+            if (row%quantity%name == 'pga' .or. row%quantity%name == 'capacity_pga') call longer%add(row%method, row%state, &
+               & 'probability', curve%probability(row%value))
+         end associate
+      end do
+      sheet = longer
+   end subroutine put_probabilities
+
+   !> Put the hazard of the site
+   pure subroutine put_site(sheet, input, state, modes)
+      type(sheet_type), intent(inout) :: sheet
+      type(check_input_type), intent(in) :: input
+      !> Number of the limit state; all have the hazard of the first if there is only one
+      integer, intent(in) :: state
+      !> Modes of the building
+      real(wp), intent(in) :: modes(:, :)
+
+      type(floor_spectrum_type) :: spectrum
+      character(len=4) :: name
+
+      name = ''
+      if (input%has_states()) name = state_names(state)
+      spectrum = new_floor_spectrum(input%spectrum(state), modes(1, :), modes(2, :), modes(3, :))
+      associate (ground => spectrum%ground)
+         call sheet%add('site', name, 'ag', ground%pga/ground%soil_factor)
+         call sheet%add('site', name, 'f0', ground%amplification)
+         call sheet%add('site', name, 'tc_star', input%tc_star(min(state, size(input%tc_star))))
+         call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1')
+         call sheet%add('site', name, 'tc', ground%corners(2), 'NTC 3.2.3.2.1')
+         call sheet%add('site', name, 'pga', ground%pga)
+         if (size(modes, 2) > 0) call sheet%add('site', name, 'floor_pga', spectrum%peak_acceleration(), 'C7.2.3')
+      end associate
+   end subroutine put_site
+
+   !> Put what the mechanism has of its own
+   pure subroutine put_mechanism(sheet, kinematic, input)
+      type(sheet_type), intent(inout) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+
+      call sheet%add('mechanism', '', 'confidence', input%confidence)
+      call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1')
+      call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5')
+      call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5')
+      call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%confidence), 'C8.7.1.3')
+      call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
+   end subroutine put_mechanism
+
+   !> Put a linear check: of SLD, or of SLV with the behaviour factor
+   pure subroutine put_linear(sheet, kinematic, input, spectrum, state)
+      type(sheet_type), intent(inout) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+      type(floor_spectrum_type), intent(in) :: spectrum
+      !> Number of the limit state
+      integer, intent(in) :: state
+
+      character(len=3) :: name
+      real(wp) :: factor
+
+      name = state_names(state)
+      factor = 1.0_wp
+      if (state == 2) then
+         factor = input%behaviour
+         call sheet%add('linear', name, 'behaviour', factor)
+      end if
+      call sheet%add('linear', name, 'floor_pga', spectrum%peak_acceleration(), merge('C8.7.1.8', 'C7.2.3  ', &
+         & size(spectrum%period) == 0))
+      call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum)
+   end subroutine put_linear
+
+   !> Factor on the site's a_g at which the mechanism starts
+   pure real(wp) function activation(kinematic, input, spectrum) result(factor)
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+      type(floor_spectrum_type), intent(in) :: spectrum
+
+      factor = kinematic%capacity(0.0_wp, input%confidence)/(kinematic%gravity*spectrum%peak_acceleration())
+   end function activation
+
+   !> Displacement that the nonlinear check allows in a limit state [m]
+   pure real(wp) function capacity_displacement(kinematic, state) result(d)
+      type(kinematic_type), intent(in) :: kinematic
+      !> 2: SLV, 3: SLC
+      integer, intent(in) :: state
+
+      d = shares(state)*kinematic%end_displacement
+      if (state == 3) d = min(d, kinematic%unseating)
+   end function capacity_displacement
+
+   !> Put a nonlinear check
+   pure subroutine put_nonlinear(sheet, kinematic, input, spectrum, state)
+      type(sheet_type), intent(inout) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+      type(floor_spectrum_type), intent(in) :: spectrum
+      !> 2: SLV, 3: SLC
+      integer, intent(in) :: state
+
+      real(wp), parameter :: pi = acos(-1.0_wp)
+      character(len=3) :: name
+      real(wp) :: d, a, period, demand
+
+      name = state_names(state)
+      d = capacity_displacement(kinematic, state)
+      a = kinematic%capacity(d, input%confidence)
+      period = period_factors(state)*pi*sqrt(d/a)
+      demand = spectrum%displacement(period, dampings(state), kinematic%gravity)
+      call sheet%add('nonlinear', name, 'displacement', d)
+      call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3')
+      call sheet%add('nonlinear', name, 'period', period, merge('C8.7.1.10', 'C8.7.1.11', state == 2))
+      call sheet%add('nonlinear', name, 'damping', dampings(state))
+      call sheet%add('nonlinear', name, 'spectral_demand', spectrum%acceleration(period, dampings(state)), &
+         & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0))
+      call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.2', 'C8.7.1.12    ', size(spectrum%period) == 0))
+      call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum)
+   end subroutine put_nonlinear
+
+   !> Put the a_g that a wall stands
+   pure subroutine put_capacity(sheet, method, state, factor, spectrum)
+      type(sheet_type), intent(inout) :: sheet
+      !> Part of the check and limit state
+      character(len=*), intent(in) :: method, state
+      !> a_g that the wall stands / that of the site
+      real(wp), intent(in) :: factor
+      type(floor_spectrum_type), intent(in) :: spectrum
+
+      call sheet%add(method, state, 'capacity_ag', factor*spectrum%ground%pga/spectrum%ground%soil_factor)
+      call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga)
+      call sheet%add(method, state, 'ratio', factor)
+      call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, factor >= 1.0_wp))
+   end subroutine put_capacity
+
+   !> Criterion for time histories at the peak acceleration of the site, C8.7.1.2.1.9
+   pure subroutine check_histories(sheet, kinematic, state, pga, records, edp)
+      !> The lines are added
+      type(sheet_type), intent(inout) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
+      !> 2: SLV, 3: SLC
+      integer, intent(in) :: state
+      !> Peak acceleration that the records were scaled to [g]
+      real(wp), intent(in) :: pga
+      !> Number of records
+      integer, intent(in) :: records
+      !> Largest rotation / capacity of each history, at least one; 1 or more where it collapsed
+      real(wp), intent(in) :: edp(:)
+
+      character(len=3) :: name
+      real(wp) :: mean, allowed
+      integer :: beyond
+
+      name = state_names(state)
+      beyond = count(edp >= 1.0_wp)
+      mean = sum(kinematic%displacement(min(edp, 1.0_wp)*kinematic%end_rotation()))/real(size(edp), wp)
+      allowed = capacity_displacement(kinematic, state)
+      call sheet%add('dynamic', name, 'pga', pga)
+      call sheet%add('dynamic', name, 'records', real(records, wp))
+      call sheet%add('dynamic', name, 'histories', real(size(edp), wp))
+      call sheet%add('dynamic', name, 'beyond', real(beyond, wp), 'C8.7.1.2.1.9')
+      call sheet%add('dynamic', name, 'mean_displacement', mean, 'C8.7.1.2.1.9')
+      call sheet%add('dynamic', name, 'displacement', allowed)
+      call sheet%add('dynamic', name, 'verified', merge(1.0_wp, 0.0_wp, beyond == 0 .and. mean <= allowed), 'C8.7.1.2.1.9')
+   end subroutine check_histories
+
+end module dondolo_ntc_check

@@ -1,0 +1,244 @@
+!> Checks by NTC 2018 and Circolare 7/2019 against independently computed values (10 to 12 digits): a_g 0.2 g, F_0 2.5,
+!> T_C* 0.35 s, soil B, FC 1.35; buildings of one mode, 0.3 s, 5 %, participation times shape 9/7.
+program test_code_check
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_check_input, only : check_input_type, check_properties, take_check
+   use dondolo_check_sheet, only : sheet_type
+   use dondolo_code_spectrum, only : elastic_spectrum_type, ntc_spectrum
+   use dondolo_error, only : error_type, problems_type
+   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
+   use dondolo_kinds, only : wp
+   use dondolo_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_ntc_check, only : check_histories, check_ntc
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   implicit none
+
+   real(wp), parameter :: printed = 1.0e-11_wp, nothing(3, 0) = reshape([real(wp) ::], [3, 0])
+   real(wp), parameter :: modes(3, 1) = reshape([0.3_wp, 0.05_wp, 9.0_wp/7.0_wp], [3, 1])
+
+   call test_spectra()
+   call test_walls()
+   call test_states()
+   call test_histories()
+   call test_wrong_input()
+   call finish()
+
+contains
+
+   !> Spectra of the ground and of a floor
+   subroutine test_spectra()
+      type(elastic_spectrum_type) :: ground
+      type(floor_spectrum_type) :: floor
+      real(wp), parameter :: periods(5) = [0.0_wp, 0.1_wp, 0.3_wp, 0.6_wp, 1.0_wp], &
+         & ordinates(5) = [0.7752761193_wp, 1.394179804_wp, 3.344971436_wp, 0.9278124582_wp, 0.3821292313_wp]
+      integer :: i
+
+      call suite('spectra')
+      ground = ntc_spectrum(0.2_wp, 2.5_wp, 0.35_wp, 'B', 'T1')
+      call check_close(ground%soil_factor, 1.2_wp, printed, 'S')
+      call check_close(ground%corners(2), 0.474949156418938_wp, printed, 'T_C')
+      call check_close(ground%acceleration(0.0_wp, 0.08_wp), 0.24_wp, printed, 'S_e(0)')
+      ground = ntc_spectrum(0.1_wp, 2.5_wp, 0.3_wp, 'D', 'T4')
+      call check_close(ground%soil_factor, 1.8_wp*1.4_wp, printed, 'S of soil D at T4')
+      ground = ntc_spectrum(0.2_wp, 2.5_wp, 0.35_wp, 'B', 'T1')
+      floor = new_floor_spectrum(ground, modes(1, :), modes(2, :), modes(3, :))
+      call check_close(floor%peak_acceleration(), 0.7752761193_wp, 1.0e-9_wp, 'a_Z')
+      do i = 1, size(periods)
+         call check_close(floor%acceleration(periods(i), 0.08_wp), ordinates(i), 1.0e-9_wp, 'S_eZ')
+      end do
+      ! Of a mode that hardly moves the level the ground's own ordinate is the least, but not below its period
+      floor = new_floor_spectrum(ground, modes(1, :), modes(2, :), 0.01_wp*modes(3, :))
+      call check_close(floor%acceleration(0.6_wp, 0.08_wp), ground%acceleration(0.6_wp, 0.08_wp), printed, 'S_eZ(0.6 s)')
+      call check_close(floor%acceleration(0.1_wp, 0.08_wp), 0.01394179804_wp, 1.0e-9_wp, 'S_eZ(0.1 s)')
+   end subroutine test_spectra
+
+   !> The worked walls
+   subroutine test_walls()
+      type(wall_input_type) :: input
+
+      call suite('wall W1')
+      input = a_wall(3.0_wp, 0.25_wp)
+      call check_wall(input, nothing, [1.0_wp/12.0_wp, 1.0_wp, 0.124568219781_wp, 0.0498272879122_wp, 1.95533320406_wp, &
+         & 0.121438596899_wp, 0.08206169897_wp, 0.1028806584_wp])
+      call suite('parapet')
+      input = a_wall(1.5_wp, 0.25_wp)
+      call check_wall(input, nothing, [1.0_wp/6.0_wp, 1.0_wp, 0.123299240479_wp, 0.0493196961916_wp, 1.37727350154_wp, &
+         & 0.0855374220754_wp, 0.1153172378_wp, 0.2057613169_wp])
+      call suite('parapet on a building')
+      call check_wall(input, modes, [1.0_wp/6.0_wp, 1.0_wp, 0.123299240479_wp, 0.0493196961916_wp, 1.37727350154_wp, &
+         & 0.11062849122_wp, 0.08916273855_wp, 0.06369693947_wp])
+      call suite('facade F')
+      input = a_wall(9.0_wp, 0.5_wp)
+      call check_wall(input, nothing, [1.0_wp/18.0_wp, 1.0_wp, 0.249615088301_wp, 0.0998460353205_wp, 3.38920573498_wp, &
+         & 0.14905522596_wp, 0.133971868_wp, 0.06858710562_wp])
+      call suite('facade with floors')
+      call input%set('load', [8.0e3_wp, 8.0e3_wp, 5.0e3_wp])
+      call input%set('load_depth', [0.4_wp])
+      call input%set('load_height', [3.0_wp, 6.0_wp, 9.0_wp])
+      call input%set('load_inertia', 'vertical')
+      call check_wall(input, nothing, [0.0595591419261_wp, 0.944310874671_wp, 0.297420857628_wp, 0.118968343051_wp, &
+         & 3.47222005699_wp, 0.14905522596_wp, 0.1596298852_wp, 0.07786609984_wp])
+      call suite('facade with floors and thrust')
+      call input%set('thrust', [1.5e3_wp])
+      call input%set('thrust_height', [9.0_wp])
+      call input%set('load_inertia', 'both')
+      call check_wall(input, nothing, [0.0311126071881_wp, 0.944310874671_wp, 0.15532203864_wp, 0.0621288154559_wp, &
+         & 3.47179191626_wp, 0.14905522596_wp, 0.08336348498_wp, 0.04067582741_wp])
+   end subroutine test_walls
+
+   !> Hold the check of a wall against: alpha_0, e*, d_0, d_SLV, T_SLV, demand, a_g,SLV and that of the linear check
+   subroutine check_wall(input, of_building, expected)
+      type(wall_input_type), intent(in) :: input
+      real(wp), intent(in) :: of_building(:, :), expected(8)
+
+      type(sheet_type) :: sheet
+
+      call make_sheet(sheet, input, the_site([0.2_wp]), of_building)
+      call check_close(sheet%value('mechanism', '', 'alpha_0'), expected(1), printed, 'alpha_0')
+      call check_close(sheet%value('mechanism', '', 'mass_ratio'), expected(2), printed, 'e*')
+      call check_close(sheet%value('mechanism', '', 'd_0'), expected(3), printed, 'd_0')
+      call check_close(sheet%value('nonlinear', 'SLV', 'displacement'), expected(4), printed, 'd_SLV')
+      call check_close(sheet%value('nonlinear', 'SLV', 'period'), expected(5), printed, 'T_SLV')
+      call check_close(sheet%value('nonlinear', 'SLV', 'demand'), expected(6), printed, 'demand')
+      call check_close(sheet%value('nonlinear', 'SLV', 'capacity_ag'), expected(7), 1.0e-9_wp, 'a_g,SLV')
+      call check_close(sheet%value('linear', 'SLV', 'capacity_ag'), expected(8), 1.0e-9_wp, 'linear a_g,SLV')
+      call check_close(sheet%value('linear', 'SLD', 'ratio'), expected(8)/0.4_wp, 1.0e-9_wp, 'ratio of SLD')
+      call check_close(sheet%value('nonlinear', 'SLC', 'displacement'), 0.6_wp*expected(3), printed, 'd_SLC')
+   end subroutine check_wall
+
+   !> What a limit state has of its own: hazard, unseating, a capacity not below the start of the mechanism
+   subroutine test_states()
+      type(wall_input_type) :: input
+      type(sheet_type) :: sheet, alone
+      real(wp) :: slc
+
+      call suite('limit states')
+      input = a_wall(3.0_wp, 0.25_wp)
+      call make_sheet(sheet, input, the_site([0.1_wp, 0.2_wp, 0.3_wp]), nothing)
+      call check_close(sheet%value('linear', 'SLD', 'ratio'), 0.0833333333333333_wp/1.35_wp/0.12_wp, printed, 'SLD at its a_g')
+      call check_close(sheet%value('site', 'SLC', 'pga'), 0.33_wp, printed, 'a_g S of SLC')
+      call make_sheet(alone, input, the_site([0.3_wp]), nothing)
+      call check_close(sheet%value('nonlinear', 'SLC', 'demand'), alone%value('nonlinear', 'SLC', 'demand'), printed, &
+         & 'demand of SLC')
+      slc = sheet%value('nonlinear', 'SLC', 'displacement')
+      call input%set('load', [1.0_wp])
+      call input%set('load_depth', [0.125_wp])
+      call input%set('load_height', [3.0_wp])
+      call input%set('load_inertia', 'both')
+      call input%set('load_seat', [0.1_wp])
+      call make_sheet(sheet, input, the_site([0.2_wp]), nothing)
+      ! The load at the top moves twice as far as the centroid
+      call check(slc > 0.05_wp, 'd_SLC without a seat')
+      call check_close(sheet%value('nonlinear', 'SLC', 'displacement'), 0.05_wp, 0.01_wp, 'd_SLC where the load falls')
+      input = a_wall(0.3_wp, 0.25_wp)
+      call make_sheet(sheet, input, the_site([0.2_wp]), nothing)
+      call check_close(sheet%value('nonlinear', 'SLV', 'capacity_ag'), max(sheet%value('linear', 'SLD', 'capacity_ag'), &
+         & 0.2_wp*sheet%value('nonlinear', 'SLV', 'displacement')/sheet%value('nonlinear', 'SLV', 'demand')), printed, &
+         & 'a_g,SLV not below the start')
+   end subroutine test_states
+
+   !> The criterion for time histories
+   subroutine test_histories()
+      type(sheet_type) :: sheet
+      type(kinematic_type) :: kinematic
+      type(wall_type) :: wall
+      type(error_type), allocatable :: error
+      real(wp) :: alpha
+
+      call suite('histories')
+      call new_wall(wall, a_wall(3.0_wp, 0.25_wp), error)
+      call new_kinematic(kinematic, wall, error)
+      alpha = atan2(0.25_wp, 3.0_wp)
+      call check_histories(sheet, kinematic, 2, 0.24_wp, 3, [0.0_wp, 0.5_wp, 0.6_wp])
+      call check_close(sheet%value('dynamic', 'SLV', 'mean_displacement'), 0.5_wp*(sin(0.5_wp*alpha) + sin(0.6_wp*alpha)), &
+         & printed, 'mean')
+      call check_close(sheet%value('dynamic', 'SLV', 'verified'), 1.0_wp, printed, 'verified')
+      call check_histories(sheet, kinematic, 3, 0.24_wp, 3, [0.0_wp, 0.0_wp, 1.0_wp])
+      call check_close(sheet%value('dynamic', 'SLC', 'beyond'), 1.0_wp, printed, 'histories beyond d_0')
+      call check_close(sheet%value('dynamic', 'SLC', 'verified'), 0.0_wp, printed, 'one history is enough')
+      sheet%rows = sheet%rows(:0)
+      call check_histories(sheet, kinematic, 2, 0.24_wp, 1, [0.45_wp])
+      call check_close(sheet%value('dynamic', 'SLV', 'verified'), 0.0_wp, printed, 'a mean beyond d_SLV')
+   end subroutine test_histories
+
+   !> What cannot be checked
+   subroutine test_wrong_input()
+      type(wall_input_type) :: input
+      type(wall_type) :: wall
+      type(kinematic_type) :: kinematic
+      type(error_type), allocatable :: error
+
+      call suite('wrong input')
+      call refuse([2.0_wp], 'B', 1.35_wp, 'ag = 2: must lie between 0.001 and 1 g')
+      call refuse([0.1_wp, 0.2_wp], 'B', 1.35_wp, 'ag: has 2 values, must have one, or three: SLD, SLV, SLC')
+      call refuse([0.3_wp, 0.2_wp, 0.4_wp], 'B', 1.35_wp, 'ag: must not decrease from SLD to SLC')
+      call refuse([0.2_wp], 'F', 1.35_wp, 'soil = ''f'': must be one of ''A'', ''B'', ''C'', ''D'', ''E''')
+      call refuse([0.2_wp], 'B', 1.5_wp, 'confidence = 1.5: must lie between 1 and 1.35')
+      input = a_wall(3.0_wp, 0.25_wp)
+      call input%set('mechanism', 'two_block')
+      call new_wall(wall, input, error)
+      call new_kinematic(kinematic, wall, error)
+      call check_error(error, 'the kinematic check is for one block', 'two blocks')
+   end subroutine test_wrong_input
+
+   !> A site that is wrong in one way
+   subroutine refuse(ag, soil, confidence, message)
+      real(wp), intent(in) :: ag(:), confidence
+      character(len=*), intent(in) :: soil, message
+
+      type(group_settings_type) :: settings
+      type(check_input_type) :: input
+      type(problems_type) :: problems
+
+      call new_settings(settings, check_properties)
+      call settings%set('ag', ag)
+      call settings%set('f0', [2.5_wp])
+      call settings%set('tc_star', [0.35_wp])
+      call settings%set('soil', soil)
+      call settings%set('confidence', confidence)
+      call take_check(input, settings, problems)
+      call check(problems%count == 1, 'one thing is wrong')
+      if (problems%count > 0) call check_text(problems%text, message, 'message')
+   end subroutine refuse
+
+   !> The site
+   function the_site(ag) result(input)
+      real(wp), intent(in) :: ag(:)
+      type(check_input_type) :: input
+
+      input%ag = ag
+      input%f0 = [2.5_wp]
+      input%tc_star = [0.35_wp]
+      input%soil = 'B'
+   end function the_site
+
+   !> The check of a wall
+   subroutine make_sheet(sheet, input, site, of_building)
+      type(sheet_type), intent(out) :: sheet
+      type(wall_input_type), intent(in) :: input
+      type(check_input_type), intent(in) :: site
+      real(wp), intent(in) :: of_building(:, :)
+
+      type(wall_type) :: wall
+      type(kinematic_type) :: kinematic
+      type(error_type), allocatable :: error
+
+      call new_wall(wall, input, error)
+      call check_ok(error, 'wall')
+      call new_kinematic(kinematic, wall, error)
+      call check_ok(error, 'kinematic chain')
+      call check_ntc(sheet, kinematic, site, of_building)
+   end subroutine make_sheet
+
+   !> A bare wall
+   function a_wall(height, thickness) result(input)
+      real(wp), intent(in) :: height, thickness
+      type(wall_input_type) :: input
+
+      call input%set('mechanism', 'one_sided')
+      call input%set('height', height)
+      call input%set('thickness', thickness)
+   end function a_wall
+
+end program test_code_check
