@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import study
 from dondolo._storage import saved
+from dondolo.exchange.fragility_model import Limits
 
 import dondolo as dd
 
@@ -65,6 +66,14 @@ def results(stripes, few, wall):
         "target": dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], dispersion=0.6).conditional(0.5, 0.8),
         "selection": dd.select_records(few, dd.ec8_spectrum(0.3, periods=[0.1, 0.5, 1.0]), 1, max_factor=100.0),
         "discrete": dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75]),
+        "fragility model": dd.FragilityModel(
+            functions={"a": {"c": dd.Fragility.of_parameters(0.5, 0.4, im="pga")}},
+            limits={"a": Limits(None, 0.1, 2.0)},
+            id="m",
+            description="walls",
+            asset_category="buildings",
+            loss_category="structural",
+        ),
         "typology": people,
         "one mechanism": one,
         "group": people.groups[0],
