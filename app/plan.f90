@@ -5,9 +5,10 @@ module dondolo_plan
    use dondolo_check_case, only : check_case
    use dondolo_check_lines, only : print_check
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_error, only : error_type, problems_type, raise_failure
+   use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_plan_wall, only : name_width, print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_population_case, only : find_start
@@ -16,10 +17,8 @@ module dondolo_plan
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
    use dondolo_store, only : store_type
-   use dondolo_text, only : left, rounded, to_text
+   use dondolo_text, only : rounded, to_text
    use dondolo_wall, only : wall_type
-   use dondolo_wall_body, only : is_bare, read_wall_body, wall_body_type
-   use dondolo_wall_properties, only : wall_input_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : scale_warning_type, warn_of_records
@@ -27,10 +26,7 @@ module dondolo_plan
    implicit none
    private
 
-   public :: print_plan, print_wall
-
-   !> Width of the column of names
-   integer, parameter :: name_width = 30
+   public :: print_plan
 
 contains
 
@@ -59,6 +55,8 @@ contains
          oddities = case%survey%oddities
       else
          call print_wall(case%wall)
+         call print_body(case%wall)
+         write (output_unit, '(a)') ''
          if (allocated(case%check)) then
             call check_case(case, sheet, error)
             if (allocated(error)) return
@@ -113,67 +111,6 @@ contains
       end do
    end subroutine print_warnings
 
-   !> Print the one wall and its static quantities
-   subroutine print_wall(wall)
-      type(wall_type), intent(in) :: wall
-
-      integer :: width
-
-      width = min(max(4, len(wall%name())), name_width)
-      call print_head(width)
-      call print_row(wall, width)
-      if (wall%mechanism_name() /= 'two_block') then
-         if (.not. is_bare(wall%input)) call print_body(wall)
-      end if
-      write (output_unit, '(a)') ''
-   end subroutine print_wall
-
-   !> Print the body of a wall, what acts on it, and what ends its motion
-   subroutine print_body(wall)
-      !> A wall of one block
-      type(wall_type), intent(in) :: wall
-
-      type(wall_body_type) :: whole
-      type(problems_type) :: problems
-      integer :: i
-
-      call read_wall_body(wall%input, wall%gravity, problems, whole)
-      associate (body => whole%body, actions => whole%actions, q => wall%mechanism%capacity)
-         call print_line('masonry', rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer face, '// &
-            & rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
-         if (actions%hinge > 0.0_wp) call print_line('hinge', rounded(actions%hinge)//' m behind the outer face'// &
-            & trim(merge(', from the compressive strength', repeat(' ', 31), wall%input%has('compressive_strength'))))
-         do i = 1, size(actions%carried)
-            associate (thing => actions%carried(i))
-               if (thing%weight > 0.0_wp) call print_line('load', rounded(thing%weight)//' N/m at depth '// &
-                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '//rounded(thing%pushed)// &
-                  & ' kg/m, lifted '//rounded(thing%lifted)//' kg/m')
-               if (.not. thing%weight > 0.0_wp) call print_line('mass', rounded(thing%pushed)//' kg/m pushed at depth '// &
-                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m')
-            end associate
-         end do
-         call print_line('moments', 'weights hold with '//rounded(wall%gravity*body%mass*(body%depth - actions%hinge) &
-            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m/m, thrusts push out with '// &
-            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
-         if (wall%mechanism%unseating < q) then
-            call print_line('collapse', 'a load loses its seat at '//rounded(wall%mechanism%unseating)//' rad, '// &
-               & rounded(wall%mechanism%unseating/q)//' of the capacity')
-         else
-            call print_line('collapse', 'the restoring moment vanishes at '//rounded(q)//' rad')
-         end if
-      end associate
-   end subroutine print_body
-
-   !> Print a line of what there is to say of a wall
-   subroutine print_line(what, text)
-      !> What it is
-      character(len=*), intent(in) :: what
-      !> What there is to say
-      character(len=*), intent(in) :: text
-
-      write (output_unit, '(a)') '   '//left(what//':', 10)//text
-   end subroutine print_line
-
    !> Print the first rows of the population
    subroutine print_population(case, error)
       type(case_type), intent(in) :: case
@@ -208,51 +145,6 @@ contains
       end associate
       write (output_unit, '(a)') ''
    end subroutine print_population
-
-   !> Print the head of the table of walls
-   subroutine print_head(width)
-      !> Width of the column of names
-      integer, intent(in) :: width
-
-      write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
-         & 'p', 'capacity', 'speed'
-      write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
-   end subroutine print_head
-
-   !> Print a wall and its static quantities
-   subroutine print_row(wall, width)
-      type(wall_type), intent(in) :: wall
-      !> Width of the column of names
-      integer, intent(in) :: width
-
-      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
-         & wall%mechanism_name(), wall%input%number('height'), wall%input%number('thickness'), &
-         & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
-         & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall%input))
-   end subroutine print_row
-
-   !> The load on a wall, and where it bears
-   pure function load_of(input) result(text)
-      !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
-      !> Blanks and a few words, filled up with blanks; empty without a load
-      character(len=160) :: text
-
-      real(wp) :: half, eccentricity
-
-      text = ''
-      if (.not. input%number('overburden') > 0.0_wp) return
-      half = 0.5_wp*input%number('thickness')
-      text = '  load '//rounded(input%number('overburden'))//' N/m'
-      eccentricity = input%number('eccentricity')
-      if (eccentricity < 0.0_wp) then
-         text = trim(text)//', '//rounded(half + eccentricity)//' m from the inner face, folding outwards'
-      else if (eccentricity > 0.0_wp) then
-         text = trim(text)//', '//rounded(half - eccentricity)//' m from the outer face, folding outwards'
-      else
-         text = trim(text)//', on the centreline'
-      end if
-   end function load_of
 
    !> Print the records
    subroutine print_records(case)

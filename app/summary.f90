@@ -7,7 +7,7 @@ module dondolo_summary
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_plan, only : print_wall
+   use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_typology, only : whole_population
@@ -38,9 +38,11 @@ contains
       select case (case%job%task)
       case ('history')
          call print_wall(case%wall)
+         write (output_unit, '(a)') ''
          call print_history(case, results)
       case ('stripes')
          call print_wall(case%wall)
+         write (output_unit, '(a)') ''
          call print_stripes(case, results)
          if (allocated(case%check)) then
             write (output_unit, '(a)') ''

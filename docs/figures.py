@@ -15,7 +15,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.figures import style
-from dondolo.walls.drawing import shape
+from dondolo.walls.shape import shape
 
 import dondolo as dd
 
@@ -81,7 +81,7 @@ def mechanisms():
 
 def bearing():
     """Draw joists on a wall that folds outwards, about the outer edge of its top, and on one that folds inwards."""
-    load = {"overburden": 8000.0, "bearing": "inner", "bearing_distance": 0.06}
+    load = {"overburden": 8000.0, "overburden_inertia": 0.0, "bearing": "inner", "bearing_distance": 0.06}
     wall = dd.TwoBlockWall(height=1.2, thickness=0.25, hinge=0.6, **load)
     figure, axes = new_axes(1, 2, (8.4, 4.6))
     joists = {"color": style.GREY, "linewidth": 7.0, "alpha": 0.55, "solid_capstyle": "butt", "zorder": 3}

@@ -20,8 +20,28 @@ cases = {
     "hinge 20": {"hinge_depth": 0.02},
     "strength": {"compressive_strength": 1e6},
 }
-for name, more in cases.items():
-    wall = dd.OneSidedWall(3.0, 0.25, **more)
-    f = dd.multiple_stripe(wall, records, levels, polarity="both").fit()
+# Where a two-block wall lifts its load; the speed ratio alone is that of the mass on a wall whose load is dead
+strip = {"hinge": 0.6, "overburden": 20e3}
+strips = {
+    "bare": {"hinge": 0.6},
+    "dead": {**strip, "overburden_inertia": 0.0},
+    "dead, impulse": {**strip, "overburden_inertia": 0.0, "restitution": "impulse"},
+    "dead, ratio 0.487": {
+        **strip,
+        "overburden_inertia": 0.0,
+        "restitution": "constant",
+        "restitution_value": 0.48729473876118,
+    },
+    "half lifted": {**strip, "overburden_inertia": 0.5},
+    "lifted": {**strip, "overburden_inertia": 1.0},
+    "lifted, strength": {**strip, "overburden_inertia": 1.0, "compressive_strength": 1e6},
+}
+far = np.r_[levels, np.arange(2.2, 4.41, 0.2)]
+walls = {name: dd.OneSidedWall(3.0, 0.25, **more) for name, more in cases.items()}
+walls |= {f"strip, {name}": dd.TwoBlockWall(3.0, 0.25, **more) for name, more in strips.items()}
+for name, wall in walls.items():
+    at = far if wall.two_sided else levels
+    f = dd.multiple_stripe(wall, records, at, polarity="both").fit()
     trigger = wall.trigger_acceleration / wall.gravity
-    print(f"{name:24s} {trigger:.4f} {wall.capacity_angle:.4f} {f.theta:.3f} {f.beta:.3f} {f.status}")
+    numbers = f"{wall.capacity_angle:.4f} {wall.restitution_coefficient:.3f} {f.theta:.3f} {f.beta:.3f}"
+    print(f"{name:24s} {trigger:.4f} {numbers} {f.status}")

@@ -264,8 +264,8 @@ population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
 run people.nml
 check "typology: no level where so many cannot collapse" grep -qE \
    '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g \(-: only [0-9.]+ % can collapse\)$' stdout
-printf 'mechanism,height,thickness,overburden,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
-   'two_block,3,0.25,8000,inner,0.06,' 'two_block,3,0.25,8000,,,-0.065' >walls.csv
+printf 'mechanism,height,thickness,overburden,overburden_inertia,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
+   'two_block,3,0.25,8000,0,inner,0.06,' 'two_block,3,0.25,8000,0,,,-0.065' >walls.csv
 run people.nml
 check "typology: a bearing is an eccentricity" equal \
    "$(grep '^wall 1,' out/people_stripes.csv | cut -d, -f 2-)" "$(grep '^wall 2,' out/people_stripes.csv | cut -d, -f 2-)"
@@ -363,7 +363,7 @@ run --template
 check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
-   restitution_value restitution_factor overburden bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
+   restitution_value restitution_factor overburden overburden_inertia bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
    engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography confidence behaviour; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
@@ -799,7 +799,7 @@ warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60
 warned 's/thickness = 0.25/thickness = 25/' "wall '.*': thickness = 25 m is more than 3 m: is it in centimetres?"
 warned 's/thickness/density = 18 thickness/' "density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
 warned 's/thickness/density = 1.800 thickness/' "density = 1.8 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
-warned "s/one_sided'/two_block' overburden = 15/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
+warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv
@@ -815,7 +815,7 @@ check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' '
 warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
 warned "s/one_sided'/two_block' bearing = 'centre'/" \
    "wall 'wall, one': a bearing or an eccentricity without overburden changes nothing: is the overburden missing?"
-good_case | sed "s/one_sided'/two_block' overburden = 8000 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
+good_case | sed "s/one_sided'/two_block' overburden = 8000 overburden_inertia = 0 bearing = 'inner' bearing_distance = 0.06/" >good2.nml
 run --check good2.nml
 check "check: where the load bears" contains stdout '  load 8000 N/m, 0.06 m from the inner face, folding outwards'
 run good2.nml

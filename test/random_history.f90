@@ -91,6 +91,7 @@ contains
       if (input%word('mechanism') == 'two_block') then
          call input%set('hinge', between(random, 0.05_wp, 0.95_wp))
          if (choice(random, 2) == 1) call input%set('overburden', across(random, 1.0_wp, 1.0e5_wp))
+         call input%set('overburden_inertia', 0.0_wp)
          call input%set('eccentricity', 0.5_wp*input%number('thickness'))
          select case (choice(random, 4))
          case (1)

@@ -16,7 +16,7 @@ program test_lane_kernel
    real(wp), parameter :: samples(8) = [0.0_wp, 1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp, -1.0_wp, 0.0_wp, 0.0_wp]
 
    type(random_type) :: random
-   type(normal_form_type) :: forms(6)
+   type(normal_form_type) :: forms(7)
    type(wall_type) :: wall
    integer :: i
 
@@ -28,10 +28,12 @@ program test_lane_kernel
    forms(5) = new_normal_form(wall%mechanism, 1.5_wp*wall%mechanism%capacity)
    wall = made('two_block', 3.0_wp, 0.25_wp)
    forms(6) = new_normal_form(wall%mechanism, 2.0_wp*wall%mechanism%capacity)
+   wall = a_wall(5)
+   forms(7) = new_normal_form(wall%mechanism, wall%mechanism%capacity)
    random = new_random(31, 0)
    call suite('series')
    call check(all(forms%exists) .and. any(forms%degree == 8) .and. any(forms%degree == 14) .and. &
-      & any(forms%degree == 22), 'forms of every degree')
+      & any(forms%degree == 22) .and. any(forms%degree == 32), 'forms of every degree')
    call test_series()
    call suite('promises')
    call test_promises()

@@ -147,7 +147,30 @@ contains
       call check_terms('edge', 0.0_wp, [4071.915_wp, 2.835_wp, 2025.0_wp, 1390.5675_wp, 0.0_wp])
       call check_terms('edge', 0.03_wp, [4072.04911318337_wp, 1.63510415758665_wp, 2028.35282958418_wp, &
          & 802.018589296253_wp, 0.0_wp])
+      call check_parts()
    end subroutine test_terms
+
+   !> Terms are linear in the parts of a load that are masses
+   subroutine check_parts()
+      type(wall_input_type) :: input
+      type(wall_type) :: walls(4)
+      real(wp) :: terms(5, 4), expected(5)
+      integer :: i
+
+      input = a_case('both')
+      call input%clear('load_inertia')
+      walls = [made(a_case('dead')), made(a_case('vertical')), made(a_case('both')), made(a_case('both'))]
+      call input%set('load_lifted', [0.7_wp])
+      call input%set('load_pushed', [0.2_wp])
+      walls(4) = made(input)
+      do i = 1, 4
+         call walls(i)%mechanism%terms(0.03_wp, terms(1, i), terms(2, i), terms(4, i), terms(3, i), terms(5, i))
+      end do
+      expected = 0.3_wp*terms(:, 1) + 0.5_wp*terms(:, 2) + 0.2_wp*terms(:, 3)
+      do i = 1, 5
+         call check_close(terms(i, 4), expected(i), exact, 'a load by parts')
+      end do
+   end subroutine check_parts
 
    !> The terms of a case at a rotation
    subroutine check_terms(name, q, expected)
@@ -302,6 +325,17 @@ contains
       call input%set('load_inertia', 'both')
       wall = made(input)
       call check_close(wall%mechanism%restitution, 0.99239806496199_wp, exact, 'coping')
+      ! The same by parts
+      call input%clear('load_inertia')
+      call input%set('load_lifted', [1.0_wp])
+      call refuse(input, 'load_pushed: must be given with load')
+      call input%set('load_pushed', [1.0_wp])
+      wall = made(input)
+      call check_close(wall%mechanism%restitution, 0.99239806496199_wp, exact, 'coping, by parts')
+      call input%set('load_inertia', 'both')
+      call refuse(input, 'load_inertia: give either load_inertia or load_lifted and load_pushed')
+      call input%clear('load_lifted')
+      call input%clear('load_pushed')
       ! A dead force has no impulse.
       call input%set('load_inertia', 'none')
       wall = made(input)

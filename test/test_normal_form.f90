@@ -33,7 +33,7 @@ program test_normal_form
    call test_random_walls()
    call test_degrees()
    call test_existence()
-   print '(a, 3es9.1, 2(a, i0), a, 3(1x, i0))', 'worst', worst, '; forms ', with_form, ', none ', without_form, &
+   print '(a, 3es9.1, 2(a, i0), a, 4(1x, i0))', 'worst', worst, '; forms ', with_form, ', none ', without_form, &
       & '; degrees', of_degree
    call finish()
 
@@ -55,6 +55,7 @@ contains
             call test_form(walls(i), limits(j), 'wall '//to_text(i)//' to '//to_text(limits(j)))
          end do
       end do
+      call test_form(a_wall(5), 1.0_wp, 'a wall that lifts a heavy mass')
    end subroutine test_named_walls
 
    !> Any wall to any limit
@@ -212,13 +213,14 @@ contains
       fifth = horner(d(:ubound(a, 1) - 5), z)
    end function fifth
 
-   !> A slender block needs the lowest degree, a squat one more, a two-block wall far out the highest
+   !> A slender block needs the lowest degree, a squat one more, a two-block wall far out or with a heavy mass the highest
    subroutine test_degrees()
 
       call suite('degrees')
       call check(degree_of(a_wall(1), 1.0_wp) == degrees(1), 'a slender block')
       call check(degree_of(made('one_sided', 1.0_wp, 0.9_wp), 1.5_wp) == degrees(2), 'a squat block')
       call check(degree_of(made('two_block', 3.0_wp, 0.25_wp), 2.0_wp) == degrees(3), 'a two-block wall far out')
+      call check(degree_of(a_wall(5), 1.0_wp) == degrees(4), 'a wall that lifts a heavy mass')
    end subroutine test_degrees
 
    !> Degree of the form of a wall

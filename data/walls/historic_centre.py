@@ -83,6 +83,7 @@ def facades(group, n, seed, weight, storeys, storey, thickness, held, roof):
                 "p_occ": p_folds,
                 "hinge": hinge,
                 "overburden": load_of_roof,
+                "overburden_inertia": 0.0,
                 "restitution": "sorrentino",
                 "restitution_factor": restitution_factor,
             },

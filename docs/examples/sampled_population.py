@@ -21,6 +21,7 @@ facades = dd.sample_population(
             "height": lambda samples: samples["storey"],
             "hinge": dd.Triangular(0.5, 0.6, 0.75),
             "overburden": dd.Uniform(2000.0, 6000.0),
+            "overburden_inertia": 0.0,
             "restitution_factor": dd.Uniform(0.84, 0.90),
         },
     },

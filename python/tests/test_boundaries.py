@@ -104,7 +104,10 @@ FORMULAS = ["=1+1", "+39", "-5", "@SUM(A1)", "'=x", "''", "'s Hertogenbosch", "p
 
 
 def test_names_that_spreadsheets_take_for_formulas(tmp_path):
-    walls = [dd.TwoBlockWall(3.0, 0.3, name=name, overburden=1e4, eccentricity=-0.05) for name in FORMULAS]
+    walls = [
+        dd.TwoBlockWall(3.0, 0.3, name=name, overburden=1e4, overburden_inertia=0.0, eccentricity=-0.05)
+        for name in FORMULAS
+    ]
     people = dd.Population(walls, groups=FORMULAS)
     for safe in (False, True):
         people.to_csv(tmp_path / "walls.csv", spreadsheet_safe=safe)
@@ -168,7 +171,7 @@ def test_hints(tmp_path):
     with pytest.raises(dd.InputError, match="dt must be given, dt_s in a catalogue"):
         dd.read_catalogue(catalogue)
     with pytest.raises(dd.InputError, match=r"eccentricity = 1: must lie between -0\.15 and 0\.15 \(half"):
-        dd.TwoBlockWall(3.0, 0.1 + 0.2, overburden=1.0, eccentricity=1.0)
+        dd.TwoBlockWall(3.0, 0.1 + 0.2, overburden=1.0, overburden_inertia=0.0, eccentricity=1.0)
 
 
 @pytest.mark.parametrize(

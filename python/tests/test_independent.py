@@ -31,7 +31,7 @@ def random_pairs(mechanism, **settings):
         # Every third without a load, some with it on the hinge
         load = weights * size["density"] * height * size["thickness"] * size["gravity"] if i % 3 else 0.0
         e = (place if i % 5 else 1.0) * size["thickness"] / 2.0 if load else 0.0
-        wall = dd.TwoBlockWall(**size, hinge=hinge, overburden=load, eccentricity=e, **settings)
+        wall = dd.TwoBlockWall(**size, hinge=hinge, overburden=load, overburden_inertia=0.0, eccentricity=e, **settings)
         yield wall, independent.two_blocks(**size, hinge=hinge, load=load, eccentricity=e)
 
 
@@ -149,7 +149,9 @@ HISTORIES = {
         2.42,
     ),
     "two blocks with overburden": (
-        dd.TwoBlockWall(3.0, 0.25, hinge=0.7, overburden=6000.0, eccentricity=0.05, restitution="impulse"),
+        dd.TwoBlockWall(
+            3.0, 0.25, hinge=0.7, overburden=6000.0, overburden_inertia=0.0, eccentricity=0.05, restitution="impulse"
+        ),
         independent.two_blocks(3.0, 0.25, 1800.0, **LOADED),
         (independent.impulse, 1.0, (1, -1)),
         3.6,

@@ -16,11 +16,11 @@ import dondolo as dd
 pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
 # Facades that overturn or fold, whose damage states cross
-WALLS = """name,mechanism,height,thickness,hinge,overburden,restitution_factor,weight,group,p_occ
-A1,one_sided,6.0,0.38,,,,12,row,0.35
-A1,two_block,3.0,0.38,0.55,1600,0.88,12,row,0.5
-A2,one_sided,9.0,0.38,,,,5,row,0.8
-A2,two_block,3.3,0.25,0.6,0,0.87,5,row,0.15
+WALLS = """name,mechanism,height,thickness,hinge,overburden,overburden_inertia,restitution_factor,weight,group,p_occ
+A1,one_sided,6.0,0.38,,,,,12,row,0.35
+A1,two_block,3.0,0.38,0.55,1600,0,0.88,12,row,0.5
+A2,one_sided,9.0,0.38,,,,,5,row,0.8
+A2,two_block,3.3,0.25,0.6,0,,0.87,5,row,0.15
 """
 
 

@@ -120,7 +120,7 @@ def test_scaling_the_record_or_its_factor(scale, factor, kind):
     wall = {
         "one": dd.OneSidedWall(2.0, 0.3),
         "free": TWO_SIDED,
-        "two": dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=2000.0),
+        "two": dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=2000.0, overburden_inertia=0.0),
     }[kind]
     motion = np.sin(0.06 * np.arange(300)) * np.exp(-0.01 * np.arange(300))
     first = dd.simulate(wall, dd.Record(motion, 0.01), scale, history=False)

@@ -12,7 +12,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.walls.drawing import shape
+from dondolo.walls.shape import shape
 from matplotlib.image import imread
 from scipy import stats
 
@@ -182,6 +182,65 @@ def test_potential_energy_is_what_the_drawing_lifts():
     assert moment == pytest.approx(1655.01450775168, rel=1e-8)
     assert lift(wall.capacity_angle) > lift(1.01 * wall.capacity_angle)
     assert lift(wall.capacity_angle) > lift(0.99 * wall.capacity_angle)
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, hinge_depth=0.02),
+        dd.OneSidedWall(3.0, 0.25, compressive_strength=1e6),
+        dd.OneSidedWall(3.0, 0.25, edge_radius=0.03),
+        dd.OneSidedWall(section_height=[2.0, 1.5], section_thickness=[0.5, 0.3], section_offset=[0.0, 0.1]),
+    ],
+    ids=["two-block", "strength", "edge", "sections"],
+)
+def test_drawn_storeys_rise_as_the_moment_says(wall):
+    """Each block as drawn weighs what its area does; hinges lie behind the face."""
+
+    def lift(q):
+        blocks = shape(wall, q).blocks
+        areas = [np.linalg.norm(b[1] - b[0]) * np.linalg.norm(b[2] - b[1]) for b in blocks]
+        return 9.81 * 1800.0 * sum(area * b[:, 1].mean() for area, b in zip(areas, blocks, strict=True))
+
+    q, step = 0.5 * wall.capacity_angle, 1e-5
+    moment = (lift(q + step) - lift(q - step)) / (2.0 * step)
+    assert moment == pytest.approx(float(wall.terms(q).restoring_moment), rel=1e-8)
+    assert shape(wall, 0.0).hinges[0, 0] == pytest.approx(wall.thickness - wall.base_hinge_depth)
+
+
+def test_what_a_wall_carries_is_drawn_with_its_value():
+    facade = dd.OneSidedWall(
+        section_height=[4.0, 3.5],
+        section_thickness=[0.6, 0.45],
+        load=[12e3, 6e3],
+        load_height=[4.0, 7.5],
+        load_depth=[0.5, 0.35],
+        load_inertia=["both", "none"],
+        inertia_mass=500.0,
+        inertia_depth=0.2,
+        inertia_height=6.0,
+        thrust=800.0,
+        thrust_height=7.5,
+        spring=20e3,
+        spring_depth=0.6,
+        spring_height=4.0,
+        hinge_depth=0.015,
+    )
+    ax = facade.plot(rotation=0.0)
+    texts = {text.get_text(): text.xy for text in ax.texts if text.get_text()}
+    assert {"12 kN/m lifted, pushed", "6 kN/m dead", "500 kg/m pushed", "800 N/m thrust", "20 kN/m²"} <= set(texts)
+    assert "hinge, 15 mm deep" in texts
+    # Outwards is to the right: depth 0.5 of 0.6 m is 0.1 m from the left
+    assert texts["12 kN/m lifted, pushed"][0] == pytest.approx(0.1)
+    assert texts["500 kg/m pushed"] == pytest.approx((0.4, 6.0))
+    # Without its depth the thrust acts at the inner face of the upper storey
+    tail = texts["800 N/m thrust"]
+    assert tail[0] < 0.15
+    assert tail[1] == pytest.approx(7.5)
+    strip = dd.TwoBlockWall(3.0, 0.25, overburden=2e4, overburden_inertia=0.5, eccentricity=-0.05)
+    for rotation, place in ((0.0, 0.075), (-1e-9, 0.175)):
+        (at,) = (t.xy for t in strip.plot(rotation=rotation).texts if t.get_text() == "20 kN/m 50 % lifted")
+        assert at[0] == pytest.approx(place, abs=1e-6)
 
 
 def test_one_block_turns_about_its_toe():

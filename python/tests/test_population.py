@@ -13,7 +13,16 @@ import dondolo as dd
 
 ROWS = [
     dd.OneSidedWall(6.4, 0.38, name="a"),
-    dd.TwoBlockWall(3.2, 0.38, hinge=0.6, overburden=4000.0, eccentricity=0.05, restitution_factor=0.87, name="a"),
+    dd.TwoBlockWall(
+        3.2,
+        0.38,
+        hinge=0.6,
+        overburden=4000.0,
+        overburden_inertia=0.0,
+        eccentricity=0.05,
+        restitution_factor=0.87,
+        name="a",
+    ),
     dd.FreeStandingWall(1.8, 0.4, restitution="constant", restitution_value=0.7, density=2000.0, name='b, "the" #2'),
     dd.OneSidedWall(1.0, 0.25, name="c"),
 ]
@@ -178,10 +187,10 @@ def test_table(tmp_path):
     assert lines[0] == "# surveyed in spring"
     assert lines[1] == (
         "name,mechanism,height,thickness,density,hinge,restitution,restitution_value,restitution_factor,"
-        "overburden,eccentricity,weight,group,p_occ"
+        "overburden,overburden_inertia,eccentricity,weight,group,p_occ"
     )
-    assert lines[2] == "a,one_sided,6.4,0.38,1800,,default,,1,,,2,low,0.4"
-    assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,constant,0.7,1,,,5,"high, free",1'
+    assert lines[2] == "a,one_sided,6.4,0.38,1800,,default,,1,,,,2,low,0.4"
+    assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,constant,0.7,1,,,,5,"high, free",1'
     back = dd.read_population(tmp_path / "walls.csv")
     assert same(back, PEOPLE)
     assert back.origin == ("read from walls.csv",)
@@ -203,7 +212,13 @@ NAMES = st.text(st.characters(exclude_categories=("C", "Z")) | st.sampled_from('
 def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity, weight, p_occ, name, group):
     height, thickness, hinge, load = numbers
     wall = dd.TwoBlockWall(
-        10.0 * height, thickness, hinge=0.9 * hinge, overburden=1e5 * load, eccentricity=eccentricity, name=name
+        10.0 * height,
+        thickness,
+        hinge=0.9 * hinge,
+        overburden=1e5 * load,
+        overburden_inertia=0.0,
+        eccentricity=eccentricity,
+        name=name,
     )
     people = dd.Population([wall], [weight], groups=[group], p_occ=[p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"

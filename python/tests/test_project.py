@@ -244,7 +244,7 @@ def test_import_is_quick():
 @pytest.mark.parametrize("samples", [2, 6000])
 def test_a_call_costs_little(samples):
     """Four passes of NumPy over the samples, taken in turn, are the measure: about 10 us where nothing else runs."""
-    wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, eccentricity=0.05)
+    wall = dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, eccentricity=0.05)
     record = dd.Record(np.full(samples, 0.1), 0.01)
     calls = (
         lambda: dd.simulate(wall, record, history=False),

@@ -434,7 +434,9 @@ def test_bootstrap_over_walls_needs_counts_only(people):
 def test_damage_states_that_cross_are_told(few, tmp_path):
     """Where, and by how much; elsewhere nothing is said."""
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
-    walls = [dd.TwoBlockWall(3.0, 0.38, overburden=1600.0, restitution_factor=0.88, name="folds")]
+    walls = [
+        dd.TwoBlockWall(3.0, 0.38, overburden=1600.0, overburden_inertia=0.0, restitution_factor=0.88, name="folds")
+    ]
     people = dd.typology(walls, few, levels, edp_thresholds=[0.1, 0.4], progress=False)
     dd.report(people, tmp_path / "report.html")
     table = read(tmp_path / "report.html").table("Damage states that cross")

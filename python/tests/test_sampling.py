@@ -20,7 +20,12 @@ def sample(n=200, seed=1, **changes):
     arguments = {
         "mechanisms": {
             "one_sided": {"p_occ": 0.6},
-            "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75), "overburden": dd.Uniform(0.0, 9e3)},
+            "two_block": {
+                "p_occ": 0.4,
+                "hinge": dd.Triangular(0.5, 0.6, 0.75),
+                "overburden": dd.Uniform(0.0, 9e3),
+                "overburden_inertia": 0.0,
+            },
         },
         "height": HEIGHT,
         "thickness": BRICKS,
@@ -385,7 +390,7 @@ def test_samples_that_no_wall_can_have(own, sentence):
 
 
 def test_a_bearing_follows_the_thickness():
-    own = {"overburden": 5000.0, "bearing": "inner", "bearing_distance": 0.06}
+    own = {"overburden": 5000.0, "overburden_inertia": 0.0, "bearing": "inner", "bearing_distance": 0.06}
     walls = sample(mechanisms={"two_block": own}, thickness=dd.Uniform(0.25, 0.5))
     assert [wall.eccentricity for wall in walls] == pytest.approx([0.06 - 0.5 * wall.thickness for wall in walls])
     with pytest.raises(dd.InputError, match="bearing: one_sided walls have none"):

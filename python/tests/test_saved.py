@@ -23,7 +23,9 @@ pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def results(stripes, few, wall):
     """A result of each kind."""
     curve = stripes.fit()
-    slender = dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    slender = dd.TwoBlockWall(
+        3.0, 0.25, overburden=8000.0, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06
+    )
     noted = few[0].correct_baseline().processed(few[0].acceleration, "noted")
     noted = dd.Record(noted.acceleration, noted.dt, "caffè", processing=noted.processing, metadata={"station": "NRC"})
     hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002])
@@ -31,7 +33,9 @@ def results(stripes, few, wall):
     gone = dd.multiple_stripe(slender, few, estimate_error=True, **two)
     walls = [
         dd.OneSidedWall(1.5, 0.25, name="a"),
-        dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06, name="a"),
+        dd.TwoBlockWall(
+            3.0, 0.25, overburden=8000.0, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06, name="a"
+        ),
         dd.FreeStandingWall(4.0, 0.9, restitution="constant", restitution_value=0.7, gravity=9.80665, name="caffè"),
         dd.TwoBlockWall(3.1, 0.27, restitution_factor=0.9, name="c"),
         dd.OneSidedWall(1.8, 0.25, name="d"),
@@ -161,7 +165,7 @@ def test_a_loaded_result_goes_on(results, tmp_path):
         dd.OneSidedWall(3.0, 0.25, restitution="sorrentino", restitution_factor=0.9),
         dd.FreeStandingWall(2.0, 0.5, restitution="constant", restitution_value=0.7),
         dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution="impulse"),
-        dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, bearing="outer", bearing_distance=0.05),
+        dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, bearing="outer", bearing_distance=0.05),
     ],
     ids=lambda wall: wall.name,
 )

@@ -7,7 +7,7 @@ import pickle
 
 import numpy as np
 import pytest
-from dondolo.walls.drawing import shape
+from dondolo.walls.shape import shape
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -16,7 +16,7 @@ import dondolo as dd
 WALLS = [
     dd.OneSidedWall(height=3.0, thickness=0.25),
     dd.FreeStandingWall(height=2.0, thickness=0.4, restitution="constant", restitution_value=0.7, name="block"),
-    dd.TwoBlockWall(height=3.6, thickness=0.3, hinge=0.6, overburden=8000.0, eccentricity=0.05),
+    dd.TwoBlockWall(height=3.6, thickness=0.3, hinge=0.6, overburden=8000.0, overburden_inertia=0.0, eccentricity=0.05),
 ]
 
 
@@ -148,8 +148,9 @@ def test_terms_and_potential_belong_together(wall):
 @pytest.mark.parametrize(("bearing", "place"), [("inner", 0.06), ("outer", 0.19)])
 def test_a_bearing_is_on_its_face_of_a_wall_that_folds_outwards(bearing, place):
     """Minus the load times the rise of the point where it bears, of the wall as it is drawn."""
-    wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=8000.0, bearing=bearing, bearing_distance=0.06)
-    assert wall == dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=8000.0, eccentricity=wall.eccentricity)
+    load = {"hinge": 0.6, "overburden": 8000.0, "overburden_inertia": 0.0, "hinge_depth": 0.012}
+    wall = dd.TwoBlockWall(3.0, 0.25, bearing=bearing, bearing_distance=0.06, **load)
+    assert wall == dd.TwoBlockWall(3.0, 0.25, eccentricity=wall.eccentricity, **load)
     q, h = 0.03, 1e-5
 
     def height(rotation):

@@ -81,9 +81,9 @@ _CATALOGUES = [
 ]
 _WALLS = [
     "mechanism;height;thickness\none_sided;1,5;0,25\ntwo_block;3,0;0,4\n",
-    "name,mechanism,height,thickness,density,hinge,restitution,restitution_value,overburden,bearing,bearing_distance,weight,"
-    "group,p_occ\na,two_block,3,0.3,1800,0.6,constant,0.9,5000,inner,0.06,2,g,0.5\na,one_sided,3,0.3,1800,,impulse,,,,,2,g,1\n"
-    '"b ""x"", y",free_standing,2,0.4,,,,,,,,,,\n',
+    "name,mechanism,height,thickness,density,hinge,restitution,restitution_value,overburden,overburden_inertia,bearing,"
+    "bearing_distance,weight,group,p_occ\na,two_block,3,0.3,1800,0.6,constant,0.9,5000,0.5,inner,0.06,2,g,0.5\n"
+    'a,one_sided,3,0.3,1800,,impulse,,,,,,2,g,1\n"b ""x"", y",free_standing,2,0.4,,,,,,,,,,,\n',
 ]
 _NUMBERS = [
     "pga,annual_frequency\n0.05,0.02\n0.1,0.008\n0.2,0.002\n0.4,0.0004\n",

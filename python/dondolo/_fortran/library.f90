@@ -10,6 +10,7 @@ module library
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
    use dondolo_boundary, only : report
+   use dondolo_clustered, only : fewest_clusters
    use dondolo_error, only : error_type, raise_input
    use dondolo_fragility, only : error_names, status_names
    use dondolo_handles, only : release
@@ -32,9 +33,9 @@ module library
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(longest, defaults, version, statuses, errors)
-      ! Bytes of a name
-      integer(c_int), intent(out) :: longest
+   subroutine constants(longest, fewest, defaults, version, statuses, errors)
+      ! Bytes of a name, and clusters that standard errors need
+      integer(c_int), intent(out) :: longest, fewest
       ! rtol, atol, edp_limit, gravity
       real(c_double), intent(out) :: defaults(4)
       character(len=32), intent(out) :: version
@@ -43,6 +44,7 @@ contains
       integer :: i
 
       longest = longest_name
+      fewest = fewest_clusters
       defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity]
       version = dondolo_version_text
       statuses = ''

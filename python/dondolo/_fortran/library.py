@@ -30,6 +30,7 @@ class Constants(NamedTuple):
     """What Fortran says of itself."""
 
     longest_name: int
+    fewest_clusters: int
     rtol: float
     atol: float
     edp_limit: float
@@ -88,10 +89,11 @@ class Parcel(NamedTuple):
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    longest, defaults, version, statuses, errors = _core.library.constants()
+    longest, fewest, defaults, version, statuses, errors = _core.library.constants()
     rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
     return Constants(
         int(longest),
+        int(fewest),
         rtol,
         atol,
         edp_limit,

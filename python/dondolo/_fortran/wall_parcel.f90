@@ -79,11 +79,11 @@ contains
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e of
+      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e, u of
       !> each wall, then all values of all walls; text: their texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 7
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 8
       integer(c_int), allocatable :: integers(:, :)
       real(c_double), allocatable :: reals(:, :), values(:)
       integer, allocatable :: lengths(:)
@@ -113,7 +113,7 @@ contains
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
             reals(:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
-               & mechanism%restitution]
+               & mechanism%restitution, walls(i)%hinge_depth]
          end associate
       end do
       call parcel%add(reshape(integers, [size(integers)]))

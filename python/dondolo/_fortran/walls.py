@@ -182,5 +182,5 @@ WALL_LISTS = frozenset(row.name for row in WALL_PROPERTIES if row.kind in ("list
 WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 # Those that only some walls have: tables show them where one of theirs has them
 WALL_EXTRAS = frozenset(row.name for row in WALL_PROPERTIES if row.default == "optional" and row.owners and row.column)
-_WALL_REALS = 7
+_WALL_REALS = 8
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

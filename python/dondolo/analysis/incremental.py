@@ -44,13 +44,13 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran.library import warn
+from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.clusters import FEWEST, Clusters, errors_of_parts, no_errors
+from dondolo.curves.clusters import Clusters, errors_of_parts, no_errors
 from dondolo.curves.fragility import Fragility, extrapolation, with_errors
 from dondolo.errors import DondoloWarning, InputError
 
@@ -164,7 +164,7 @@ class Incremental(Shown, Saved):
             np.add.at(counts, (number, place), 1.0)
             mean, beta, covariance, changes = _censored(np.log(levels), counts)
             theta = float(np.exp(mean))
-            if len(labels) < FEWEST:
+            if len(labels) < constants().fewest_clusters:
                 errors = no_errors("few_clusters", len(labels))
             elif changes is None:
                 errors = no_errors("one_cluster", len(labels))

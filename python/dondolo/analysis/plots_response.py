@@ -11,7 +11,8 @@ from dondolo._base.arguments import as_number
 from dondolo.analysis.response import Response
 from dondolo.errors import InputError
 from dondolo.figures import style
-from dondolo.walls.drawing import draw_surroundings, frame, shape
+from dondolo.walls.drawing import draw_surroundings, frame
+from dondolo.walls.shape import shape
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation

@@ -42,6 +42,9 @@ States = Literal["separate", "ordinal"]
 # Damage states if none are named, as shares of the collapse limit
 _SHARES = (0.1, 0.4, 1.0)
 
+# A level of any measure that every record can be scaled to
+_TRIAL = 1e-3
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
@@ -481,7 +484,7 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
         several.flags.writeable = False
         return dataclasses.replace(request, levels=several)
 
-    trials = [at(level).plan() for level in (1.0, 2.0)]
+    trials = [at(level).plan() for level in (_TRIAL, 2.0 * _TRIAL)]
     size = len(trials[0].record)
     if budget is None:
         raise InputError("budget: must be given with levels = 'auto'")
@@ -491,7 +494,7 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
     # Scales are powers of the level.
     peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
     one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
-    level: float | None = rounded((2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
+    level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
     parts: list[Stripes] = []
     pace = Pace(request.samples)
     interrupted = False

@@ -13,9 +13,6 @@ from dondolo._fortran.curves import cluster_changes
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import Sample
 
-#: Fewer clusters than this cannot determine the covariance of two parameters, as in dondolo_clustered
-FEWEST = 3
-
 
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False)

@@ -86,7 +86,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     Returns
     -------
     StoredResults
-        The same objects as those of a run in Python; curves are fitted again, to the same counts.
+        The same objects as those of a run in Python; curves are fitted again, to the same counts. Those of a typology
+        have naive standard errors, for the files do not tell which record brings which wall down.
 
     Raises
     ------

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._fortran.library import build_variant, constants
+from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -30,11 +31,16 @@ from dondolo.reporting.numerals import number, parameter, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 
-# Properties of a wall that are shown, and their units
-_PROPERTIES = {
-    "height": "m", "thickness": "m", "density": "kg/m3", "hinge": "of the height", "overburden": "N/m",
-    "eccentricity": "m, to the outer side", "restitution": "model", "restitution_value": "", "restitution_factor": "",
-}  # fmt: skip
+# What stands behind properties of a wall in place of their units
+_UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
+
+# Properties that not every wall of a population has, and heads of their columns
+_COLUMNS = {
+    "hinge": "hinge / height",
+    "overburden": "overburden [N/m]",
+    "overburden_inertia": "of it lifted",
+    "eccentricity": "ecc. [m]",
+}
 
 
 def inputs(run: Run) -> dict[str, Any]:
@@ -99,13 +105,17 @@ def walls(run: Run) -> dict[str, Any]:
 def _wall_facts(run: Run) -> Facts:
     """Properties and statics of the one wall."""
     wall = run.population.walls[0]
-    given = [(name, getattr(wall, name, None), unit) for name, unit in _PROPERTIES.items()]
     pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
-    pairs += [
-        (name.replace("_", " "), f"{value} {unit}" if isinstance(value, str) else number(value, 6, f" {unit}"))
-        for name, value, unit in given
-        if value is not None and not (isinstance(value, float) and np.isnan(value))
-    ]
+    for row in WALL_PROPERTIES[2:]:
+        value, unit = getattr(wall, row.name, None), _UNITS.get(row.name, row.unit)
+        if value is None or (isinstance(value, float) and np.isnan(value)):
+            continue
+        if isinstance(value, tuple):
+            value = ", ".join(each if isinstance(each, str) else f"{each:.6g}" for each in value)
+        text = f"{value} {unit}" if isinstance(value, str) else number(value, 6, f" {unit}")
+        pairs.append((row.name.replace("_", " "), text))
+    if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
+        pairs.append(("depth of the hinge", number(wall.base_hinge_depth, unit=" m")))
     pairs += [
         (("trigger ", Symbol("a", "0")), number(wall.trigger_acceleration / wall.gravity, unit=" g")),
         ("capacity", number(wall.capacity_angle, unit=" rad")),
@@ -133,7 +143,7 @@ def _walls_table(run: Run) -> Table:
         "thickness [m]": [number(wall.thickness) for wall in walls],
         "density [kg/m3]": [number(wall.density) for wall in walls],
     }
-    for what, head in (("hinge", "hinge / height"), ("overburden", "overburden [N/m]"), ("eccentricity", "ecc. [m]")):
+    for what, head in _COLUMNS.items():
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
             columns[head] = [number(value) for value in values]

@@ -168,6 +168,11 @@ class Wall:
         return self._static(5)
 
     @property
+    def base_hinge_depth(self) -> float:
+        """Depth of the hinge at the base behind the face [m]: given, of crushed masonry, or of a round edge; else 0."""
+        return self._static(6)
+
+    @property
     def two_sided(self) -> bool:
         """Does it rock to both sides?"""
         return bool(self.__dict__["_two_sided"])
@@ -312,6 +317,8 @@ class BlockWall(Wall):
     load_depth: Values = None
     load_height: Values = None
     load_inertia: str | Sequence[str] | None = None
+    load_lifted: Values = None
+    load_pushed: Values = None
     load_seat: Values = None
     inertia_mass: Values = None
     inertia_depth: Values = None
@@ -375,9 +382,9 @@ class OneSidedWall(BlockWall):
     hinge_inertia : float, optional
         Its inertia about the hinge, with mass [kg m2/m].
     hinge_depth : float, optional
-        Depth of the hinge behind the outer face [m].
+        Depth of the hinge behind the outer face, of each hinge of two_block behind its face [m].
     compressive_strength : float, optional
-        Strength of the masonry, from which the depth of the hinge follows [Pa].
+        Strength of the masonry, from which that depth follows [Pa].
     stress_block : float, optional
         Stress in the compressed part of the base / that strength, 0.85 if not given.
     edge_radius : float, optional
@@ -391,6 +398,10 @@ class OneSidedWall(BlockWall):
     load_inertia : {'none', 'vertical', 'both'} or sequence of them, optional
         Which mass of each load the wall moves: 'none' is a dead force, 'vertical' a mass that other walls hold
         sideways, 'both' one that the wall pushes too (docs/loads.md); one for all loads or one for each.
+    load_lifted : float or sequence of float, optional
+        Part of each load whose mass the wall lifts, with load_pushed instead of load_inertia.
+    load_pushed : float or sequence of float, optional
+        Part of each load whose mass the wall pushes.
     load_seat : float or sequence of float, optional
         Horizontal travel at which each load loses its seat [m].
     inertia_mass : float or sequence of float, optional
@@ -477,8 +488,9 @@ class FreeStandingWall(BlockWall):
 class TwoBlockWall(Wall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
 
-    Parameters are those of `OneSidedWall`, the models of restitution 'default', 'sorrentino', 'impulse' and 'constant',
-    and:
+    Parameters are those of a bare `OneSidedWall`, its hinge_depth, compressive_strength and stress_block, the models
+    of restitution 'default', 'sorrentino', 'impulse' and 'constant', and those below. 'default' is 'sorrentino', or
+    'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not know.
 
     Parameters
     ----------
@@ -486,6 +498,9 @@ class TwoBlockWall(Wall):
         Height of the intermediate hinge / height of the wall, 0.5 if left out.
     overburden : float, optional
         Vertical load on the top, per metre of wall [N/m], 0 if left out.
+    overburden_inertia : float, optional
+        Part of that load whose mass the wall lifts: 0 for a force alone (springs, tendons), 1 for a storey of wall
+        above. It decides the result and must be given with a load (docs/loads.md).
     eccentricity : float, optional
         Distance of that load from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall
         that folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
@@ -504,7 +519,9 @@ class TwoBlockWall(Wall):
     Joists that bear 0.12 m into the wall from its inner face:
 
     >>> import dondolo as dd
-    >>> wall = dd.TwoBlockWall(3.0, 0.25, overburden=8000.0, bearing="inner", bearing_distance=0.06)
+    >>> wall = dd.TwoBlockWall(
+    ...     3.0, 0.25, overburden=8000.0, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06
+    ... )
     >>> wall.eccentricity
     -0.065
     """
@@ -513,7 +530,11 @@ class TwoBlockWall(Wall):
 
     hinge: float = _DEFAULT
     overburden: float = _DEFAULT
+    overburden_inertia: float | None = None
     eccentricity: float = _DEFAULT
+    hinge_depth: float | None = None
+    compressive_strength: float | None = None
+    stress_block: float | None = None
     bearing: InitVar[Literal["inner", "outer", "centre"] | None] = None
     bearing_distance: InitVar[float | None] = None
 

@@ -5,19 +5,32 @@
 !> sin(beta2) = R1 sin(beta1)/R2 with beta1 = alpha1 - q.
 module dondolo_two_block
    use dondolo_block, only : block_type
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_restitution, only : restitution_type
+   use dondolo_text, only : rounded
    implicit none
    private
 
-   public :: two_block_type, new_two_block
+   public :: two_block_type, overburden_type, new_two_block
    public :: two_block_sorrentino, two_block_impulse
 
    !> Smallest cos(beta2)^2 that the terms are evaluated with: it vanishes at the geometric end, next to which
    !> the terms must stay finite
    real(wp), parameter :: smallest_square = 1.0e-9_wp
+
+   !> A vertical load on the top
+   type :: overburden_type
+      !> Weight N [N/m]
+      real(wp) :: weight = 0.0_wp
+      !> Distance e from the centreline towards the active top hinge [m]
+      real(wp) :: eccentricity = 0.0_wp
+      !> Part of the weight that is a force alone [N/m]
+      real(wp) :: dead = 0.0_wp
+      !> Mass m_v of the rest, which the wall lifts [kg/m]
+      real(wp) :: lifted = 0.0_wp
+   end type overburden_type
 
    !> Two blocks hinged to each other
    type, extends(mechanism_type) :: two_block_type
@@ -27,8 +40,8 @@ module dondolo_two_block
       type(block_type) :: upper
       !> Gravity [m/s2]
       real(wp) :: gravity
-      !> Vertical load N on the top [N/m]
-      real(wp) :: overburden
+      !> Vertical load on the top
+      type(overburden_type) :: overburden
       !> Lever b - e of that load about the top hinge [m]
       real(wp) :: load_lever
    contains
@@ -40,37 +53,45 @@ module dondolo_two_block
 contains
 
    !> Make the mechanism of a two-block wall
-   subroutine new_two_block(mechanism, lower, upper, overburden, eccentricity, restitution, gravity, error)
+   subroutine new_two_block(mechanism, lower, upper, overburden, restitution, gravity, error)
       type(two_block_type), intent(out) :: mechanism
       !> Block below the intermediate hinge
       type(block_type), intent(in) :: lower
       !> Block above it
       type(block_type), intent(in) :: upper
-      !> Vertical load N on the top [N/m]
-      real(wp), intent(in) :: overburden
-      !> Its distance from the centreline towards the active top hinge [m], -b <= e <= b
-      real(wp), intent(in) :: eccentricity
-      !> Model of restitution: 'default' and 'sorrentino' are equation (4) repaired
+      !> Vertical load on the top, its eccentricity at most b
+      type(overburden_type), intent(in) :: overburden
+      !> Model of restitution: 'default' and 'sorrentino' are equation (4) repaired; with a mass on the top there is
+      !> 'impulse' alone
       type(restitution_type), intent(in) :: restitution
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
-      !> A model that does not exist for this mechanism, a speed ratio of 1 or more
+      !> It does not stand at rest, a model that does not exist for this mechanism, a speed ratio of 1 or more
       type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: impulse
 
       mechanism%two_sided = .true.
       mechanism%lower = lower
       mechanism%upper = upper
       mechanism%gravity = gravity
       mechanism%overburden = overburden
-      mechanism%load_lever = lower%b - eccentricity
+      mechanism%load_lever = lower%b - overburden%eccentricity
+      call check_rest(mechanism, error)
+      if (allocated(error)) return
       mechanism%capacity = moment_root(mechanism)
       ! A longer upper block never lies flat; else beta1 has the same bound to both sides.
       if (upper%radius <= lower%radius) then
          mechanism%highest = mechanism%geometric_end()
          mechanism%lowest = 2.0_wp*lower%alpha - mechanism%highest
       end if
-      call restitution%speed_ratio(mechanism%restitution, error, &
-         & sorrentino=two_block_sorrentino(lower, upper), impulse=two_block_impulse(lower, upper))
+      impulse = two_block_impulse(lower, upper, overburden)
+      if (overburden%lifted > 0.0_wp) then
+         call restitution%speed_ratio(mechanism%restitution, error, impulse=impulse)
+      else
+         call restitution%speed_ratio(mechanism%restitution, error, sorrentino=two_block_sorrentino(lower, upper), &
+            & impulse=impulse)
+      end if
    end subroutine new_two_block
 
    !> Terms of equation (3), in the forms without 0/0 at q = alpha1
@@ -82,14 +103,14 @@ contains
       real(wp), intent(out) :: j
       !> C = 1/2 dJ/dq [kg m2]
       real(wp), intent(out) :: c
-      !> Restoring moment of gravity G [N m]
+      !> Restoring moment G of all that moves up and down with the wall [N m]
       real(wp), intent(out) :: g
       !> Excitation lever L [kg m]
       real(wp), intent(out) :: l
-      !> Generalised force Q of the overburden [N m]
+      !> Generalised force Q of the dead overburden [N m]
       real(wp), intent(out) :: load
 
-      real(wp) :: sin1, cos1, a, cos2, k, b1, b2, c1, c2, m2r2, cos_psi
+      real(wp) :: sin1, cos1, a, cos2, k, b1, b2, c1, c2, m2r2, sin_psi, cos_psi, y, slope_k, slope_y
 
       associate (lower => self%lower, upper => self%upper)
          sin1 = lower%radius*sin(lower%alpha - q)
@@ -109,10 +130,20 @@ contains
          g = self%gravity*sin1*(lower%mass + upper%mass*(2.0_wp + k))
          l = (lower%mass + upper%mass)*cos1
          load = 0.0_wp
-         if (self%overburden > 0.0_wp) then
-            ! cos(psi) with psi = alpha2 - beta2
+         if (self%overburden%weight > 0.0_wp) then
+            ! cos(psi) with psi = alpha2 - beta2, whose rate is k; y is the rise of the load for a unit of rotation
             cos_psi = cos(upper%alpha)*cos2 + sin(upper%alpha)*a
-            load = -self%overburden*(2.0_wp*sin1*(1.0_wp + k) - self%load_lever*k*cos_psi)
+            y = 2.0_wp*sin1*(1.0_wp + k) - self%load_lever*k*cos_psi
+            load = -self%overburden%dead*y
+            if (self%overburden%lifted > 0.0_wp) then
+               sin_psi = sin(upper%alpha)*cos2 - cos(upper%alpha)*a
+               slope_k = (1.0_wp - k**2)*a/cos2
+               slope_y = 2.0_wp*(sin1*slope_k - cos1*(1.0_wp + k)) &
+                  & - self%load_lever*(slope_k*cos_psi - k**2*sin_psi)
+               j = j + self%overburden%lifted*y**2
+               c = c + self%overburden%lifted*y*slope_y
+               g = g + self%gravity*self%overburden%lifted*y
+            end if
          end if
       end associate
    end subroutine terms
@@ -134,7 +165,7 @@ contains
          rise2 = upper%radius*cos2
          sin_psi = sin(upper%alpha)*cos2 - cos(upper%alpha)*a
          v = self%gravity*(lower%mass*rise1 + upper%mass*(2.0_wp*rise1 + rise2)) &
-            & + self%overburden*(2.0_wp*(rise1 + rise2) - self%load_lever*sin_psi)
+            & + self%overburden%weight*(2.0_wp*(rise1 + rise2) - self%load_lever*sin_psi)
       end associate
    end function potential
 
@@ -152,6 +183,26 @@ contains
       end if
    end function geometric_end
 
+   !> Check that the wall stands: a load beyond an inner hinge far behind the face can fold it by itself
+   pure subroutine check_rest(mechanism, error)
+      !> The mechanism, its capacity not yet known
+      type(two_block_type), intent(in) :: mechanism
+      !> It does not; both moments are in the message
+      type(error_type), allocatable, intent(out) :: error
+
+      type(two_block_type) :: bare
+      real(wp) :: j, c, l, own, total, load
+
+      call mechanism%terms(0.0_wp, j, c, total, l, load)
+      if (total - load > 0.0_wp) return
+      bare = mechanism
+      bare%overburden = overburden_type()
+      call bare%terms(0.0_wp, j, c, own, l, load)
+      call mechanism%terms(0.0_wp, j, c, total, l, load)
+      call raise_input(error, 'overburden: the wall does not stand at rest; its own weight holds it with '//rounded(own)// &
+         & ' N m per metre, the overburden folds it with '//rounded(own - total + load))
+   end subroutine check_rest
+
    !> Rotation at which G - Q vanishes: alpha1, or less where an overburden pushes out before
    pure function moment_root(mechanism) result(root)
       !> The mechanism, its capacity not yet known
@@ -162,7 +213,7 @@ contains
       real(wp) :: below, above, j, c, g, l, load
 
       root = mechanism%lower%alpha
-      if (.not. (mechanism%overburden > 0.0_wp .and. mechanism%load_lever > 0.0_wp)) return
+      if (.not. (mechanism%overburden%weight > 0.0_wp .and. mechanism%load_lever > 0.0_wp)) return
       below = 0.0_wp
       above = root
       do
@@ -198,20 +249,24 @@ contains
          & /(core + m2r1*(2.0_wp + sin1*cos1*(1.0_wp/tan2 + tan2)))
    end function two_block_sorrentino
 
-   !> Inelastic impact of the two-body chain with the horizontal impulse of the top support
-   !> (docs/theory.md, section 3)
-   pure function two_block_impulse(lower, upper) result(eta)
+   !> Inelastic impact of the two-body chain, and of the mass that it lifts, with the horizontal impulse of the top
+   !> support (docs/theory.md, section 3)
+   pure function two_block_impulse(lower, upper, overburden) result(eta)
       type(block_type), intent(in) :: lower
       type(block_type), intent(in) :: upper
+      !> The load on the top; what is dead of it has no impulse
+      type(overburden_type), intent(in) :: overburden
       !> Ratio of the angular velocities after and before an impact
       real(wp) :: eta
 
-      real(wp) :: t, inertia
+      real(wp) :: t, inertia, chain, load
 
       t = tan(upper%alpha)/tan(lower%alpha)
       inertia = lower%corner_inertia + t**2*upper%corner_inertia &
          & + 4.0_wp*sin(upper%alpha)**2*(1.0_wp + t)*upper%mass*upper%radius**2
-      eta = 1.0_wp - 2.0_wp*lower%b**2*(lower%mass + upper%mass*(2.0_wp + t)**2)/inertia
+      chain = lower%b**2*(lower%mass + upper%mass*(2.0_wp + t)**2)
+      load = overburden%lifted*(lower%b*(2.0_wp + t) + overburden%eccentricity*t)**2
+      eta = 1.0_wp - 2.0_wp*(chain + load)/(inertia + load)
    end function two_block_impulse
 
 end module dondolo_two_block

@@ -3,15 +3,16 @@ module dondolo_wall
    use dondolo_block, only : block_type, new_block
    use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
+   use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_kinds, only : wp
    use dondolo_loaded_block, only : loaded_block_type, new_loaded_block
    use dondolo_loaded_impact, only : one_sided_impulse, two_sided_impulse
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : new_one_sided, one_sided_restitution, one_sided_type
-   use dondolo_property, only : check_number
+   use dondolo_property, only : check_number, name_length
    use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : brief, to_text
-   use dondolo_two_block, only : two_block_type, new_two_block
+   use dondolo_text, only : brief, rounded, to_text
+   use dondolo_two_block, only : new_two_block, overburden_type, two_block_type
    use dondolo_wall_body, only : is_bare, read_wall_body, take_sections, wall_body_type
    use dondolo_wall_properties, only : gravity_property, mechanism_names, standard_gravity, wall_input_type
    implicit none
@@ -30,6 +31,8 @@ module dondolo_wall
       real(wp) :: radius = 0.0_wp
       !> Slenderness angle of the wall, of the lower block for two_block [rad]
       real(wp) :: alpha = 0.0_wp
+      !> Depth of the hinge at the base behind the face [m]
+      real(wp) :: hinge_depth = 0.0_wp
       !> Was a bearing given?
       logical :: bears = .false.
       !> What the motion integrates
@@ -85,7 +88,6 @@ contains
       type(problems_type) :: problems
       type(wall_body_type) :: body
       character(len=:), allocatable :: mechanism, allowed
-      logical :: is_loaded
 
       if (present(gravity)) wall%gravity = gravity
       wall%input = input
@@ -100,18 +102,48 @@ contains
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
       if (mechanism == 'two_block') call check_load(problems, wall%input)
-      is_loaded = problems%count == 0 .and. mechanism /= 'two_block'
-      if (is_loaded) is_loaded = .not. is_bare(wall%input)
-      if (is_loaded) call read_wall_body(wall%input, wall%gravity, problems, body)
+      if (problems%count == 0) then
+         if (wall%bears) call replace_bearing(wall%input)
+         if (mechanism == 'two_block') then
+            call read_hinges(wall%input, wall%gravity, problems, wall%hinge_depth)
+         else if (.not. is_bare(wall%input)) then
+            call read_wall_body(wall%input, wall%gravity, problems, body)
+            wall%hinge_depth = body%actions%hinge
+         end if
+      end if
       call problems%raise(error)
       if (allocated(error)) return
-      if (wall%bears) call replace_bearing(wall%input)
-      if (is_loaded) then
-         call build_loaded(wall, body, error)
-      else
+      if (mechanism == 'two_block') then
+         call build_two_block(wall, error)
+      else if (is_bare(wall%input)) then
          call build_mechanism(wall, error)
+      else
+         call build_loaded(wall, body, error)
       end if
    end subroutine new_wall
+
+   !> The depth of the hinges of a wall of two blocks: those at base and top and the intermediate one
+   subroutine read_hinges(input, gravity, problems, depth)
+      !> What is said of the wall, its eccentricity known
+      type(wall_input_type), intent(in) :: input
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Depth behind the faces [m], that of the base hinge, which carries the most
+      real(wp), intent(out) :: depth
+
+      character(len=name_length) :: name
+      real(wp) :: half, load
+
+      half = 0.5_wp*input%number('thickness')
+      call read_hinge_depth(input, gravity*input%number('density')*2.0_wp*half*input%number('height') &
+         & + input%number('overburden'), problems, depth, name)
+      call check_hinge(problems, name, depth, half, 'half the thickness, '//rounded(half)//' m')
+      load = half - input%number('eccentricity')
+      if (input%number('overburden') > 0.0_wp .and. depth > 0.0_wp) call check_hinge(problems, name, depth, load, &
+         & 'the overburden, '//rounded(load)//' m behind the face of the active top hinge')
+   end subroutine read_hinges
 
    !> What the user asks of the impacts
    pure function restitution_of(input) result(restitution)
@@ -154,7 +186,7 @@ contains
       wall%mechanism = block
    end subroutine build_loaded
 
-   !> Names become types: the one place that knows all mechanisms
+   !> The mechanism of a rectangular block that turns about its edge
    subroutine build_mechanism(wall, error)
       !> The wall, its input checked
       type(wall_type), intent(inout) :: wall
@@ -164,9 +196,8 @@ contains
       type(restitution_type) :: restitution
       type(one_sided_type) :: one_sided
       type(free_standing_type) :: free_standing
-      type(two_block_type) :: two_block
-      type(block_type) :: whole, lower, upper
-      real(wp) :: height, thickness, density, hinge
+      type(block_type) :: whole
+      real(wp) :: height, thickness, density
 
       associate (input => wall%input)
          height = input%number('height')
@@ -183,18 +214,39 @@ contains
          case ('free_standing')
             call new_free_standing(free_standing, whole, restitution, wall%gravity, error)
             wall%mechanism = free_standing
-         case ('two_block')
-            hinge = input%number('hinge')
-            lower = new_block(hinge*height, thickness, density)
-            upper = new_block((1.0_wp - hinge)*height, thickness, density)
-            wall%radius = lower%radius
-            wall%alpha = lower%alpha
-            call new_two_block(two_block, lower, upper, input%number('overburden'), input%number('eccentricity'), &
-               & restitution, wall%gravity, error)
-            wall%mechanism = two_block
          end select
       end associate
    end subroutine build_mechanism
+
+   !> The mechanism of two blocks
+   subroutine build_two_block(wall, error)
+      !> The wall, its input checked, its hinges known
+      type(wall_type), intent(inout) :: wall
+      !> It does not stand at rest, or what is wrong with its restitution
+      type(error_type), allocatable, intent(out) :: error
+
+      type(two_block_type) :: two_block
+      type(block_type) :: lower, upper
+      type(overburden_type) :: overburden
+      real(wp) :: height, thickness, density, hinge, weight, inertia
+
+      associate (input => wall%input)
+         height = input%number('height')
+         thickness = input%number('thickness')
+         density = input%number('density')
+         weight = input%number('overburden')
+         inertia = input%number('overburden_inertia')
+         hinge = input%number('hinge')
+         lower = new_block(hinge*height, thickness, density, wall%hinge_depth)
+         upper = new_block((1.0_wp - hinge)*height, thickness, density, wall%hinge_depth)
+         wall%radius = lower%radius
+         wall%alpha = lower%alpha
+         overburden = overburden_type(weight, input%number('eccentricity'), (1.0_wp - inertia)*weight, &
+            & inertia*weight/wall%gravity)
+         call new_two_block(two_block, lower, upper, overburden, restitution_of(input), wall%gravity, error)
+         wall%mechanism = two_block
+      end associate
+   end subroutine build_two_block
 
    !> Turn the bearing into the eccentricity of a wall that folds outwards: its top rotates about the outer face
    subroutine replace_bearing(input)
@@ -217,7 +269,7 @@ contains
       call input%clear('bearing_distance')
    end subroutine replace_bearing
 
-   !> Check where a load bears against the thickness of the wall
+   !> Check where a load bears against the thickness of the wall, and whether its mass is known
    subroutine check_load(problems, input)
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -226,6 +278,13 @@ contains
 
       real(wp) :: thickness, half, distance, eccentricity
 
+      if (input%number('overburden') > 0.0_wp .and. .not. input%has('overburden_inertia')) call problems%note( &
+         & 'overburden_inertia: must be given with overburden: 0 (a dead force, as of springs or tendons) to 1 (a mass '// &
+         & 'that the wall lifts, as of a storey above)')
+      if (input%number('overburden')*input%number('overburden_inertia') > 0.0_wp &
+         & .and. input%word('restitution') == 'sorrentino') call problems%note( &
+         & 'restitution = ''sorrentino'': knows no mass of an overburden; with overburden_inertia = '// &
+         & to_text(input%number('overburden_inertia'))//' use ''impulse''')
       thickness = input%number('thickness')
       half = 0.5_wp*thickness
       distance = input%number('bearing_distance')

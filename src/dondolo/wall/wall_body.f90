@@ -2,8 +2,9 @@
 module dondolo_wall_body
    use dondolo_carried, only : actions_type, carried_type, spring_type, thrust_type
    use dondolo_error, only : problems_type
+   use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_kinds, only : wp
-   use dondolo_property, only : number_of_words, word_of
+   use dondolo_property, only : name_length, number_of_words, word_of
    use dondolo_rigid_body, only : body_of_sections, rigid_body_type, section_type
    use dondolo_text, only : rounded, to_text
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
@@ -229,7 +230,9 @@ contains
       type(carried_type), allocatable, intent(out) :: carried(:)
 
       real(wp), allocatable :: load(:), depth(:), height(:), seat(:), mass(:), mass_depth(:), mass_height(:)
+      real(wp), allocatable :: lifted(:), pushed(:)
       integer :: words, i
+      logical :: by_parts
 
       load = input%list('load')
       call take(input, problems, 'load_depth', 'load', depth)
@@ -239,9 +242,14 @@ contains
       call take(input, problems, 'inertia_depth', 'inertia_mass', mass_depth)
       call take(input, problems, 'inertia_height', 'inertia_mass', mass_height)
       words = number_of_words(input%word('load_inertia'))
-      if (size(load) > 0 .and. words == 0) then
+      by_parts = input%has('load_lifted') .or. input%has('load_pushed')
+      if (by_parts) then
+         call take(input, problems, 'load_lifted', 'load', lifted)
+         call take(input, problems, 'load_pushed', 'load', pushed)
+         if (words > 0) call problems%note('load_inertia: give either load_inertia or load_lifted and load_pushed')
+      else if (size(load) > 0 .and. words == 0) then
          call problems%note('load_inertia: must be given with load: ''none'' (a dead force), ''vertical'' (a mass that '// &
-            & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too)')
+            & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too); or load_lifted and load_pushed')
       else if (size(load) == 0 .and. words > 0) then
          call problems%note('load_inertia: only with load')
       else if (words > 1 .and. words /= size(load)) then
@@ -251,6 +259,12 @@ contains
       allocate (carried(size(load) + size(mass)))
       do i = 1, size(load)
          carried(i) = carried_type(depth(i), height(i), load(i), seat=seat(i))
+         if (by_parts) then
+            carried(i)%dead = (1.0_wp - lifted(i))*load(i)
+            carried(i)%lifted = lifted(i)*load(i)/gravity
+            carried(i)%pushed = pushed(i)*load(i)/gravity
+            cycle
+         end if
          select case (word_of(input%word('load_inertia'), merge(1, i, words == 1)))
          case ('none')
             carried(i)%dead = load(i)
@@ -320,7 +334,7 @@ contains
       springs%stiffness = [input%list('spring'), input%list('bed')]
    end subroutine read_springs
 
-   !> The depth of the hinge: given, from the strength of the masonry under all weights, or where the edge begins
+   !> The hinge: its depth, given or from the strength of the masonry under all weights, or where the edge begins
    subroutine read_hinge(input, gravity, problems, wall)
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
@@ -331,42 +345,27 @@ contains
       !> The wall, its loads known
       type(wall_body_type), intent(inout) :: wall
 
-      real(wp), parameter :: usual_block = 0.85_wp
-      real(wp) :: hinge, edge, depth, block
-      character(len=:), allocatable :: name
+      real(wp) :: hinge, edge, depth
+      character(len=name_length) :: name
       integer :: i
 
-      hinge = input%number('hinge_depth')
+      call read_hinge_depth(input, gravity*wall%body%mass + sum(wall%actions%carried%weight), problems, hinge, name)
       edge = input%number('edge_radius')
-      name = 'hinge_depth'
-      block = usual_block
-      if (input%has('stress_block')) block = input%number('stress_block')
-      if (input%has('stress_block') .and. .not. input%has('compressive_strength')) call problems%note('stress_block: only '// &
-         & 'with compressive_strength')
-      if (input%has('compressive_strength')) then
-         if (hinge > 0.0_wp) call problems%note('hinge_depth = '//to_text(hinge)// &
-            & ': give either hinge_depth or compressive_strength')
-         hinge = (gravity*wall%body%mass + sum(wall%actions%carried%weight)) &
-            & /(2.0_wp*block*input%number('compressive_strength'))
-         name = 'compressive_strength'
-      end if
       if (edge > 0.0_wp) then
-         if (hinge > 0.0_wp) call problems%note('edge_radius = '//to_text(edge)//': not with '//name// &
+         if (hinge > 0.0_wp) call problems%note('edge_radius = '//to_text(edge)//': not with '//trim(name)// &
             & ', the hinge is where the edge begins')
          hinge = edge
          name = 'edge_radius'
       end if
       wall%actions%hinge = hinge
       wall%actions%edge = edge
-      if (.not. hinge < wall%body%depth) call problems%note(name//': puts the hinge at depth '//rounded(hinge)// &
-         & ' m, must be less deep than the centroid of the wall, '//rounded(wall%body%depth)//' m')
+      call check_hinge(problems, name, hinge, wall%body%depth, 'the centroid of the wall, '//rounded(wall%body%depth)//' m')
       if (.not. edge < wall%body%height) call problems%note('edge_radius = '//to_text(edge)// &
          & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m')
       do i = 1, size(wall%actions%carried)
          depth = wall%actions%carried(i)%depth
-         if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. hinge < depth .or. depth < 0.0_wp) cycle
-         call problems%note(name//': puts the hinge at depth '//rounded(hinge)//' m, must be less deep than load '// &
-            & to_text(i)//', load_depth = '//to_text(depth))
+         if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. depth < 0.0_wp) cycle
+         call check_hinge(problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth))
       end do
    end subroutine read_hinge
 

@@ -36,6 +36,10 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: one_block(most_choices) = &
       & reshape([character(len=choices_length) :: 'one_sided', 'free_standing'], [most_choices], pad=blank)
 
+   !> Owners of what all walls have, once they are more than rectangles on their edge
+   character(len=choices_length), parameter :: all_walls(most_choices) = &
+      & reshape(mechanism_names, [most_choices], pad=blank)
+
    !> The rows, in the order in which a user thinks of them
    type(property_type), parameter :: rows(*) = [ &
       & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
@@ -74,13 +78,14 @@ module dondolo_wall_properties
       &   largest=1.0e3_wp, example='1.5', meaning='height of its centroid, with mass'), &
       & property_type('hinge_inertia', unit='kg m2/m', owners=one_block, optional=.true., positive=.true., &
       &   column='hinge_inertia_kg_m', example='4078.0', meaning='its inertia about the hinge, with mass'), &
-      & property_type('hinge_depth', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
-      &   largest=1.0e3_wp, example='0.02', meaning='depth of the hinge behind the outer face'), &
-      & property_type('compressive_strength', unit='Pa', owners=one_block, optional=.true., positive=.true., &
+      & property_type('hinge_depth', unit='m', owners=all_walls, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e3_wp, example='0.02', &
+      &   meaning='depth of the hinge behind the outer face, of each hinge of two_block behind its face'), &
+      & property_type('compressive_strength', unit='Pa', owners=all_walls, optional=.true., positive=.true., &
       &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, if_less='is it in MPa?', &
       &   if_more='is it in kPa?', example='2.0e6', &
-      &   meaning='strength of the masonry, from which the depth of the hinge follows'), &
-      & property_type('stress_block', owners=one_block, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
+      &   meaning='strength of the masonry, from which that depth follows'), &
+      & property_type('stress_block', owners=all_walls, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
       &   meaning='stress in the compressed part of the base / that strength, 0.85 if not given'), &
       & property_type('edge_radius', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e3_wp, example='0.02', &
@@ -95,6 +100,10 @@ module dondolo_wall_properties
       & property_type('load_inertia', is_words, owners=one_block, optional=.true., &
       &   choices=reshape(load_inertias, [most_choices], pad=blank), more='one for all loads, or one for each', &
       &   example='both', meaning='which mass of each load the wall moves'), &
+      & property_type('load_lifted', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      &   example='1.0, 0.5', meaning='part of each load whose mass the wall lifts, with load_pushed instead of load_inertia'), &
+      & property_type('load_pushed', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      &   example='0.3, 0.0', meaning='part of each load whose mass the wall pushes'), &
       & property_type('load_seat', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
       &   example='0.15, 0.15', meaning='horizontal travel at which each load loses its seat'), &
       & property_type('inertia_mass', is_list, unit='kg/m', owners=one_block, optional=.true., smallest=0.0_wp, &
@@ -137,6 +146,9 @@ module dondolo_wall_properties
       & property_type('overburden', unit='N/m', default=0.0_wp, smallest=0.0_wp, largest=1.0e9_wp, owners=two_block, &
       &   meaning='vertical load on the top, per metre of wall', usual_least=200.0_wp, usual_most=1.0e6_wp, &
       &   if_less='is it in kN/m?', if_more='is it per metre of wall?'), &
+      & property_type('overburden_inertia', smallest=0.0_wp, largest=1.0_wp, owners=two_block, optional=.true., &
+      &   example='1.0', meaning='part of that load whose mass the wall lifts', &
+      &   more='0 for a force alone (springs, tendons), 1 for a storey above; must be given with it'), &
       & property_type('eccentricity', unit='m', default=0.0_wp, owners=two_block, meaning='distance of that load '// &
       &   'from the centreline towards the active top hinge', more='the outer face where the wall folds outwards; '// &
       &   'negative for an inner bearing'), &
@@ -150,8 +162,8 @@ module dondolo_wall_properties
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
-   !> Properties that a bare rectangle with its hinge at its edge does not have; tables show them only where a wall has them
-   logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) == 'one_sided'
+   !> Properties that bare rectangles with hinges at their edges do not have; tables show them only where a wall has them
+   logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) /= blank(1) .and. .not. rows%replaced
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &

@@ -35,8 +35,10 @@ contains
          call step_8(lanes, rounded, form, samples, rtol, atol)
       else if (form%degree == degrees(2)) then
          call step_14(lanes, rounded, form, samples, rtol, atol)
-      else
+      else if (form%degree == degrees(3)) then
          call step_22(lanes, rounded, form, samples, rtol, atol)
+      else
+         call step_32(lanes, rounded, form, samples, rtol, atol)
       end if
    end subroutine step_lanes
 
@@ -52,6 +54,11 @@ contains
 #undef LANE_DEGREE
 #define LANE_STEP step_22
 #define LANE_DEGREE 22
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_32
+#define LANE_DEGREE 32
 #include "lane_step.inc"
 
 end module dondolo_lane_kernel

@@ -17,9 +17,12 @@ module dondolo_normal_form
    public :: normal_form_type, new_normal_form
    public :: degrees, highest_degree
 
-   !> Degrees of the polynomials to choose from: a slender block, most walls, the rest
-   integer, parameter :: degrees(3) = [8, 14, 22]
-   integer, parameter :: highest_degree = degrees(3)
+   !> Degrees of the polynomials to choose from: a slender block, most walls, the rest, walls that lift heavy masses
+   integer, parameter :: degrees(4) = [8, 14, 22, 32]
+   integer, parameter :: highest_degree = degrees(4)
+
+   !> Highest degree whose powers keep the rounding of the series that they are made of
+   integer, parameter :: highest_full = degrees(3)
 
    !> Nodes that the functions are sampled at
    integer, parameter :: nodes = 40
@@ -68,7 +71,7 @@ contains
 
       real(wp), dimension(nodes) :: z, q, stretch, a, b
       real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
-      integer :: i, iteration, needed
+      integer :: i, iteration, needed, kept
 
       if (limit < least_limit*mechanism%capacity) return
       z = chebyshev_nodes(nodes)
@@ -100,8 +103,11 @@ contains
       form%exists = needed <= highest_degree
       if (.not. form%exists) return
       form%degree = minval(degrees, degrees >= needed)
-      call expand(a, form%degree, form%a, form%fifth_a)
-      call expand(b, form%degree, form%b, form%fifth_b)
+      ! Powers of a high degree enlarge rounding, which would rule the bound of the fifth derivative.
+      kept = form%degree
+      if (kept > highest_full) kept = needed
+      call expand(a, kept, form%a, form%fifth_a)
+      call expand(b, kept, form%b, form%fifth_b)
    end function new_normal_form
 
    !> Values at rotations

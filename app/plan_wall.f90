@@ -1,0 +1,187 @@
+!> What --check prints of walls: their static quantities, and for one wall what holds it and what ends its motion.
+module dondolo_plan_wall
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_error, only : error_type, problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : left, rounded
+   use dondolo_wall, only : new_wall, wall_type
+   use dondolo_wall_body, only : read_wall_body, wall_body_type
+   use dondolo_wall_properties, only : wall_input_type
+   implicit none
+   private
+
+   public :: print_wall, print_head, print_row, print_body
+
+   !> Width of the column of names
+   integer, parameter, public :: name_width = 30
+
+contains
+
+   !> Print one wall and its static quantities
+   subroutine print_wall(wall)
+      type(wall_type), intent(in) :: wall
+
+      integer :: width
+
+      width = min(max(4, len(wall%name())), name_width)
+      call print_head(width)
+      call print_row(wall, width)
+   end subroutine print_wall
+
+   !> Print the head of the table of walls
+   subroutine print_head(width)
+      !> Width of the column of names
+      integer, intent(in) :: width
+
+      write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
+         & 'p', 'capacity', 'speed'
+      write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
+   end subroutine print_head
+
+   !> Print a wall and its static quantities
+   subroutine print_row(wall, width)
+      type(wall_type), intent(in) :: wall
+      !> Width of the column of names
+      integer, intent(in) :: width
+
+      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
+         & wall%mechanism_name(), wall%input%number('height'), wall%input%number('thickness'), &
+         & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
+         & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall))
+   end subroutine print_row
+
+   !> The loads on a wall and where an overburden bears, and what governs if it is not the face
+   pure function load_of(wall) result(text)
+      type(wall_type), intent(in) :: wall
+      !> Blanks and a few words, filled up with blanks; empty for a bare wall
+      character(len=200) :: text
+
+      real(wp) :: half, eccentricity
+
+      text = ''
+      associate (input => wall%input)
+         if (size(input%list('load')) > 0) text = '  loads '//rounded(sum(input%list('load')))//' N/m'
+         if (size(input%list('thrust')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust')))//' N/m'
+         if (input%number('overburden') > 0.0_wp) then
+            half = 0.5_wp*input%number('thickness')
+            text = '  load '//rounded(input%number('overburden'))//' N/m'
+            eccentricity = input%number('eccentricity')
+            if (eccentricity < 0.0_wp) then
+               text = trim(text)//', '//rounded(half + eccentricity)//' m from the inner face, folding outwards'
+            else if (eccentricity > 0.0_wp) then
+               text = trim(text)//', '//rounded(half - eccentricity)//' m from the outer face, folding outwards'
+            else
+               text = trim(text)//', on the centreline'
+            end if
+         end if
+         if (wall%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%hinge_depth)//' m deep'
+         if (wall%mechanism%unseating < wall%mechanism%capacity) text = trim(text)//'  unseating at '// &
+            & rounded(wall%mechanism%unseating)//' rad'
+      end associate
+   end function load_of
+
+   !> Print the masonry, what acts on it, what holds it, and what ends its motion
+   subroutine print_body(wall)
+      type(wall_type), intent(in) :: wall
+
+      real(wp) :: j, c, g, l, load
+
+      if (wall%mechanism_name() == 'two_block') then
+         call print_two_blocks(wall)
+      else
+         call print_one_block(wall)
+      end if
+      call print_hinge(wall)
+      call wall%mechanism%terms(0.0_wp, j, c, g, l, load)
+      call print_line('trigger', rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g: restoring moment '// &
+         & rounded(g - load)//' N m/m over excitation lever '//rounded(l)//' kg m/m')
+      associate (q => wall%mechanism%capacity)
+         if (wall%mechanism%unseating < q) then
+            call print_line('collapse', 'unseating governs: a load loses its seat at '//rounded(wall%mechanism%unseating)// &
+               & ' rad, '//rounded(wall%mechanism%unseating/q)//' of the capacity')
+         else
+            call print_line('collapse', 'overturning governs: the restoring moment vanishes at '//rounded(q)//' rad')
+         end if
+      end associate
+   end subroutine print_body
+
+   !> Print the body of one block and what acts on it
+   subroutine print_one_block(wall)
+      type(wall_type), intent(in) :: wall
+
+      type(wall_body_type) :: whole
+      type(problems_type) :: problems
+      integer :: i
+
+      call read_wall_body(wall%input, wall%gravity, problems, whole)
+      associate (body => whole%body, actions => whole%actions)
+         call print_line('masonry', rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer face, '// &
+            & rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
+         do i = 1, size(actions%carried)
+            associate (thing => actions%carried(i))
+               if (thing%weight > 0.0_wp) call print_line('load', rounded(thing%weight)//' N/m at depth '// &
+                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '//rounded(thing%pushed)// &
+                  & ' kg/m, lifted '//rounded(thing%lifted)//' kg/m')
+               if (.not. thing%weight > 0.0_wp) call print_line('mass', rounded(thing%pushed)//' kg/m pushed at depth '// &
+                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m')
+            end associate
+         end do
+         call print_line('moments', 'weights hold with '//rounded(wall%gravity*body%mass*(body%depth - actions%hinge) &
+            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m/m, thrusts push out with '// &
+            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
+      end associate
+   end subroutine print_one_block
+
+   !> Print the blocks of a wall of two and its load
+   subroutine print_two_blocks(wall)
+      type(wall_type), intent(in) :: wall
+
+      real(wp) :: mass, load, inertia
+
+      associate (input => wall%input)
+         mass = input%number('density')*input%number('height')*input%number('thickness')
+         load = input%number('overburden')
+         inertia = input%number('overburden_inertia')
+         call print_line('masonry', rounded(mass)//' kg/m, '//rounded(input%number('hinge')*mass)//' below the hinge at '// &
+            & rounded(input%number('hinge')*input%number('height'))//' m, '//rounded((1.0_wp - input%number('hinge'))*mass)// &
+            & ' above; centroids half as deep as the blocks are thick')
+         if (load > 0.0_wp) call print_line('load', rounded(load)//' N/m, lifted '//rounded(inertia*load/wall%gravity)// &
+            & ' kg/m, dead '//rounded((1.0_wp - inertia)*load)//' N/m')
+      end associate
+   end subroutine print_two_blocks
+
+   !> Print where the hinge is, and what its depth takes away
+   subroutine print_hinge(wall)
+      type(wall_type), intent(in) :: wall
+
+      type(wall_type) :: uncrushed
+      type(wall_input_type) :: input
+      type(error_type), allocatable :: error
+
+      if (.not. wall%hinge_depth > 0.0_wp) then
+         call print_line('hinge', 'at the face: geometry governs, no crushing')
+      else if (.not. wall%input%has('compressive_strength')) then
+         call print_line('hinge', rounded(wall%hinge_depth)//' m behind the face, given')
+      else
+         input = wall%input
+         call input%clear('compressive_strength')
+         call input%clear('stress_block')
+         call new_wall(uncrushed, input, error, wall%gravity)
+         if (allocated(error)) return
+         call print_line('hinge', rounded(wall%hinge_depth)//' m behind the face: crushing governs, trigger and capacity '// &
+            & 'are '//rounded(wall%mechanism%trigger_acceleration()/uncrushed%mechanism%trigger_acceleration())//' and '// &
+            & rounded(wall%mechanism%capacity/uncrushed%mechanism%capacity)//' of those about the face')
+      end if
+   end subroutine print_hinge
+
+   !> Print a line of what there is to say of a wall
+   subroutine print_line(what, text)
+      !> What it is
+      character(len=*), intent(in) :: what
+      !> What there is to say
+      character(len=*), intent(in) :: text
+
+      write (output_unit, '(a)') '   '//left(what//':', 10)//text
+   end subroutine print_line
+
+end module dondolo_plan_wall

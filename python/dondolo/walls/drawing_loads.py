@@ -1,0 +1,137 @@
+"""What a wall carries, drawn on it: loads, masses, thrusts and springs, with their values.
+
+Shapes tell them apart without colour: arrows down are loads, filled with a mass that the wall moves and open without
+one, arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo.figures import style
+from dondolo.walls.shape import Points, Shape, moved, storeys
+from dondolo.walls.wall import TwoBlockWall, Wall
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Parts of a load that the wall lifts and pushes
+_PARTS = {"none": (0.0, 0.0), "vertical": (1.0, 0.0), "both": (1.0, 1.0)}
+_PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""))
+
+
+def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
+    """Draw what acts on a wall where it has turned.
+
+    Parameters
+    ----------
+    ax : Axes
+        Has the limits of the drawing.
+    wall : Wall
+        The wall.
+    rotation : float
+        Signed rotation [rad].
+    now : Shape
+        Where it is then.
+    """
+    size = 0.09 * wall.height
+    if isinstance(wall, TwoBlockWall):
+        if wall.overburden > 0.0:
+            _, _, active, other = now.blocks[1]
+            lifted = wall.overburden_inertia or 0.0
+            words = f"{_with_prefix(wall.overburden, 'N/m')} {_in_words(lifted, 0.0)}"
+            # The eccentricity is measured towards the active top hinge
+            part = 0.5 + wall.eccentricity / wall.thickness
+            _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
+        return
+    for load, depth, height, *parts in _things(wall, "load", "depth", "height", "inertia", "lifted", "pushed"):
+        lifted, pushed = _PARTS[parts[0]] if parts[0] else parts[1:]
+        words = f"{_with_prefix(load, 'N/m')} {_in_words(lifted, pushed)}"
+        _arrow_down(ax, _place(wall, depth, height, rotation), size, words, is_mass=lifted > 0.0)
+    for mass, depth, height in _things(wall, "inertia_mass", "depth", "height"):
+        at = _place(wall, depth, height, rotation)
+        ax.plot(*at, marker="s", color=style.BLACK, markersize=7, zorder=5)
+        _words(ax, at, f"{mass:.4g} kg/m pushed", (9, -3))
+    for thrust, depth, height in _things(wall, "thrust", "depth", "height"):
+        at = _place(wall, _inner_face(wall, height) if depth is None else depth, height, rotation)
+        arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
+        ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
+        _words(ax, np.subtract(at, (1.4 * size, 0.0)), f"{_with_prefix(thrust, 'N/m')} thrust", (0, 4), ha="center")
+    for stiffness, depth, height in _things(wall, "spring", "depth", "height"):
+        _spring(ax, wall, _place(wall, depth, height, rotation), size, _with_prefix(stiffness, "N/m²"))
+    for stiffness, depth, bottom, top in _things(wall, "bed", "depth", "bottom", "top"):
+        for height in np.linspace(bottom, top, 5):
+            words = f"{_with_prefix(stiffness, 'N/m³')}" if height == bottom else ""
+            _spring(ax, wall, _place(wall, depth, float(height), rotation), size, words)
+
+
+def _things(wall: Wall, what: str, *more: str) -> list[tuple[Any, ...]]:
+    """The value of each thing of a kind, and what belongs to it; None for what is not given."""
+    values = getattr(wall, what, None) or ()
+    stem = what.split("_", 1)[0]
+    columns = [getattr(wall, f"{stem}_{name}", None) or (None,) for name in more]
+    return list(zip(values, *(c * len(values) if len(c) == 1 else c for c in columns), strict=True))
+
+
+def _in_words(lifted: float, pushed: float) -> str:
+    """Which parts of a load are masses that the wall moves."""
+    if not lifted and not pushed:
+        return "dead"
+    parts = ((lifted, "lifted"), (pushed, "pushed"))
+    return ", ".join(what if part == 1.0 else f"{100.0 * part:.3g} % {what}" for part, what in parts if part)
+
+
+def _inner_face(wall: Wall, height: float) -> float:
+    """Depth of the inner face at a height, the innermost where storeys meet."""
+    slack = 1e-6 * wall.height
+    inner = [
+        wall.thickness - float(corners[0, 0])
+        for corners in storeys(wall)
+        if corners[0, 1] - slack <= height <= corners[2, 1] + slack
+    ]
+    return max(inner)
+
+
+def _place(wall: Wall, depth: float, height: float, rotation: float) -> Points:
+    """Where a point of one block is."""
+    at: Points = moved(wall, np.array([[wall.thickness - depth, height]]), abs(rotation))[0]
+    # What rocks to both sides carries in its middle: the mirror image is the same load.
+    return np.array([wall.thickness - at[0], at[1]]) if rotation < 0.0 else at
+
+
+def _with_prefix(value: float, unit: str) -> str:
+    """A value with a prefix of its unit."""
+    factor, prefix = next((pair for pair in _PREFIXES if value >= pair[0]), _PREFIXES[-1])
+    return f"{value / factor:.4g} {prefix}{unit}"
+
+
+def _words(ax: Axes, at: Points, text: str, shift: tuple[float, float], ha: str = "left") -> None:
+    """A value beside what it belongs to."""
+    back = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
+    ax.annotate(
+        text, tuple(at), shift, textcoords="offset points", fontsize=7.5, ha=ha, va="bottom", zorder=6, bbox=back
+    )
+
+
+def _arrow_down(ax: Axes, at: Points, size: float, text: str, *, is_mass: bool) -> None:
+    """A load, its arrow filled where a mass goes with it."""
+    arrow = {
+        "arrowstyle": "-|>,head_width=0.3,head_length=0.55",
+        "edgecolor": style.BLUE,
+        "facecolor": style.BLUE if is_mass else "white",
+        "linewidth": 1.6,
+    }
+    ax.annotate("", tuple(at), tuple(np.add(at, (0.0, size))), arrowprops=arrow, zorder=5)
+    _words(ax, np.add(at, (0.0, 0.6 * size)), text, (6, 0))
+
+
+def _spring(ax: Axes, wall: Wall, at: Points, size: float, text: str) -> None:
+    """A spring between the wall and what stands still, behind it or before it."""
+    away = 1.0 if at[0] > 0.5 * wall.thickness else -1.0
+    along = np.array([0.0, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0, 1.2]) * size
+    across = np.array([0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0]) * 0.14 * size
+    ax.plot(at[0] + away * along, at[1] + across, color=style.BLACK, linewidth=1.0, zorder=5)
+    if text:
+        _words(ax, np.add(at, (away * along[-1], 0.0)), text, (4 * away, -3), ha="left" if away > 0.0 else "right")

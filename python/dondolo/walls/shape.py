@@ -1,0 +1,149 @@
+"""Where a wall is, at rest and rotated.
+
+Positions follow docs/theory.md, section 2. Outwards is to the right, so that depths are measured from the right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dondolo.walls.wall import TwoBlockWall, Wall
+
+Points = np.ndarray[Any, np.dtype[np.float64]]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Where a wall is.
+
+    Attributes
+    ----------
+    blocks : list of ndarray, shape (4, 2)
+        Corners of its blocks [m], from the base on its left, counter-clockwise.
+    hinges : ndarray, shape (hinges, 2)
+        Corners about which the blocks rotate [m].
+    """
+
+    blocks: list[Points]
+    hinges: Points
+
+
+def shape(wall: Wall, rotation: float) -> Shape:
+    """The position of a wall at a rotation.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall; at rest its base lies on y = 0, from x = 0 to x = thickness.
+    rotation : float
+        Signed rotation, of the lower block for two-block walls [rad]; positive: outwards, to the right.
+
+    Returns
+    -------
+    Shape
+    """
+    side = -1.0 if rotation < 0.0 else 1.0
+    t, q = wall.thickness, abs(rotation)
+    if isinstance(wall, TwoBlockWall):
+        blocks, hinges = _two_blocks(wall, q)
+    else:
+        blocks = [moved(wall, storey, q) for storey in storeys(wall)]
+        hinges = np.array([[t - wall.base_hinge_depth + _edge(wall) * q, 0.0]])
+    if side < 0.0:
+        blocks = [_mirrored(block, t) for block in blocks]
+        hinges = _mirrored(hinges, t)
+    return Shape(blocks, hinges)
+
+
+def storeys(wall: Wall) -> list[Points]:
+    """The storeys of one block at rest.
+
+    Parameters
+    ----------
+    wall : Wall
+        Any wall but one of two blocks.
+
+    Returns
+    -------
+    list of ndarray, shape (4, 2)
+        Corners of each from the bottom [m], as in `Shape.blocks`.
+    """
+    heights = getattr(wall, "section_height", None) or (wall.height,)
+    found = []
+    bottom = 0.0
+    for i, height in enumerate(heights):
+        thickness, offset = (
+            value[min(i, len(value) - 1)]
+            for value in (
+                getattr(wall, "section_thickness", None) or (wall.thickness,),
+                getattr(wall, "section_offset", None) or (0.0,),
+            )
+        )
+        left = wall.thickness - offset - thickness
+        found.append(np.add(_rectangle(thickness, height), (left, bottom)))
+        bottom += height
+    return found
+
+
+def _edge(wall: Wall) -> float:
+    """Radius of the edge that one block rolls on."""
+    return getattr(wall, "edge_radius", None) or 0.0
+
+
+def moved(wall: Wall, points: Points, rotation: float) -> Points:
+    """Points of one block, given at rest, where the wall has turned outwards.
+
+    Parameters
+    ----------
+    wall : Wall
+        Any wall but one of two blocks.
+    points : ndarray, shape (points, 2)
+        Where they are at rest [m].
+    rotation : float
+        Rotation, not negative [rad].
+
+    Returns
+    -------
+    ndarray, shape (points, 2)
+        Where they are [m]; a wall with a round edge rolls.
+    """
+    centre = np.array([wall.thickness - wall.base_hinge_depth, _edge(wall)])
+    turned: Points = np.add(_turned(points, centre, -rotation), (_edge(wall) * rotation, 0.0))
+    return turned
+
+
+def _two_blocks(wall: TwoBlockWall, q: float) -> tuple[list[Points], Points]:
+    """Both blocks folded to the right: R2 sin(beta2) = R1 sin(beta1) keeps base and top hinge on one vertical."""
+    t, u = wall.thickness, wall.base_hinge_depth
+    apart = t - 2.0 * u
+    lower, upper = wall.hinge * wall.height, (1.0 - wall.hinge) * wall.height
+    alpha1, alpha2 = np.arctan2(apart, lower), np.arctan2(apart, upper)
+    beta1 = alpha1 - q
+    beta2 = np.arcsin(np.hypot(apart, lower) * np.sin(beta1) / np.hypot(apart, upper))
+    base = np.array([t - u, 0.0])
+    middle = base + np.hypot(apart, lower) * np.array([-np.sin(beta1), np.cos(beta1)])
+    top = middle + np.hypot(apart, upper) * np.array([np.sin(beta2), np.cos(beta2)])
+    corner = np.array([t - u, upper])
+    blocks = [
+        _turned(_rectangle(t, lower), base, -q),
+        _turned(_rectangle(t, upper), corner, alpha2 - beta2) + (top - corner),
+    ]
+    return blocks, np.array([base, middle, top])
+
+
+def _rectangle(width: float, height: float) -> Points:
+    return np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
+
+
+def _turned(points: Points, centre: Points, angle: float) -> Points:
+    """Points turned about a centre, counter-clockwise."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    turned: Points = (points - centre) @ np.array([[cos, sin], [-sin, cos]]) + centre
+    return turned
+
+
+def _mirrored(points: Points, width: float) -> Points:
+    return np.column_stack([width - points[:, 0], points[:, 1]])

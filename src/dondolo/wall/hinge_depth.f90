@@ -1,0 +1,62 @@
+!> The depth of the hinges of a wall behind its faces: given, or from the strength of the masonry that is crushed there.
+!>
+!> The weight N on a hinge is carried by a block of the stress beta f over 2 u, whose resultant is the hinge:
+!> u = N/(2 beta f) (equation (3) of AlShawa et al. 2023; docs/theory.md, section 2).
+module dondolo_hinge_depth
+   use dondolo_error, only : problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : name_length
+   use dondolo_text, only : rounded, to_text
+   use dondolo_wall_properties, only : wall_input_type
+   implicit none
+   private
+
+   public :: read_hinge_depth, check_hinge
+
+contains
+
+   !> The depth of the hinges, and the property that it follows from
+   subroutine read_hinge_depth(input, weight, problems, depth, name)
+      !> What is said of the wall, defaults filled in
+      type(wall_input_type), intent(in) :: input
+      !> Weight on the base hinge, of the wall and all that it carries [N/m]
+      real(wp), intent(in) :: weight
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Depth u [m]; 0: at the faces
+      real(wp), intent(out) :: depth
+      !> Name of the property
+      character(len=name_length), intent(out) :: name
+
+      real(wp), parameter :: usual_block = 0.85_wp
+      real(wp) :: block
+
+      depth = input%number('hinge_depth')
+      name = 'hinge_depth'
+      block = usual_block
+      if (input%has('stress_block')) block = input%number('stress_block')
+      if (input%has('stress_block') .and. .not. input%has('compressive_strength')) call problems%note('stress_block: only '// &
+         & 'with compressive_strength')
+      if (.not. input%has('compressive_strength')) return
+      if (depth > 0.0_wp) call problems%note('hinge_depth = '//to_text(depth)// &
+         & ': give either hinge_depth or compressive_strength')
+      depth = weight/(2.0_wp*block*input%number('compressive_strength'))
+      name = 'compressive_strength'
+   end subroutine read_hinge_depth
+
+   !> Check that a hinge is less deep than what it must hold
+   subroutine check_hinge(problems, name, depth, limit, what)
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Name of the property that the depth of the hinge follows from
+      character(len=*), intent(in) :: name
+      !> Depth of the hinge, and of what it must hold [m]
+      real(wp), intent(in) :: depth, limit
+      !> What that is, and where
+      character(len=*), intent(in) :: what
+
+      if (.not. depth < limit) call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)// &
+         & ' m, must be less deep than '//what)
+   end subroutine check_hinge
+
+end module dondolo_hinge_depth
