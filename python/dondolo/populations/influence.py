@@ -6,7 +6,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_changes
-from dondolo.curves.clusters import FEWEST
+from dondolo._fortran.library import constants
 from dondolo.curves.members import Members
 from dondolo.curves.series import in_series, series_slopes
 from dondolo.errors import DondoloError
@@ -43,8 +43,8 @@ def changes(
         Fewer than three clusters of records.
     """
     labels = tuple(dict.fromkeys(flags.clusters))
-    if len(labels) < FEWEST:
-        raise DondoloError(f"no standard errors: less than {FEWEST} clusters of records")
+    if len(labels) < (fewest := constants().fewest_clusters):
+        raise DondoloError(f"no standard errors: less than {fewest} clusters of records")
     member = np.array([[own == label for own in flags.clusters] for label in labels], dtype=float)
     part = member @ flags.runs / flags.records
     share = members.weights / members.weights.sum()
