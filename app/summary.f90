@@ -58,9 +58,12 @@ contains
                & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
          end if
       end select
-      if (case%job%task /= 'typology' .or. allocated(results%typologies)) write (output_unit, '(a)') &
-         & 'note: records are applied at the base of the wall; ground records underestimate the demand on parapets, '// &
-         & 'gables, pinnacles and upper storeys'
+      if (allocated(case%wall%building)) then
+         write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
+      else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
+         write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
+            & 'the demand on parapets, gables, pinnacles and upper storeys'
+      end if
       write (output_unit, '(a)') ''
       if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
       do i = 1, paths%count

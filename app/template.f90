@@ -29,6 +29,8 @@ contains
          call print_columns()
       else
          call print_group('wall', task)
+         call print_line('! Where the wall stands on a building:')
+         call print_group('building', task, is_commented=.true.)
       end if
       call print_group('records', task)
       call print_group('stripes', task)
@@ -38,30 +40,35 @@ contains
    end subroutine print_template
 
    !> Print a group
-   subroutine print_group(name, task)
+   subroutine print_group(name, task, is_commented)
       !> Name of the group
       character(len=*), intent(in) :: name
       !> Task
       character(len=*), intent(in) :: task
+      !> Given: all of it stands behind exclamation marks, and none of its variables must be given
+      logical, intent(in), optional :: is_commented
 
       type(property_type), allocatable :: table(:)
-      character(len=:), allocatable :: assignment, comment
+      character(len=:), allocatable :: assignment, comment, before
       integer :: i, pass, margin
 
+      before = ''
+      if (present(is_commented)) before = '! '
       table = property_table(name)
-      call print_line('&'//name)
+      call print_line(before//'&'//name)
       margin = 0
       do pass = 1, 2
          do i = 1, size(table)
             if (.not. suits(table(i), task)) cycle
             call make_assignment(table(i), task, assignment)
+            if (len(before) > 0) assignment = before//'   '//assignment(6:)
             if (pass == 1) margin = max(margin, len(assignment) + 2)
             if (pass == 1) cycle
             call make_comment(table(i), comment)
             call print_commented(assignment, comment, margin)
          end do
       end do
-      call print_line('/')
+      call print_line(before//'/')
    end subroutine print_group
 
    !> Does a property belong to a task, or to walls?
@@ -135,13 +142,14 @@ contains
    !> Print the columns of a population as comments
    subroutine print_columns()
 
+      character(len=8), parameter :: tables(3) = [character(len=8) :: 'wall', 'building', 'member']
       type(property_type), allocatable :: table(:)
       character(len=:), allocatable :: comment
       integer :: i, k
 
       call print_line('! Columns of the table of walls, one row a mechanism of a wall:')
-      do k = 1, 2
-         table = property_table(trim(merge('wall  ', 'member', k == 1)))
+      do k = 1, size(tables)
+         table = property_table(trim(tables(k)))
          do i = 1, size(table)
             call make_comment(table(i), comment)
             call print_commented('! '//trim(table(i)%name), comment, 26)

@@ -7,6 +7,7 @@ from dondolo._fortran.library import Property, properties
 TITLES = {
     "job": "What is to be done",
     "wall": "One wall, for the tasks 'stripes' and 'history'; in the columns of a population, its walls",
+    "building": "What the wall stands on, where that is not the ground; in the columns of a population, of each wall",
     "member": "Further columns of a population",
     "population": "A population of walls, for the task 'typology'",
     "records": "The accelerograms",
@@ -18,7 +19,8 @@ TITLES = {
 HEAD = """# Variables of a case
 
 What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs. The names of the
-group `&wall` are the columns of a population and the arguments of the walls in Python too. This page is written by
+groups `&wall` and `&building` are the columns of a population, and the arguments of the walls and of `dd.Building` in
+Python too; values of a list stand in columns with numbers, `period1`, `period2` ... This page is written by
 `docs/variables.py` from the tables of properties in the sources, where ranges and defaults have their only home.
 """
 

@@ -1,6 +1,8 @@
 !> Every row of every table of properties: has all that a reader of messages and templates needs, keeps its value from a
 !> namelist to what is computed and back, and is refused in one line where it is out of range.
 program test_properties
+   use dondolo_check_group, only : read_check_group
+   use dondolo_check_input, only : check_input_type, check_properties, put_check
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type
@@ -55,7 +57,7 @@ contains
          associate (property => table(i))
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
-            call check(any(property%unit == [character(len=8) :: '', 'm', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
+            call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
                & 'kg/m', 'kg m2/m', 'Pa']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
@@ -204,6 +206,9 @@ contains
          text = '0.15, 0.25'
          ! Depths are measured from the lowest section
          if (property%name == 'section_offset') text = '0.0, 0.25'
+         ! One for all limit states
+         if (any(property%name == [character(len=8) :: 'ag', 'tc_star'])) text = '0.25'
+         if (property%name == 'f0') text = '2.5'
       case (is_integer, is_number_or_name)
          text = '3'
       case default
@@ -229,7 +234,7 @@ contains
       character(len=:), allocatable :: text, what, echo
       integer :: i, j
 
-      if (name == 'wall' .or. name == 'member') return
+      if (any(name == [character(len=8) :: 'wall', 'building', 'member'])) return
       call suite('way of '//name)
       table = property_table(name)
       do i = 1, size(table)
@@ -266,6 +271,7 @@ contains
       type(stripes_input_type) :: stripes
       type(solver_input_type) :: solver
       type(history_input_type) :: history
+      type(check_input_type), allocatable :: check_by_code
       character(len=:), allocatable :: file
 
       select case (name)
@@ -288,6 +294,11 @@ contains
       case ('history')
          call read_history_group(group, history, error)
          if (.not. allocated(error)) call history%put(settings)
+      case ('check')
+         call read_check_group(group, check_by_code, error)
+         if (allocated(error)) return
+         call new_settings(settings, check_properties)
+         call put_check(check_by_code, settings)
       end select
    end subroutine through
 

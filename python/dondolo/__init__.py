@@ -38,6 +38,7 @@ from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records import pulses
+from dondolo.records.building import Building
 from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
@@ -63,6 +64,7 @@ __version__ = _constants().version
 __all__ = [
     "Bootstrap",
     "Boundary",
+    "Building",
     "Case",
     "Choice",
     "Cloud",

@@ -1,8 +1,11 @@
 """What comes in and goes out: encodings, line ends, limits of sizes, and names that spreadsheets take for formulas."""
 
+import contextlib
 import csv
+import dataclasses
 import io
 import json
+import zipfile
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -10,6 +13,7 @@ import numpy as np
 import pytest
 from costs import growth
 from dondolo._base.shown import html_of
+from dondolo._base.transactions import described
 from dondolo.reporting import content
 from dondolo.reporting.page import _environment
 
@@ -292,3 +296,66 @@ def test_names_that_steer_a_terminal(name, run, tmp_path):
         assert done.returncode == 2
         said.extend(done.stderr.splitlines())
     assert all(map(str.isprintable, said)), said
+
+
+@pytest.mark.parametrize(
+    ("member", "value"), [("theta", 10**400), ("log_likelihood", -(10**400)), ("covariance", -1.0)]
+)
+def test_archives_of_numbers_that_cannot_be(member, value, tmp_path):
+    """They are refused, not met later; an integer of JSON can be larger than any float."""
+    curve = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10])
+    dataclasses.replace(curve, **{member: np.full((2, 2), value) if member == "covariance" else value}).save(
+        tmp_path / "curve.npz"
+    )
+    with pytest.raises(dd.InputError, match=r"curve\.npz: was saved by dondolo .*: (int too large|invalid value)"):
+        dd.load(tmp_path / "curve.npz")
+
+
+def test_archives_of_arrays_that_do_not_belong_together(stripes, tmp_path):
+    stripes.save(tmp_path / "stripes.npz")
+    with zipfile.ZipFile(tmp_path / "stripes.npz") as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    tree = json.loads(members["dondolo.json"])
+    parts = tree["result"]["Stripes"]
+    parts["edp"] = parts["levels"]
+    members["dondolo.json"] = json.dumps(tree).encode()
+    with zipfile.ZipFile(tmp_path / "stripes.npz", "w") as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    with pytest.raises(dd.InputError, match=r"edp: must have the shape of ran, \(6, 44\)"):
+        dd.load(tmp_path / "stripes.npz")
+
+
+@pytest.mark.parametrize("column", ["return_period", "investigation_time"])
+def test_frequencies_beyond_all_bounds(column, tmp_path):
+    rows = {"return_period": "1e-310,", "investigation_time": "1e-310,0.1"}[column]
+    path = tmp_path / "hazard.csv"
+    head = "pga,return_period" if column == "return_period" else "pga,investigation_time,poe"
+    path.write_text(f"{head}\n0.1,{rows.strip(',')}\n0.2,{rows.strip(',')}\n")
+    with pytest.raises(dd.InputError, match="inf"):
+        dd.HazardCurve.from_csv(path)
+
+
+@pytest.mark.parametrize(("column", "value"), [("side", "1e300"), ("time_s", "1e308")])
+def test_histories_beyond_all_bounds(column, value, wall, sine, run, tmp_path):
+    """Cells that no integer or quotient can hold; the check sum is made right, so that they are read."""
+    (tmp_path / "r.txt").write_text(SAMPLES)
+    (tmp_path / "records.csv").write_text("file,dt_s,units\nr.txt,0.1,m/s2\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'history' output = 'x' /\n&wall mechanism = 'one_sided' height = 3 thickness = 0.3 /\n"
+        "&records catalogue = 'records.csv' /\n&history record = 1 im_level = 0.4 /\n"
+    )
+    assert run("--quiet", "case.nml").returncode == 0
+    path, described_by = tmp_path / "x_history.csv", tmp_path / "x_run.json"
+    lines = path.read_text().splitlines()
+    first = next(i for i, line in enumerate(lines) if line[0] != "#")
+    cells = lines[-1].split(",")
+    cells[lines[first].split(",").index(column)] = value
+    path.write_text("\n".join([*lines[:-1], ",".join(cells)]) + "\n")
+    told = json.loads(described_by.read_text())
+    for one in told["files"]:
+        if one["name"] == "_history.csv":
+            one |= described("_history.csv", path.read_text())._asdict()
+    described_by.write_text(json.dumps(told))
+    with pytest.raises(dd.InputError, match=r"x_history\.csv") if column == "side" else contextlib.nullcontext():
+        dd.read_results(tmp_path / "x")

@@ -59,7 +59,7 @@ def rooms_of(folder):
 @pytest.mark.parametrize(
     ("folder", "rooms"),
     [
-        (".", ["base", "record", "wall", "motion", "fragility", "check", "population", "case"]),
+        (".", ["base", "record", "building", "wall", "motion", "fragility", "check", "population", "case"]),
         ("base", ["numerics", "text", "properties", "system"]),
         ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],
@@ -219,7 +219,7 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_rows", "run_scaled", "fit_curves", "probability",
-        "in_series", "cluster_curves",
+        "in_series", "cluster_curves", "floor_motion",
     }  # fmt: skip
 
 
@@ -333,8 +333,9 @@ def test_what_may_be_left_out_goes_by_name():
 def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
-        "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal", "OneSidedWall",
-        "Population", "Record", "RecordSet", "Site", "TargetSpectrum", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+        "Building", "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Lognormal", "Normal",
+        "OneSidedWall", "Population", "Record", "RecordSet", "Site", "TargetSpectrum", "Triangular", "TwoBlockWall",
+        "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
     assert made_by_users < set(kinds)

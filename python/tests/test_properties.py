@@ -53,7 +53,7 @@ def test_walls(kind):
     rows = [row for row in WALL if row.name != "mechanism" and (not row.owners or kind.mechanism in row.owners)]
     rows.append(GRAVITY)
     parameters = inspect.signature(kind).parameters
-    assert set(parameters) == {row.name for row in rows}
+    assert set(parameters) == {row.name for row in rows} | {"building"}
     said = entries(kind)
     for row in rows:
         required = row.default == "required"
@@ -70,7 +70,10 @@ def test_walls(kind):
 @pytest.mark.parametrize("kind", MECHANISMS.values(), ids=MECHANISMS)
 def test_defaults_of_walls(kind):
     wall = kind(3.0, 0.25)
+    assert wall.building is None
     for field in dataclasses.fields(wall):
+        if field.name == "building":
+            continue
         (row,) = (row for row in (*WALL, GRAVITY) if row.name == field.name)
         value = getattr(wall, row.name)
         if row.default == "optional":
@@ -79,6 +82,15 @@ def test_defaults_of_walls(kind):
             assert value == row.default
         elif row.default != "required":
             assert value == float(row.default)
+
+
+def test_buildings():
+    """`dd.Building` has what the table of buildings has, and says the same of it."""
+    said = entries(dd.Building)
+    rows = properties("building")
+    assert [row.name for row in rows] == [field.name for field in dataclasses.fields(dd.Building)]
+    for row in rows:
+        assert said[row.name][1].startswith(sentence(row)), row.name
 
 
 def test_solver():
@@ -123,9 +135,9 @@ def test_page_of_variables(root):
 
 def test_template_has_every_property(run, tmp_path):
     for task, groups in {
-        "stripes": ("job", "wall", "records", "stripes", "solver"),
-        "history": ("job", "wall", "records", "stripes", "solver", "history"),
-        "typology": ("job", "population", "wall", "member", "records", "stripes", "solver"),
+        "stripes": ("job", "wall", "building", "records", "stripes", "solver"),
+        "history": ("job", "wall", "building", "records", "stripes", "solver", "history"),
+        "typology": ("job", "population", "wall", "building", "member", "records", "stripes", "solver"),
     }.items():
         text = run("--template", task).stdout
         for group in groups:

@@ -2,8 +2,10 @@
 
 import contextlib
 import fcntl
+import json
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -112,6 +114,17 @@ def test_files_of_two_runs_are_refused(executable, folder):
         dd.read_results(folder / "a/x")
     with pytest.raises(dd.InputError, match=r"must be what the names begin with, '.*a/x'"):
         dd.read_results(folder / "a/x_walls.csv")
+
+
+@pytest.mark.parametrize("name", ["20261122T232756Z-8a37df$(id)", "a\0b", "../x"])
+def test_a_run_of_another_name_is_refused(name, executable, folder):
+    """It is part of names of files; a reader also waited for it for ever."""
+    assert start(executable, folder, "a").wait() == 0
+    path = folder / "out/x_run.json"
+    run = dd.read_results(folder / "out/x").run.run
+    path.write_text(path.read_text().replace(run, json.dumps(name)[1:-1]))
+    with pytest.raises(dd.InputError, match=r"x_run\.json: run = .*: must be a name such as"):
+        dd.read_results(folder / "out/x")
 
 
 @pytest.mark.parametrize("mine", ["mine", ""])
@@ -245,3 +258,13 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
     assert "dondolo: interrupted" in run.communicate()[1]
     assert run.returncode == -number
     assert not (folder / "out").exists()
+
+
+def test_all_files_are_written_by_one_layer(root):
+    """Whole or not at all: Python through parts, Fortran through the writer; docs/architecture.md says so."""
+    writing = re.compile(r"""\.write_(?:text|bytes)\(|\bopen\([^)]*["'][wax]""")
+    for path in (root / "python/dondolo").rglob("*.py"):
+        for line in filter(writing.search, path.read_text().splitlines()):
+            assert re.search(r"\bpart\b|\bstaged\(|\barchive\.open", line), f"{path}: {line}"
+    for path in (root / "src").rglob("*.[fF]90"):
+        assert not re.search(r"(?i)action\s*=\s*'(?:read)?write'", path.read_text()), path

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from faults import Faults
 from kills import Kills
-from readers import Attack, Tally
+from readers import EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
 from samples import ROOT, Programs
 from workers import Workers
 
@@ -36,7 +36,7 @@ def main() -> int:
     parser.add_argument(
         "--cases", type=int, default=1000, help="damaged files of each family; all else is in proportion"
     )
-    parser.add_argument("--only", nargs="*", help="families, or files, faults, kills, workers")
+    parser.add_argument("--only", nargs="*", help="families, as the table names them, or files, faults, kills, workers")
     parser.add_argument("--case", metavar="FAMILY:NUMBER", help="a damaged file, as a failure names it")
     given = parser.parse_args()
     programs = Programs(*(path.resolve() for path in given.programs))
@@ -63,7 +63,7 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
     def chosen(*names: str) -> bool:
         return not given.only or any(name in given.only for name in names)
 
-    if given.case or chosen("files") or not {"faults", "kills", "workers"} >= set(given.only):
+    if given.case or chosen("files", *FORTRAN, *PYTHON, *EXECUTABLE):
         files = Attack(programs, folder, KEPT)
         if given.case:
             family, _, number = given.case.partition(":")
@@ -73,20 +73,19 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
             if chosen("files", family):
                 yield files.run(family, range(cases))
     n = given.cases
-    if chosen("faults"):
-        yield from Faults(programs, folder / "faults").all(max(1, 1000 // n))
-    if chosen("kills"):
-        kills = Kills(programs, folder / "kills")
-        parts: list[Callable[[], Tally]] = [
-            kills.full_disks,
-            lambda: kills.kills(max(4, 180 * n // 1000)),
-            lambda: kills.together(max(4, n // 10)),
-            lambda: kills.one_checkpoint(max(4, n // 10)),
-        ]
-        yield from (part() for part in parts)
-        kills.judge.end()
-    if chosen("workers"):
-        yield from Workers(programs, folder / "workers").all(max(1, n // 100))
+    faults = Faults(programs, folder / "faults").families(max(1, 1000 // n))
+    kills = Kills(programs, folder / "kills")
+    interrupted: dict[str, Callable[[], Tally]] = {
+        "full disk": kills.full_disks,
+        "killed": lambda: kills.kills(max(4, 180 * n // 1000)),
+        "one output": lambda: kills.together(max(4, n // 10)),
+        "one checkpoint": lambda: kills.one_checkpoint(max(4, n // 10)),
+    }
+    workers = Workers(programs, folder / "workers").families(max(1, n // 100))
+    for group, families in (("faults", faults), ("kills", interrupted), ("workers", workers)):
+        for family, attacked in families.items():
+            if chosen(group, family):
+                yield attacked()
 
 
 def report(tallies: list[Tally]) -> int:

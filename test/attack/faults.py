@@ -11,7 +11,7 @@ import errno
 import os
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 from readers import Tally
@@ -69,15 +69,16 @@ class Faults:
             raise RuntimeError(f"the library itself disturbs: {ended}")
         return log.read_text().splitlines() if log.exists() else []
 
-    def all(self, step: int = 1) -> Iterator[Tally]:
-        """Every `step`-th call of all runs."""
-        yield self.executable("typology", step)
-        yield self.executable("stripes", step)
-        yield self.python("typology", step)
-        yield self.python("save", step)
-        yield self.executable("typology", step, SMALL)
-        yield self.executable("stripes", step, SMALL)
-        self.judge.end()
+    def families(self, step: int) -> dict[str, Callable[[], Tally]]:
+        """Every `step`-th call of each run."""
+        return {
+            "faults typology": lambda: self.executable("typology", step),
+            "faults stripes": lambda: self.executable("stripes", step),
+            "faults typology (Python)": lambda: self.python("typology", step),
+            "faults save (Python)": lambda: self.python("save", step),
+            "memory typology": lambda: self.executable("typology", step, SMALL),
+            "memory stripes": lambda: self.executable("stripes", step, SMALL),
+        }
 
     def executable(self, task: str, step: int, large: int = 0) -> Tally:
         """Calls of the executable on its inputs and results, or its large allocations."""

@@ -50,7 +50,7 @@ class Kills:
 
     def kills(self, trials: int) -> Tally:
         """Kill runs at random moments; then let them go on."""
-        tally = Tally("kills")
+        tally = Tally("killed")
         for task, share in (("typology", 0.6), ("stripes", 0.25), ("python", 0.15)):
             old = self.study("old", "stripes" if task == "stripes" else "typology", 7)
             new = self.study("new", old.task, WALLS)

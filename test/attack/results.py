@@ -44,6 +44,9 @@ def unsound(value: Any) -> str:
     if dataclasses.is_dataclass(value):
         for field in dataclasses.fields(value):
             inner = getattr(value, field.name)
+            if field.name == "edp" and hasattr(value, "ran"):
+                # Histories that were not run have none.
+                inner = inner[value.ran]
             if isinstance(inner, np.ndarray) and inner.dtype.hasobject:
                 return f"{field.name}: objects"
             if (

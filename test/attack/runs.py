@@ -118,10 +118,6 @@ class Judge:
         """A digest of all results there; ``none`` where there are no files; else what is wrong."""
         return self.reader.ask("set", prefix).removeprefix("read ")
 
-    def end(self) -> None:
-        """End the reader."""
-        self.reader.end()
-
 
 def changed(first: dict[str, bytes], second: dict[str, bytes]) -> str:
     """Names of files that differ, are missing or are too many."""

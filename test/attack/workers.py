@@ -9,7 +9,7 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -37,14 +37,17 @@ class Workers:
         folder.mkdir(parents=True)
         self.study = Study(programs, folder / "new", "typology", WALLS, SAMPLES)
 
-    def all(self, trials: int) -> Iterator[Tally]:
+    def families(self, trials: int) -> dict[str, Callable[[], Tally]]:
         """Kills of each kind of worker that is installed."""
         mpiexec = shutil.which("mpiexec", path=f"{self.programs.python.parent}:{os.environ['PATH']}")
-        yield self.kills("pool", [], trials)
-        yield self.kills("dask", [], trials, "" if importlib.util.find_spec("distributed") else "Dask is not installed")
+        no_dask = "" if importlib.util.find_spec("distributed") else "Dask is not installed"
         there = mpiexec and importlib.util.find_spec("mpi4py")
-        before = [mpiexec or "", "-n", "3"]
-        yield self.kills("mpi", before, trials, "" if there else "mpi4py or mpiexec is not installed")
+        no_mpi = "" if there else "mpi4py or mpiexec is not installed"
+        return {
+            "workers pool": lambda: self.kills("pool", [], trials),
+            "workers dask": lambda: self.kills("dask", [], trials, no_dask),
+            "workers mpi": lambda: self.kills("mpi", [mpiexec or "", "-n", "3"], trials, no_mpi),
+        }
 
     def command(self, what: str) -> list[str | Path]:
         """The command of a run in Python."""

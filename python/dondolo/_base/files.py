@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.transactions import create, new_run, synchronize
+from dondolo._base.transactions import RUN_NAME, create, new_run, synchronize
 from dondolo.errors import DondoloError, InputError, MissingFileError
 
 # How often a part is made that another process takes for a dead one
@@ -118,7 +118,7 @@ def _new_part(target: Path) -> tuple[Path, int]:
 
 def _remove_dead_parts(target: Path) -> None:
     """Remove the parts of a file that nobody writes any more."""
-    named = re.compile(re.escape(target.name) + r"\.\d{8}T\d{6}Z-[0-9a-f]{16}\.new")
+    named = re.compile(rf"{re.escape(target.name)}\.{RUN_NAME.pattern}\.new")
     with suppress(OSError):
         for name in filter(named.fullmatch, os.listdir(target.parent)):
             part = target.with_name(name)

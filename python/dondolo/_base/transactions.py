@@ -27,6 +27,8 @@ TABLES = tuple(
     f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history", "check")
 )
 RUN_FILE = "_run.json"
+#: A name of a run
+RUN_NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{16}")
 _LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment
 _TRIES, _PAUSE = 5, 0.02

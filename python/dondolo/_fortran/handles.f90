@@ -6,6 +6,7 @@
 module dondolo_handles
    use, intrinsic :: iso_c_binding, only : c_int64_t
    use dondolo_error, only : error_type, raise_input
+   use dondolo_floors, only : floors_type
    use dondolo_store, only : store_type
    use dondolo_study, only : study_type
    use dondolo_suite, only : suite_type
@@ -27,6 +28,8 @@ module dondolo_handles
    type :: held_study_type
       !> The study
       type(study_type) :: study
+      !> Motions of the floors that its walls stand on
+      type(floors_type) :: floors
       !> Handle of its suite
       integer(c_int64_t) :: suite = 0
    end type held_study_type

@@ -4,6 +4,7 @@ module histories
    use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
+   use dondolo_floors, only : check_floor, floors_type
    use dondolo_handles, only : find_suite, find_walls
    use dondolo_interrupt, only : check_interrupt
    use dondolo_memory, only : check_memory => check_room, raise_shortage
@@ -42,7 +43,8 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(wall_type), pointer :: people(:)
-      type(suite_type), pointer :: records
+      type(suite_type), pointer :: records, motions
+      type(floors_type), target :: own
       type(solver_type) :: solver
       type(response_type) :: response
       type(trace_type) :: trace
@@ -56,11 +58,12 @@ contains
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
       if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
+      if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
          if (history == 1) then
-            call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response, trace)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, trace)
          else
-            call simulate_wall(people(1)%mechanism, records%records(number), scale, solver, response)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response)
          end if
          call check_interrupt(error)
       end if
@@ -72,6 +75,28 @@ contains
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       call send(parcel, error, sent, stat, message)
    end subroutine simulate
+
+   !> Motions that move a wall: those of the ground, or of the floor that it stands on
+   subroutine find_motions(wall, records, threads, floors, motions, error)
+      type(wall_type), intent(in) :: wall
+      !> Motions of the ground
+      type(suite_type), pointer, intent(in) :: records
+      !> Number of threads that make them; 0: all that OpenMP gives
+      integer(c_int), intent(in) :: threads
+      !> Keeps those of the floor
+      type(floors_type), target, intent(inout) :: floors
+      !> The motions
+      type(suite_type), pointer, intent(out) :: motions
+      !> They would be too long, or lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: place
+
+      motions => records
+      if (.not. allocated(wall%building)) return
+      call check_floor(wall%building, records, error)
+      if (.not. allocated(error)) call floors%take(wall%building, records, int(threads), place, motions)
+   end subroutine find_motions
 
    !> Check that there was room for a time history, and that there is some to send it
    subroutine check_trace(trace, error)
@@ -102,7 +127,8 @@ contains
       integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
       character(len=2048), intent(out) :: message
       type(wall_type), pointer :: people(:)
-      type(suite_type), pointer :: records
+      type(suite_type), pointer :: records, motions
+      type(floors_type), target :: own
       type(solver_type) :: solver
       type(ensemble_type) :: ensemble
       type(error_type), allocatable :: error
@@ -125,10 +151,11 @@ contains
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)
       end do
+      if (.not. allocated(error)) call find_motions(people(1), records, threads, own, motions, error)
       if (.not. allocated(error)) then
          ensemble%record = record
          ensemble%scale = scale
-         call run_ensemble(ensemble, people(1)%mechanism, records, solver, threads)
+         call run_ensemble(ensemble, people(1)%mechanism, motions, solver, threads)
          call unpack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
          call check_interrupt(error)
       end if

@@ -54,6 +54,7 @@ contains
          allocate (held)
          held%suite = suite
          call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, settings), threads)
+         held%study%floors => held%floors
          content => held
          call hold(content, handle)
       end if

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, as_path
 from dondolo._fortran import _core
+from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Parcel, as_text, check, constants, properties, receive, warn_of_notes
 from dondolo.errors import InputError
@@ -174,13 +175,15 @@ def read_walls(
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
-WALL_PROPERTIES = properties("wall")
+WALL_PROPERTIES = properties("wall") + BUILDING_PROPERTIES
 WALL_TEXTS = tuple(row.name for row in WALL_PROPERTIES if row.kind in ("text", "words"))
 WALL_NUMBERS = tuple(row.name for row in WALL_PROPERTIES if row.name not in WALL_TEXTS)
 # Those that have several values, and those whose values are texts
 WALL_LISTS = frozenset(row.name for row in WALL_PROPERTIES if row.kind in ("list", "words"))
 WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 # Those that only some walls have: tables show them where one of theirs has them
-WALL_EXTRAS = frozenset(row.name for row in WALL_PROPERTIES if row.default == "optional" and row.owners and row.column)
+WALL_EXTRAS = frozenset(
+    row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
+) | frozenset(BUILDING_NAMES)
 _WALL_REALS = 8
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

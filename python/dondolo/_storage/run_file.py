@@ -10,7 +10,7 @@ from datetime import datetime
 from typing import Any
 
 from dondolo._base.files import read_text
-from dondolo._base.transactions import Written
+from dondolo._base.transactions import RUN_NAME, Written
 from dondolo._fortran.library import unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
@@ -161,12 +161,20 @@ def read_run_file(path: str) -> RunFile:
             tuple(unpack_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
-            _member(content, "run", str),
+            _run(content),
             {name: _member(shape, name, int) for name in shape},
             tuple(_written(one) for one in _all(content, "files", dict)),
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error
+
+
+def _run(content: Mapping[str, Any]) -> str:
+    """Name of the run, which stands in names of files."""
+    run: str = _member(content, "run", str)
+    if not RUN_NAME.fullmatch(run):
+        raise ValueError(f"run = {run!r}: must be a name such as 20260131T235959Z-0123456789abcdef")
+    return run
 
 
 def _written(content: Mapping[str, Any]) -> Written:

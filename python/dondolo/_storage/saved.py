@@ -148,9 +148,11 @@ def load(path: str | os.PathLike[str]) -> Any:
     result, origin, arrays = _unpack(data, source)
     try:
         loaded = _decode(result, arrays)
-        # Arrays of shapes that do not belong together are found here, not where the result is shown first.
-        repr(loaded)
-    except (AttributeError, InputError, LookupError, TypeError, ValueError) as error:
+        # Arrays of shapes that do not belong together, and impossible numbers, are found here, not where the result is
+        # shown first.
+        with np.errstate(over="raise", invalid="raise"):
+            repr(loaded)
+    except (ArithmeticError, AttributeError, InputError, LookupError, TypeError, ValueError) as error:
         raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
     return loaded
 

@@ -108,6 +108,12 @@ class Stripes(Shown, Saved):
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("edp", "collapsed", "impacts", "time_of_peak", "scale"):
+            if getattr(self, name).shape != self.ran.shape:
+                raise InputError(f"{name}: must have the shape of ran, {self.ran.shape}")
+
     def __getitem__(self, which: Any) -> Stripes:
         """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
         return cut(self, which)

@@ -139,11 +139,12 @@ class ResultFile:
         values.flags.writeable = False
         return values
 
-    def counts(self, name: str, least: int = 0) -> NDArray[np.int32]:
+    def counts(self, name: str, least: int = 0, most: int = 2**31 - 1) -> NDArray[np.int32]:
         """A column of whole numbers."""
         values = self.numbers(name)
-        wrong = (values < least) | (values > np.iinfo(np.int32).max) | (values != np.floor(values))
+        wrong = (values < least) | (values > most) | (values != np.floor(values))
         if wrong.any():
             i = int(np.argmax(wrong))
-            raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: must be an integer, at least {least}")
+            allowed = f"must be an integer between {least} and {most}"
+            raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: {allowed}")
         return values.astype(np.int32)

@@ -12,6 +12,7 @@ import numpy as np
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
+from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.checks import SheetRow
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
@@ -24,11 +25,14 @@ from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
+from dondolo.records.building import building_from
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
 from dondolo.walls.wall import MECHANISMS, Wall, numbered
 
+# How often results are read again that another run replaces meanwhile
+_TRIES = 20
 # Columns of _walls.csv and the numbers of a wall
 _COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
 _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
@@ -99,6 +103,7 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     """
     name = as_file("prefix", prefix).name
     prefix = os.fspath(prefix)
+    tries = 0
     while True:
         try:
             run = read_run_file(prefix + RUN_FILE)
@@ -112,7 +117,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
             return _read(prefix, run)
         except (MissingFileError, MixedError):
             # Unless another run has published its results meanwhile
-            if published_run(Path(prefix)) == run.run:
+            tries += 1
+            if tries == _TRIES or published_run(Path(prefix)) == run.run:
                 raise
 
 
@@ -187,7 +193,8 @@ def _population(table: ResultFile, gravity: float) -> Population:
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
-            walls.append(MECHANISMS[kind](**given))
+            building = building_from({name: given.pop(name, None) for name in BUILDING_NAMES})
+            walls.append(MECHANISMS[kind](**given, building=building))
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
@@ -211,14 +218,14 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
     if result.collapsed != (result.edp >= edp_limit):
         raise ValueError(f"collapsed = {result.collapsed}: edp = {result.edp:g} and edp_limit = {edp_limit:g} differ")
     # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
-    with np.errstate(over="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
-    if not np.any(steps > 0.0) or scale == 0.0:
-        raise ValueError("no motion: time_s must increase, and scale must not be 0")
-    dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
-    at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
-    _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
-    record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
+        if not np.any(steps > 0.0) or scale == 0.0:
+            raise ValueError("no motion: time_s must increase, and scale must not be 0")
+        dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
+        at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
+        _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
+        record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
     return Response(
         wall=wall,
         record=record,
@@ -232,7 +239,7 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
         ground_acceleration=acceleration,
         rotation=rotation,
         velocity=velocity,
-        side=table.numbers("side").astype(np.int8),
+        side=table.counts("side", -1, 1).astype(np.int8),
         after_impact=table.numbers("after_impact") == 1.0,
         edp_error=result.edp_error,
     )

@@ -1,4 +1,4 @@
-"""Figure of the response spectra of a set of records."""
+"""Figures of the response spectra of records, and of floors under them."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import increasing
+from dondolo._base.arguments import FloatArray, increasing
 from dondolo.figures import style
+from dondolo.records.building import Building
+from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet
 from dondolo.records.target import TargetSpectrum
 
@@ -41,9 +43,35 @@ def draw_spectra(records: RecordSet, target: TargetSpectrum | None, periods: Arr
                 ax.plot(target.periods, edge, color=style.RED, linewidth=1.0, linestyle="--")
         if target.anchor is not None:
             ax.axvline(target.anchor, color=style.BLACK, linewidth=0.8, linestyle=":")
+    return _finish(ax, t)
+
+
+def draw_floor(
+    building: Building, records: tuple[Record, ...], periods: ArrayLike | None, damping: float, ax: Axes | None
+) -> Axes:
+    """Draw the spectra of a floor, and the median of those of the ground."""
+    ax = style.axes(ax)
+    t = increasing("periods", _PERIODS if periods is None else periods)
+    ground, floor = (
+        RecordSet(several).spectra(t, damping=damping)
+        for several in (records, tuple(record.on_floor(building) for record in records))
+    )
+    for i, one in enumerate(floor):
+        ax.plot(
+            t, one, color=style.GREY, linewidth=0.6, alpha=0.7, label=f"floor, {len(floor)} records" if i == 0 else None
+        )
+    for spectra, color, label in ((floor, style.RED, "floor, median"), (ground, style.BLUE, "ground, median")):
+        ax.plot(t, np.exp(np.log(spectra).mean(axis=0)), color=color, linewidth=2.2, label=label)
+    for period in np.atleast_1d(building.period):
+        ax.axvline(period, color=style.BLACK, linewidth=0.8, linestyle=":")
+    return _finish(ax, t)
+
+
+def _finish(ax: Axes, periods: FloatArray) -> Axes:
+    """Scales and names of the axes of spectra."""
     ax.set_xscale("log")
     ax.set_yscale("log")
-    ax.set_xlim(t[0], t[-1])
+    ax.set_xlim(periods[0], periods[-1])
     ax.set_xlabel("period [s]")
     ax.set_ylabel("spectral acceleration [g]")
     style.plain_ticks(ax.xaxis)

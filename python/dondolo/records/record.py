@@ -15,12 +15,14 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
+from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import as_text, check
 from dondolo._fortran.records import describe_measure
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records import processing as process
 from dondolo.records import suite
+from dondolo.records.building import Building
 from dondolo.records.processing import Baseline
 from dondolo.records.rotation import RotD, check_components, component
 from dondolo.records.spectrum import Spectrum
@@ -335,6 +337,28 @@ class Record:
         ends, so that a cut is a jump to zero: look at the margins.
         """
         return self.processed(*process.trim(self, low, high, before, after))
+
+    def on_floor(self, building: Building) -> Record:
+        """The motion of a floor of a building under the record.
+
+        Parameters
+        ----------
+        building : Building
+            The building, as the level of the floor sees it.
+
+        Returns
+        -------
+        Record
+            Absolute acceleration of the floor, at refined samples, until the building has come to rest.
+
+        Notes
+        -----
+        Analyses filter by themselves where a wall stands on a building, and scale by measures of the ground motion;
+        a record of a floor has measures of its own. docs/floors.md.
+        """
+        instance_of("building", building, Building, "no building")
+        values, parts = floor_motion(self.acceleration, self.dt, building._values())
+        return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts)
 
     def reverse(self) -> Record:
         """The record of the other polarity.

@@ -30,6 +30,7 @@ from dondolo.reporting.content import (
 from dondolo.reporting.numerals import number, parameter, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
+from dondolo.walls.wall import property_of
 
 # What stands behind properties of a wall in place of their units
 _UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
@@ -107,7 +108,7 @@ def _wall_facts(run: Run) -> Facts:
     wall = run.population.walls[0]
     pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
     for row in WALL_PROPERTIES[2:]:
-        value, unit = getattr(wall, row.name, None), _UNITS.get(row.name, row.unit)
+        value, unit = property_of(wall, row.name), _UNITS.get(row.name, row.unit)
         if value is None or (isinstance(value, float) and np.isnan(value)):
             continue
         if isinstance(value, tuple):

@@ -141,11 +141,13 @@ def _as_frequency(title: str, kind: str, column: FloatArray, time: FloatArray) -
         return column
     if kind == "return_period":
         _check(title, column, column > 0.0, "must be positive, in years")
-        return 1.0 / column
+        with np.errstate(over="ignore"):
+            return 1.0 / column
     # A fractile may never be exceeded
     above = column >= 0.0 if title != kind else column > 0.0
     _check(title, column, above & (column < 1.0), "must lie between 0 and 1, both excluded; 10 % is 0.1")
-    return np.asarray(-np.log1p(-column) / time)
+    with np.errstate(over="ignore"):
+        return np.asarray(-np.log1p(-column) / time)
 
 
 def _check(name: str, column: FloatArray, right: np.ndarray[Any, Any], allowed: str) -> None:

@@ -22,7 +22,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
-from dondolo.walls.wall import Wall, property_columns, wall_from, walls_table
+from dondolo.walls.wall import Wall, property_columns, property_of, wall_from, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -117,7 +117,7 @@ class Population(Shown):
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: the properties of its walls as columns."""
-        columns = {row.name: [getattr(wall, row.name, None) for wall in self.walls] for row in WALL_PROPERTIES}
+        columns = {row.name: [property_of(wall, row.name) for wall in self.walls] for row in WALL_PROPERTIES}
         return {
             "properties": {
                 name: column if None in column or name in WALL_LISTS else np.array(column)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
+from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
@@ -174,7 +175,8 @@ def _check_variables(variables: Mapping[str, Any]) -> None:
     """What is sampled for functions only must not look like a property."""
     for what, value in variables.items():
         as_text("variables", what)
-        if what in _PROPERTIES:
+        # A number of storeys may be one of the population that no wall has of a building
+        if what in _PROPERTIES and what not in BUILDING_NAMES:
             raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
         if not isinstance(value, Distribution):
             raise InputError(f"{what} = {value!r}: must be a distribution")
@@ -192,7 +194,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
-                if what not in ("weight", "p_occ") and what not in MECHANISMS[kind].__dataclass_fields__:
+                if what not in ("weight", "p_occ", *BUILDING_NAMES, *MECHANISMS[kind].__dataclass_fields__):
                     raise InputError(f"{what}: {kind} walls have none; give it to the mechanism that has it")
 
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number, one_of
+from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
+from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check
 from dondolo._fortran.walls import (
@@ -29,6 +30,7 @@ from dondolo._fortran.walls import (
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
+from dondolo.records.building import Building, building_from
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,6 +89,7 @@ class Wall:
     restitution_factor: float | None = None
     gravity: float = _DEFAULT
     name: str = _DEFAULT
+    building: Building | None = None
 
     def __post_init__(self) -> None:
         self._understand()
@@ -95,6 +98,8 @@ class Wall:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
+        if self.building is not None:
+            instance_of("building", self.building, Building, "no building")
         properties = self._properties() | more
         for row in WALL_PROPERTIES:
             word = properties[row.name]
@@ -105,13 +110,15 @@ class Wall:
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
-        return {row.name: getattr(self, row.name, None) for row in WALL_PROPERTIES}
+        return {row.name: property_of(self, row.name) for row in WALL_PROPERTIES}
 
     def _fill(self, data: WallData) -> None:
         """Take over what Fortran has understood."""
         own = {field.name for field in dataclasses.fields(self)}
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
         filled |= {"gravity": data.gravity, "_statics": data.statics, "_two_sided": data.two_sided}
+        if "building" not in self.__dict__:
+            filled["building"] = building_from(data.properties)
         for what, value in filled.items():
             object.__setattr__(self, what, value)
 
@@ -292,7 +299,7 @@ def _in_words(value: Any) -> str:
     """A property as text."""
     if isinstance(value, tuple):
         return " ".join(map(_in_words, value))
-    return value if isinstance(value, str) else f"{value:.6g}"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -361,6 +368,8 @@ class OneSidedWall(BlockWall):
         Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional
         Name in the results, 'wall' if left out.
+    building : Building, optional
+        What the wall stands on, where that is not the ground: its floor moves as the building makes it.
     section_height : float or sequence of float, optional
         Heights of the storeys from the bottom, instead of height [m].
     section_thickness : float or sequence of float, optional
@@ -563,11 +572,16 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     return handle
 
 
+def property_of(wall: Wall, name: str) -> Any:
+    """A property of a wall, or of the building that it stands on; None where it has none."""
+    return getattr(wall.building if name in BUILDING_NAMES else wall, name, None)
+
+
 def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
     """Columns of properties under their heads; a list has as many, numbered, as a wall has values."""
     table: tables.Table = {}
     for what, head in heads.items():
-        values = [getattr(wall, what, None) for wall in walls]
+        values = [property_of(wall, what) for wall in walls]
         if what in WALL_EXTRAS and all(value is None for value in values):
             continue
         if what not in WALL_LISTS:

@@ -5,12 +5,14 @@
 module dondolo_stripes
    use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_error, only : error_type
+   use dondolo_floors, only : floors_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_study, only : study_type
+   use dondolo_suite, only : suite_type
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
@@ -99,7 +101,7 @@ contains
    end subroutine plan_stripes
 
    !> What can be told of a plan's work before it is run: histories, sample intervals, and which histories never move
-   pure function planned_work(stripes, wall, study) result(work)
+   function planned_work(stripes, wall, study) result(work)
       type(stripes_type), intent(in) :: stripes
       type(wall_type), intent(in) :: wall
       !> What it is tried with
@@ -107,17 +109,21 @@ contains
       !> Histories, still ones and intervals; the other counts are 0
       type(work_type) :: work
 
+      type(floors_type), target :: own
+      type(floors_type), pointer :: floors
+      type(suite_type), pointer :: motions
       type(rest_type) :: rest
       real(wp) :: trigger, high
-      integer :: i, j
+      integer :: i, j, place
 
+      call take_motions(study, wall, study%threads, own, floors, place, motions)
       rest = new_rest(wall%mechanism)
       trigger = rest%trigger()
       high = merge(trigger, huge(trigger), rest%two_sided)
       do j = 1, size(stripes%levels)
          do i = 1, size(stripes%record)
             if (.not. stripes%ran(i, j)) cycle
-            associate (record => stripes%record(i), set => study%suite%set)
+            associate (record => stripes%record(i), set => motions%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
                ! The wall moves as soon as a sample lies outside what it can bear at rest.
@@ -126,6 +132,7 @@ contains
             end associate
          end do
       end do
+      if (place > 0) call floors%give_back(place)
    end function planned_work
 
    !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
@@ -175,8 +182,11 @@ contains
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
+      type(floors_type), target :: own
+      type(floors_type), pointer :: floors
+      type(suite_type), pointer :: motions
       integer, allocatable :: record(:), polarity(:)
-      integer :: i, j, k
+      integer :: i, j, k, place
 
       call choose_polarities(study, wall, record, polarity)
       allocate (ensemble%record(range(2) - range(1) + 1), ensemble%scale(range(2) - range(1) + 1))
@@ -191,8 +201,32 @@ contains
             ensemble%scale(k - range(1) + 1) = real(polarity(i), wp)*study%scale_to(wall, record(i), j)
          end do
       end do
-      call run_ensemble(ensemble, wall%mechanism, study%suite, study%solver, threads, progress)
+      call take_motions(study, wall, threads, own, floors, place, motions)
+      call run_ensemble(ensemble, wall%mechanism, motions, study%solver, threads, progress)
+      if (place > 0) call floors%give_back(place)
    end subroutine run_part
+
+   !> Motions that a wall is tried with: those of the ground, or of the floor that it stands on
+   subroutine take_motions(study, wall, threads, own, floors, place, motions)
+      !> What it is tried with
+      type(study_type), intent(in) :: study
+      type(wall_type), intent(in) :: wall
+      !> Number of threads that make them; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> Floors for this wall alone, where the study has none
+      type(floors_type), intent(inout), target :: own
+      !> Where they were taken, and what to give them back by; 0: they are those of the ground
+      type(floors_type), pointer, intent(out) :: floors
+      integer, intent(out) :: place
+      !> Motions
+      type(suite_type), pointer, intent(out) :: motions
+
+      floors => own
+      if (associated(study%floors)) floors => study%floors
+      place = 0
+      motions => study%suite
+      if (allocated(wall%building)) call floors%take(wall%building, study%suite, threads, place, motions)
+   end subroutine take_motions
 
    !> Histories of all stripes of a wall
    pure integer function histories_of(study, wall) result(histories)

@@ -5,6 +5,7 @@ module dondolo_study
    use dondolo_catalogue, only : record_rows_type
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input
+   use dondolo_floors, only : check_floor, floors_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_record, only : largest_acceleration
@@ -29,6 +30,9 @@ module dondolo_study
    type :: study_type
       !> The accelerograms; they belong to who made the study and must outlive it
       type(suite_type), pointer :: suite => null()
+      !> Their motions on the floors of buildings, which walls share; they belong to who made the study. Null: each wall
+      !> has its own
+      type(floors_type), pointer :: floors => null()
       !> What they are scaled by
       type(scaling_type) :: scaling
       !> Values of its measure for the records as they stand
@@ -90,7 +94,7 @@ contains
       study%thresholds = [solver%edp_limit]
    end subroutine new_study
 
-   !> Check what does not depend on the records: levels, polarity, and whether the solver can follow the wall
+   !> Check that a wall can be tried: levels, polarity, whether the solver can follow it, and the motions of its floor
    subroutine check(self, wall, error)
       class(study_type), intent(in) :: self
       type(wall_type), intent(in) :: wall
@@ -106,6 +110,7 @@ contains
       call check_solver(self%solver, error)
       if (.not. allocated(error)) call check_limit(self%solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error)
+      if (.not. allocated(error) .and. allocated(wall%building)) call check_floor(wall%building, self%suite, error)
    end subroutine check
 
    !> Choose the records of each level, and factors on them, as the rows of a catalogue give them

@@ -399,8 +399,15 @@ contains
    subroutine remove(self)
       class(store_type), intent(inout) :: self
 
+      type(error_type), allocatable :: error
+
       call self%close()
-      if (len(self%path) > 0) call remove_file(self%path)
+      if (len(self%path) == 0) return
+      ! Of a run that was killed when all rows were in, nothing is claimed, and what it has left ends here.
+      call self%lock%take(self%path, error)
+      if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
+      call remove_file(self%path)
+      call self%lock%release()
    end subroutine remove
 
 end module dondolo_store

@@ -1,6 +1,7 @@
 !> A wall: what the user says of it, and the mechanism that follows. Here names become types.
 module dondolo_wall
    use dondolo_block, only : block_type, new_block
+   use dondolo_building, only : building_type, new_building
    use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
    use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
@@ -14,7 +15,8 @@ module dondolo_wall
    use dondolo_text, only : brief, rounded, to_text
    use dondolo_two_block, only : new_two_block, overburden_type, two_block_type
    use dondolo_wall_body, only : is_bare, read_wall_body, take_sections, wall_body_type
-   use dondolo_wall_properties, only : gravity_property, mechanism_names, standard_gravity, wall_input_type
+   use dondolo_wall_properties, only : gravity_property, is_of_building, mechanism_names, &
+      & standard_gravity, wall_input_type
    implicit none
    private
 
@@ -35,6 +37,8 @@ module dondolo_wall
       real(wp) :: hinge_depth = 0.0_wp
       !> Was a bearing given?
       logical :: bears = .false.
+      !> What it stands on; not allocated: the ground
+      type(building_type), allocatable :: building
       !> What the motion integrates
       class(mechanism_type), allocatable :: mechanism
    contains
@@ -99,6 +103,10 @@ contains
       call wall%input%set('name', trim(wall%input%word('name')))
       if (wall%bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
       call wall%input%check(problems, 'mechanism', mechanism)
+      if (problems%count == 0 .and. wall%input%gives(is_of_building)) then
+         allocate (wall%building)
+         call new_building(wall%building, wall%input, problems)
+      end if
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
       if (mechanism == 'two_block') call check_load(problems, wall%input)

@@ -3,6 +3,7 @@
 !>
 !> To add one: a row here, and its value where a mechanism is built (dondolo_wall).
 module dondolo_wall_properties
+   use dondolo_building, only : building_rows
    use dondolo_kinds, only : wp
    use dondolo_property, only : blank, choices_length, find_property, is_list, is_text, is_words, most_choices, property_type
    use dondolo_restitution, only : restitution_models
@@ -11,7 +12,8 @@ module dondolo_wall_properties
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: is_beyond_bare, mechanism_names, load_inertias, standard_gravity, wall_numbers
+   public :: is_beyond_bare, is_extra, is_of_building, mechanism_names, load_inertias, own_properties, standard_gravity, &
+      & wall_numbers
 
    !> Names of the mechanisms
    character(len=choices_length), parameter :: mechanism_names(*) = &
@@ -40,8 +42,8 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: all_walls(most_choices) = &
       & reshape(mechanism_names, [most_choices], pad=blank)
 
-   !> The rows, in the order in which a user thinks of them
-   type(property_type), parameter :: rows(*) = [ &
+   !> The rows of the wall itself, in the order in which a user thinks of them
+   type(property_type), parameter :: own_rows(*) = [ &
       & property_type('name', is_text, word='wall', column='wall', changes_results=.false., meaning='name in the results'), &
       & property_type('mechanism', is_text, required=.true., choices=reshape(mechanism_names, [most_choices], pad=blank), &
       &   example='one_sided', meaning='how the wall rocks'), &
@@ -159,11 +161,25 @@ module dondolo_wall_properties
       &   example='0.06', meaning='distance of the load''s resultant from the inner or the outer face', &
       &   more='half the length that joists bear')]
 
+   !> The same, and those of the building that a wall stands on
+   type(property_type), parameter :: rows(*) = [own_rows, building_rows]
+
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
-   !> Properties that bare rectangles with hinges at their edges do not have; tables show them only where a wall has them
+   !> How many of them are of the wall itself: those that stand before the others
+   integer, parameter :: own_properties = size(own_rows)
+
+   integer :: k
+
+   !> Properties of the building
+   logical, parameter :: is_of_building(size(rows)) = [(k > own_properties, k=1, size(rows))]
+
+   !> Properties that bare rectangles with hinges at their edges do not have
    logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) /= blank(1) .and. .not. rows%replaced
+
+   !> Those that tables show only where a wall has them
+   logical, parameter :: is_extra(size(rows)) = is_beyond_bare .or. is_of_building
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &

@@ -18,6 +18,21 @@ FILE *dondolo_create(const char *path)
    return descriptor < 0 ? NULL : fdopen(descriptor, "w");
 }
 
+/* Make an empty file and remove it; 1: that can be done. It has the sticky bit of dondolo_take_lock: so one that a killed
+   trial has left is removed too, and a file of somebody else's is not. */
+int dondolo_try_file(const char *path)
+{
+   struct stat found;
+   int descriptor = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
+
+   if (descriptor < 0)
+      return 0;
+   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_size == 0 && (found.st_mode & S_ISVTX) != 0)
+      unlink(path);
+   close(descriptor);
+   return 1;
+}
+
 /* 1: all that was written to a file, or to the list of files of a folder, is on the disk */
 static int synchronize(int descriptor)
 {

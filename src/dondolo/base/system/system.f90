@@ -7,7 +7,7 @@ module dondolo_system
    implicit none
    private
 
-   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file, synchronize_folder
+   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file, synchronize_folder, try_file
    public :: writer_type, stderr_is_terminal, output_arrives, outlive_file_limit
 
    !> A file being written
@@ -145,6 +145,13 @@ module dondolo_system
          type(c_ptr), value :: handle
       end function c_synchronize
 
+      !> Make an empty file and remove it; 1: that can be done
+      integer(c_int) function c_try_file(path) bind(c, name='dondolo_try_file')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_try_file
+
       !> Bring the names of the files of a folder to the disk; 1: they are there
       integer(c_int) function c_synchronize_folder(path) bind(c, name='dondolo_synchronize_folder')
          import :: c_char, c_int
@@ -229,6 +236,16 @@ contains
       if (c_synchronize_folder('./'(:merge(0, 2, path(1:1) == '/'))//path(:index(path, '/', back=.true.))//c_null_char) &
          & /= 1) ok = .false.
    end subroutine synchronize_folder
+
+   !> Try whether a file can be made; an empty one that a killed trial has left is removed, any other stays
+   subroutine try_file(path, ok)
+      !> Path
+      character(len=*), intent(in) :: path
+      !> It can be written
+      logical, intent(out) :: ok
+
+      ok = c_try_file(path//c_null_char) == 1
+   end subroutine try_file
 
    !> Is a path a folder that exists?
    function is_folder(path)

@@ -1,5 +1,6 @@
 !> All tables of properties, by the name of their group in a namelist.
 module dondolo_property_tables
+   use dondolo_building, only : building_properties
    use dondolo_check_input, only : check_properties
    use dondolo_history_group, only : history_properties
    use dondolo_job_group, only : job_properties
@@ -9,7 +10,7 @@ module dondolo_property_tables
    use dondolo_records_group, only : records_properties
    use dondolo_solver, only : solver_properties
    use dondolo_stripes_group, only : stripes_properties
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : own_properties, wall_properties
    implicit none
    private
 
@@ -17,8 +18,8 @@ module dondolo_property_tables
    public :: group_names, table_names
 
    !> Groups of a namelist
-   character(len=10), parameter :: group_names(*) = [character(len=10) :: 'job', 'wall', 'population', 'records', &
-      & 'stripes', 'solver', 'history', 'check']
+   character(len=10), parameter :: group_names(*) = [character(len=10) :: 'job', 'wall', 'building', &
+      & 'population', 'records', 'stripes', 'solver', 'history', 'check']
 
    !> The same, and what rows of a population have besides the properties of a wall
    character(len=10), parameter :: table_names(*) = [character(len=10) :: group_names, 'member']
@@ -36,7 +37,9 @@ contains
       case ('job')
          table = job_properties
       case ('wall')
-         table = wall_properties
+         table = wall_properties(:own_properties)
+      case ('building')
+         table = building_properties
       case ('population')
          table = population_properties
       case ('records')

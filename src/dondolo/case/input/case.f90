@@ -1,5 +1,7 @@
 !> A case: everything a user asks for in one namelist file, read and checked before anything is computed.
 module dondolo_case
+   use dondolo_building, only : building_properties
+   use dondolo_building_group, only : read_building_group
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_echo, only : echo_type
    use dondolo_check_group, only : read_check_group
@@ -31,7 +33,7 @@ module dondolo_case
    use dondolo_system, only : is_folder
    use dondolo_text, only : brief, to_text
    use dondolo_wall, only : new_wall, wall_type
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
    implicit none
    private
 
@@ -113,7 +115,9 @@ contains
       if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
       if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
       if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
-      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error)
+      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error, &
+         & wall_properties(:own_properties))
+      if (.not. allocated(error)) call read_building_group(namelist%group('building'), wall, error)
       if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
@@ -190,6 +194,10 @@ contains
       group = namelist%group(trim(other))
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = '''//task//''', which takes &'//trim(needed))
+      if (allocated(error) .or. task /= 'typology') return
+      group = namelist%group('building')
+      if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
+         & '): not for task = ''typology'', each wall of which has its own, in columns of &population')
    end subroutine check_task
 
    !> Make the wall, or find the population
@@ -476,7 +484,10 @@ contains
          call put_population(self%population_file, settings)
          call echo_settings('population', settings, echoed)
       else
-         call echo_settings('wall', self%wall%input, echoed, last='restitution_factor')
+         call echo_settings('wall', self%wall%input, echoed, last='restitution_factor', &
+            & rows=wall_properties(:own_properties))
+         if (allocated(self%wall%building)) call echo_settings('building', self%wall%input, echoed, &
+            & rows=building_properties)
       end if
       call self%records_input%put(settings)
       call echo_settings('records', settings, echoed)

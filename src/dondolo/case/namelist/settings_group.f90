@@ -4,7 +4,7 @@ module dondolo_settings_group
    use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
+   use dondolo_property, only : find_property, has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
       & is_words, name_length, property_type
    use dondolo_settings, only : settings_type
    implicit none
@@ -15,19 +15,22 @@ module dondolo_settings_group
 contains
 
    !> Read the values that a group gives; their ranges are checked where they are used
-   subroutine read_values(group, settings, error)
+   subroutine read_values(group, settings, error, rows)
       !> The group as it stands in the file
       type(group_type), intent(in) :: group
-      !> Settings, without a value
+      !> Settings; what the group says is added
       class(settings_type), intent(inout) :: settings
       !> A variable that does not exist or has a value of the wrong type
       type(error_type), allocatable, intent(out) :: error
+      !> Those of their properties that the group can have; all if absent
+      type(property_type), target, intent(in), optional :: rows(:)
 
       type(property_type), pointer :: table(:)
       character(len=name_length), allocatable :: names(:)
       integer :: i
 
       call settings%get_table(table)
+      if (present(rows)) table => rows
       names = table%name
       call group%check_names(names, error)
       do i = 1, size(table)
@@ -100,7 +103,7 @@ contains
    end subroutine read_settings
 
    !> Add settings to the echo of a case as a group, with every value in force
-   subroutine echo_settings(name, settings, echo, owner, beside, last)
+   subroutine echo_settings(name, settings, echo, owner, beside, last, rows)
       !> Name of the group
       character(len=*), intent(in) :: name
       class(settings_type), intent(in) :: settings
@@ -112,18 +115,21 @@ contains
       character(len=*), intent(in), optional :: beside
       !> A property that stands after all others
       character(len=*), intent(in), optional :: last
+      !> Those of their properties that the group can have; all if absent
+      type(property_type), target, intent(in), optional :: rows(:)
 
       type(property_type), pointer :: table(:)
       integer :: i
 
       call settings%get_table(table)
+      if (present(rows)) table => rows
       do i = 1, size(table)
          if (present(last)) then
             if (table(i)%name == last) cycle
          end if
          call add(table(i))
       end do
-      if (present(last)) call add(table(settings%find(last)))
+      if (present(last)) call add(table(find_property(table, last)))
 
    contains
 

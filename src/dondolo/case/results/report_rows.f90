@@ -10,7 +10,7 @@ module dondolo_report_rows
    use dondolo_text, only : to_table, to_text
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : is_beyond_bare, wall_properties
+   use dondolo_wall_properties, only : is_extra, wall_properties
    implicit none
    private
 
@@ -52,7 +52,7 @@ contains
 
       head = ''
       do i = 1, size(wall_properties)
-         if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+         if (wall_properties(i)%replaced .or. (is_extra(i) .and. lengths(i) == 0)) cycle
          if (is_many(wall_properties(i)%kind)) then
             do k = 1, lengths(i)
                head = head//','//trim(column_name(wall_properties(i), k))
@@ -83,7 +83,7 @@ contains
       associate (wall => member%wall)
          do i = 1, size(wall_properties)
             associate (name => wall_properties(i)%name)
-               if (wall_properties(i)%replaced .or. (is_beyond_bare(i) .and. lengths(i) == 0)) cycle
+               if (wall_properties(i)%replaced .or. (is_extra(i) .and. lengths(i) == 0)) cycle
                if (wall_properties(i)%kind == is_list) values = wall%input%list(name)
                if (is_many(wall_properties(i)%kind)) then
                   do k = 1, lengths(i)

@@ -18,9 +18,9 @@ module dondolo_result_files
    use dondolo_checksum, only : crc32_length, crc32_of_file
    use dondolo_error, only : error_type, raise_failure, raise_input, status_failure
    use dondolo_lines, only : lines_type
-   use dondolo_lock, only : lock_type, new_run, run_length
+   use dondolo_lock, only : lock_type, run_length
    use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
-      & synchronize_folder, writer_type
+      & synchronize_folder, try_file, writer_type
    use dondolo_version, only : dondolo_version_text
    implicit none
    private
@@ -93,10 +93,10 @@ contains
       !> They cannot: `'path': why`
       type(error_type), allocatable, intent(out) :: error
 
+      ! The name of no run: a trial that was killed at once is found, and removed, by the next
+      character(len=*), parameter :: trial = '00000000T000000Z-0000000000000000'
       type(lines_type) :: made
-      type(writer_type) :: writer
       character(len=:), allocatable :: path
-      character(len=run_length) :: run
       logical :: ok
       integer :: i, j
 
@@ -112,22 +112,19 @@ contains
             return
          end do
       end do
-      call new_run(run)
       do i = 1, tries
          call make_folders(prefix, made, ok)
          if (.not. ok) cycle
          ! No name of a result file is longer than this one
-         path = prefix//'_histories.csv'
-         call writer%create(staged(path, run), ok)
+         call try_file(staged(prefix//'_histories.csv', trial), ok)
          if (ok) exit
       end do
-      if (ok) then
-         call writer%close(ok)
-         call remove_file(staged(path, run))
-      else if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
-         call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
-      else
-         call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
+      if (.not. ok) then
+         if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
+            call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
+         else
+            call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
+         end if
       end if
       call remove_folders(made)
    end subroutine check_output

@@ -2,6 +2,7 @@
 !> file beside the tables. docs/files.md describes its keys.
 module dondolo_run_file
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
+   use dondolo_building, only : building_type
    use dondolo_case, only : case_type
    use dondolo_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
    use dondolo_clustered, only : confidence, correction, fewest_clusters
@@ -51,6 +52,7 @@ contains
       call echo%to_json(json)
       call put_inputs(case, json)
       call put_shape(case, json)
+      if (allocated(case%wall%building)) call put_floor(case%wall%building, case%suite%records%dt, json)
       call put_files(files, json)
       if (case%job%task == 'history') then
          call put_history(case, results, json)
@@ -164,6 +166,26 @@ contains
       end do
       call json%close_object()
    end subroutine put_shape
+
+   !> Put what filters the records on their way to the wall
+   subroutine put_floor(building, dt, json)
+      type(building_type), intent(in) :: building
+      !> Steps of the records [s]
+      real(wp), intent(in) :: dt(:)
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_object('floor')
+      call json%put('participation', building%participation)
+      call json%put('free_vibration_s', building%free_vibration())
+      call json%open_array('parts')
+      do i = 1, size(dt)
+         call json%put('', building%parts(dt(i)))
+      end do
+      call json%close_array()
+      call json%close_object()
+   end subroutine put_floor
 
    !> Put the tables of the set
    subroutine put_files(files, json)

@@ -5,6 +5,7 @@ module dondolo_population_case
    use dondolo_combine_rows, only : combine_rows
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_floors, only : floors_type
    use dondolo_identity, only : study_identity
    use dondolo_lines, only : lines_type
    use dondolo_queue, only : progress_interface
@@ -35,6 +36,7 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(study_type) :: study
+      type(floors_type), target :: floors
 
       allocate (results%stores(1))
       associate (store => results%stores(1))
@@ -45,6 +47,7 @@ contains
          if (.not. store%is_complete()) call begin(case, store, error)
          if (allocated(error)) return
          call case%make_study(study, team)
+         study%floors => floors
          call run_population(study, case%population_path(), case%solver%gravity, store, int(case%survey%histories), &
             & error, progress)
          call store%close()

@@ -4,12 +4,15 @@ module dondolo_run_case
    use dondolo_case, only : case_type
    use dondolo_check_case, only : check_case, check_stripes
    use dondolo_error, only : error_type, raise_failure
+   use dondolo_floor_motion, only : filter_record
+   use dondolo_floors, only : floors_type
    use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
    use dondolo_memory, only : raise_shortage
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_queue, only : progress_interface
+   use dondolo_record, only : record_type
    use dondolo_results, only : results_type
    use dondolo_population_case, only : run_population_case
    use dondolo_simulate, only : simulate
@@ -41,6 +44,7 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(wall_warning_type) :: oddities
+      type(record_type) :: floor
       integer :: team
 
       team = case%job%threads
@@ -55,8 +59,17 @@ contains
             call warn_of_records(case%suite%records(one:one), case%suite%peaks(one:one), case%solver%gravity, &
                & results%warnings)
          end associate
-         call simulate(case%wall%mechanism, case%suite%records(case%history%record), case%history_scale(), &
-            & case%solver%solver, results%response, results%trace)
+         associate (record => case%suite%records(case%history%record))
+            if (allocated(case%wall%building)) then
+               call filter_record(case%wall%building, record, floor, error)
+               if (allocated(error)) return
+               call simulate(case%wall%mechanism, floor, case%history_scale(), case%solver%solver, results%response, &
+                  & results%trace)
+            else
+               call simulate(case%wall%mechanism, record, case%history_scale(), case%solver%solver, results%response, &
+                  & results%trace)
+            end if
+         end associate
          call check_interrupt(error)
          if (allocated(error)) return
          if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
@@ -81,11 +94,13 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(study_type) :: study
+      type(floors_type), target :: floors
       type(population_reader_type) :: reader
       type(member_type) :: member
       logical :: found
 
       call case%make_study(study)
+      study%floors => floors
       if (case%job%task == 'stripes') then
          call plan_wall(case%wall)
          return

@@ -1,0 +1,97 @@
+!> Buildings, and the motions of their floors.
+module buildings
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room
+   use dondolo_building, only : building_properties, building_type, new_building
+   use dondolo_error, only : error_type, problems_type, raise_input
+   use dondolo_floor_motion, only : filter_record, floor_samples
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_property, only : is_list
+   use dondolo_record, only : new_record, record_type
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_text, only : to_text
+   implicit none
+   private
+
+   public :: describe_building, floor_motion
+
+contains
+
+   !> Reals: the damping of each mode, its participation factor times its shape, and how long the building vibrates after a
+   !> record [s]. The numbers are those that were given, in the order of the table, and how many each has
+   subroutine describe_building(numbers, n, given, q, sent, stat, message)
+      integer(c_int), intent(in) :: n, q, given(q)
+      real(c_double), intent(in) :: numbers(n)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(building_type) :: building
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call set_building(building, numbers, given, error)
+      if (.not. allocated(error)) parcel%reals = [building%damping, building%participation, building%free_vibration()]
+      call send(parcel, error, sent, stat, message)
+   end subroutine describe_building
+
+   !> Motion of the floor under a record. Integers: into how many parts each step is divided; reals: its samples
+   subroutine floor_motion(acceleration, k, dt, numbers, n, given, q, sent, stat, message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: k, n, q, given(q)
+      real(c_double), intent(in) :: acceleration(k), dt, numbers(n)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(building_type) :: building
+      type(record_type) :: ground, floor
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call set_building(building, numbers, given, error)
+      if (.not. allocated(error)) call new_record(ground, acceleration, dt, '', error)
+      if (.not. allocated(error)) call check_room(error, samples=floor_samples(building, ground))
+      if (.not. allocated(error)) call filter_record(building, ground, floor, error)
+      if (.not. allocated(error)) then
+         parcel%integers = [building%parts(dt)]
+         parcel%reals = floor%acceleration
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine floor_motion
+
+   !> Make a building
+   subroutine set_building(building, numbers, given, error)
+      type(building_type), intent(out) :: building
+      !> All numbers that were given, in the order of the table
+      real(c_double), intent(in) :: numbers(:)
+      !> How many values each has: of a list any number, else 1 or 0
+      integer(c_int), intent(in) :: given(:)
+      !> Everything that is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_settings_type) :: settings
+      type(problems_type) :: problems
+      integer :: k, next
+
+      if (size(given) /= size(building_properties) .or. any(given < 0) .or. sum(given) > size(numbers)) then
+         call raise_input(error, 'building: must have '//to_text(size(building_properties))//' numbers')
+         return
+      end if
+      call new_settings(settings, building_properties)
+      next = 1
+      do k = 1, size(given)
+         if (given(k) < 1) cycle
+         associate (property => building_properties(k))
+            if (property%kind == is_list) then
+               call settings%set(property%name, numbers(next:next + given(k) - 1))
+            else
+               call settings%set(property%name, numbers(next))
+            end if
+         end associate
+         next = next + given(k)
+      end do
+      call settings%check(problems)
+      if (problems%count == 0) call new_building(building, settings, problems)
+      call problems%raise(error)
+   end subroutine set_building
+
+end module buildings

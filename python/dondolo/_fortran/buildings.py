@@ -1,0 +1,60 @@
+"""Buildings, and the motions of their floors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._fortran import _core
+from dondolo._fortran.library import properties, receive
+
+
+class BuildingData(NamedTuple):
+    """A building as Fortran has understood it: values of its modes, and how long it vibrates after a record [s]."""
+
+    damping: tuple[float, ...]
+    participation: tuple[float, ...]
+    free_vibration: float
+
+
+def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Properties of a building: lists as tuples, whole numbers as such."""
+    found: dict[str, Any] = {}
+    for row in BUILDING_PROPERTIES:
+        value = values.get(row.name)
+        if value is None:
+            found[row.name] = None
+        elif row.kind == "list":
+            found[row.name] = tuple(as_array(row.name, np.atleast_1d(value)).tolist()) or None
+        else:
+            number = as_number(row.name, value)
+            found[row.name] = int(number) if row.kind == "integer" and number.is_integer() else number
+    return found
+
+
+def describe_building(values: Mapping[str, Any]) -> BuildingData:
+    """Let Fortran check a building and work out its modes."""
+    reals = receive(*_core.buildings.describe_building(*_flat(values))).reals.tolist()
+    modes = len(reals) // 2
+    return BuildingData(tuple(reals[:modes]), tuple(reals[modes:-1]), reals[-1])
+
+
+def floor_motion(acceleration: FloatArray, dt: float, values: Mapping[str, Any]) -> tuple[FloatArray, int]:
+    """Samples of the motion of a floor [m/s2], and into how many parts the steps of the record are divided."""
+    parcel = receive(*_core.buildings.floor_motion(acceleration, dt, *_flat(values)))
+    return parcel.reals, int(parcel.integers[0])
+
+
+def _flat(values: Mapping[str, Any]) -> tuple[FloatArray, NDArray[np.int32]]:
+    """Numbers that are given, and how many each property has of them."""
+    lists = [np.atleast_1d(() if values[name] is None else values[name]) for name in BUILDING_NAMES]
+    # f2py takes no empty arrays
+    return np.concatenate([*lists, [0.0]]), np.array([len(own) for own in lists], dtype=np.int32)
+
+
+BUILDING_PROPERTIES = properties("building")
+BUILDING_NAMES = tuple(row.name for row in BUILDING_PROPERTIES)

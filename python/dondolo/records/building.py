@@ -1,0 +1,146 @@
+"""Buildings that walls stand on, as filters of accelerograms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from dondolo._base.shown import html_of
+from dondolo._fortran.buildings import BUILDING_NAMES, BuildingData, building_values, describe_building
+from dondolo._storage.saved import part_of_results
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# One value or several
+Values = float | Sequence[float]
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False)
+class Building:
+    """A linear building that a wall stands on or hangs from, as the wall's level sees it.
+
+    Parameters
+    ----------
+    period : float or sequence of float
+        Periods of the modes of the building that the wall stands on [s].
+    damping : float or sequence of float, optional
+        Their damping ratios, or one for all; 0.05 if not given.
+    participation : float or sequence of float, optional
+        Their participation factors times their shapes at the level of the wall.
+    storeys : int, optional
+        Number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height.
+    level : float, optional
+        Height of the wall's floor above the ground, with storeys [m].
+    building_height : float, optional
+        Height of the building, with storeys [m].
+    refine : int, optional
+        Parts that a step of a record is divided into; 0, or not given: as many as the shortest period needs.
+
+    Raises
+    ------
+    InputError
+        A value that makes no sense, lists of different lengths, a level above the building.
+
+    Notes
+    -----
+    The floor moves with u_g'' + sum participation d'', d'' + 2 damping omega d' + omega^2 d = -u_g'' for each mode;
+    what the modes leave out of the building moves with the ground. The building stays linear: docs/floors.md.
+
+    Examples
+    --------
+    The roof of a house of three storeys:
+
+    >>> import dondolo as dd
+    >>> house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
+    >>> house.participations
+    (1.2857142857142858,)
+    >>> parapet = dd.OneSidedWall(1.5, 0.25, building=house)
+    """
+
+    period: Values
+    _: KW_ONLY
+    damping: Values | None = None
+    participation: Values | None = None
+    storeys: int | None = None
+    level: float | None = None
+    building_height: float | None = None
+    refine: int | None = None
+
+    def __post_init__(self) -> None:
+        values = building_values(vars(self))
+        data = describe_building(values)
+        for name, value in (values | {"damping": data.damping, "_data": data}).items():
+            object.__setattr__(self, name, value)
+
+    def _values(self) -> dict[str, Any]:
+        """Its properties by their names."""
+        return {name: getattr(self, name) for name in BUILDING_NAMES}
+
+    @property
+    def participations(self) -> tuple[float, ...]:
+        """Participation factor times shape of each mode, as given or of storeys and level."""
+        return self._understood.participation
+
+    @property
+    def free_vibration(self) -> float:
+        """How long the floor is followed after a record, until 1e-4 of the amplitude is left [s]."""
+        return self._understood.free_vibration
+
+    @property
+    def _understood(self) -> BuildingData:
+        data: BuildingData = self.__dict__["_data"]
+        return data
+
+    def plot(
+        self, records: Iterable[Any], *, periods: ArrayLike | None = None, damping: float = 0.05, ax: Axes | None = None
+    ) -> Axes:
+        """Draw the response spectra of the floor against those of the ground.
+
+        Parameters
+        ----------
+        records : iterable of Record
+            Motions of the ground.
+        periods : array_like, optional
+            [s]; 100 from 0.05 to 4 s if left out.
+        damping : float
+            Damping ratio of what stands on the floor.
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Medians over the records of both, and the spectra of each floor, against period; the periods of the modes
+            are dotted.
+        """
+        from dondolo.records.plots import draw_floor
+
+        return draw_floor(self, tuple(records), periods, damping, ax)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """What a reader wants to know, name and text."""
+        given = [(name, value) for name, value in self._values().items() if value is not None]
+        given += [("participations", self.participations)] * (self.participation is None)
+        return [(name, _in_words(value)) for name, value in given]
+
+    def __repr__(self) -> str:
+        return f"<Building: {', '.join(f'{what}={text}' for what, text in self._facts())}>"
+
+    def _repr_html_(self) -> str:
+        return html_of("Building", self._facts())
+
+
+def _in_words(value: Any) -> str:
+    """A value, or several, as text."""
+    return " ".join(f"{one:.6g}" for one in (value if isinstance(value, tuple) else (value,)))
+
+
+def building_from(values: Mapping[str, Any]) -> Building | None:
+    """The building among the properties of a wall; None: it stands on the ground."""
+    own = {name: values[name] for name in BUILDING_NAMES if values.get(name) is not None}
+    return Building(**own) if own else None
