@@ -349,6 +349,14 @@ content. It states `pairing` and the number of clusters shared. On the same reco
 counts, which is often much less than the sum of the variances. Between independent curves, the degrees of freedom are
 those of Welch and Satterthwaite.
 
+**Annual frequencies.** `risk.uncertainty()` draws ln θ and 1/β from the distribution that the intervals rest on,
+Student's t with the clustered covariance, and integrates each draw over the hazard; of populations the frequency is
+linearised in the records and walls. With 300 synthetic records as the population, 500 draws of 44, 22 or 11, eight
+levels, one_sided and two_block, H ~ x^-2.5 and a hazard that bends down, the 95 % intervals contained the frequency
+of all records in 93.6 to 95.2 % of the draws (94.8 to 95.2 with 44 records). Intervals by the delta method in ln λ
+did in 92.2 to 95.4 %. The hazard's own uncertainty is that of its fractiles, for each of which there is an interval
+of its own.
+
 **Damage states with one dispersion** (`states = 'ordinal'`). The covariance is that of all θ and β together, from the
 scores and the information of the cumulative probit model, with the same correction.
 

@@ -29,8 +29,9 @@ from dondolo.curves.fragility import Fragility, fit_fragility
 from dondolo.curves.regression import Logistic, Regression
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
 from dondolo.exchange.cases import Case, Results, read_case, run_case
+from dondolo.exchange.fragility_model import DiscreteFragility, FragilityModel, read_nrml
 from dondolo.exchange.mean_functions import nrml_functions
-from dondolo.exchange.nrml import DiscreteFragility, write_nrml
+from dondolo.exchange.nrml import write_nrml
 from dondolo.exchange.results import StoredResults, read_results
 from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
@@ -51,6 +52,7 @@ from dondolo.records.target import TargetSpectrum
 from dondolo.reporting.page import report
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.uncertainty import RiskUncertainty
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
@@ -73,6 +75,7 @@ __all__ = [
     "DondoloWarning",
     "FirstCollapseFragility",
     "Fragility",
+    "FragilityModel",
     "Group",
     "HazardCurve",
     "Incremental",
@@ -92,6 +95,7 @@ __all__ = [
     "Response",
     "Results",
     "Risk",
+    "RiskUncertainty",
     "RotD",
     "Selection",
     "Site",
@@ -127,6 +131,7 @@ __all__ = [
     "pulses",
     "read_case",
     "read_catalogue",
+    "read_nrml",
     "read_population",
     "read_record",
     "read_records",

@@ -14,8 +14,8 @@ from typing import Any
 import dondolo as dd
 from dondolo._base.files import whole_file
 from dondolo._fortran.records import catalogue_table
+from dondolo.exchange.fragility_model import Curve
 from dondolo.exchange.mean_functions import taxonomy_of
-from dondolo.exchange.nrml import Curve
 from dondolo.records.catalogues import build_catalogue
 
 

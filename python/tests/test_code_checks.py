@@ -39,12 +39,9 @@ def test_numbers_of_a_wall():
         check.value("linear", "SLV", "capacity")
 
 
-class Building:
-    period, damping, participation = 0.3, 0.05, 9.0 / 7.0
-
-
 def test_a_building():
-    check = dd.check_ntc(dd.OneSidedWall(1.5, 0.25), SITE, building=Building)
+    building = dd.Building(period=0.3, damping=0.05, participation=9.0 / 7.0)
+    check = dd.check_ntc(dd.OneSidedWall(1.5, 0.25, building=building), SITE)
     assert check.value("site", "SLV", "floor_pga") == pytest.approx(0.7752761193436115, rel=1e-12)
     assert check.value("nonlinear", "SLV", "capacity_ag") == pytest.approx(0.08916273855, rel=1e-9)
 
@@ -128,6 +125,8 @@ def test_case_and_report(root, executable, tmp_path):
         more.value("dynamic", "SLV", "mean_displacement"), rel=1e-12
     )
     assert stored.check.value("site", "", "probability") == pytest.approx(stored.fragility(0.24), rel=1e-9)
+    again = dd.run_case(tmp_path / "wall.nml", progress=False)
+    assert again.check.rows == more.rows
     dd.report(stored, tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text()
     assert "Check by NTC 2018" in page

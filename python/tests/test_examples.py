@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
         ("overturning", ["overturning.png", "overturning_boundaries.csv"]),
         ("synthetic_motions", ["synthetic_motions.png"]),
         ("sampled_population", ["sampled_population.png", "town.csv"]),
+        ("site_risk", ["site_risk.png"]),
         ("code_check", ["code_check.png", "code_check.csv", "code_check.html"]),
         ("risk", ["incremental.png", "cloud.png", "risk.png", "parapet.xml"]),
     ],

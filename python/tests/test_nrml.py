@@ -3,6 +3,10 @@
 import re
 from xml.etree import ElementTree
 
+import matplotlib
+
+matplotlib.use("agg")
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -141,7 +145,9 @@ def test_units(path):
     assert found["s"][1]["collapse"](0.4) == pytest.approx(0.5)
     np.testing.assert_allclose(found["d"][1]["collapse"]([20.0, 35.0, 50.0]), [0.1, 0.4, 0.7])
     for im in ("arias", "cav", "hi", "pgd", "saavg(0.2:2)", "pga/a0", ""):
-        with pytest.raises(dd.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")):
+        with pytest.raises(
+            dd.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
+        ):
             dd.write_nrml(path, {"a": {"collapse": lognormal(0.4, 0.3, im)}})
 
 
@@ -307,3 +313,156 @@ def test_probabilities():
 def test_a_function_shows_itself_in_a_line():
     curve = DiscreteFragility(np.geomspace(0.01, 2.0, 500), np.linspace(0.0, 0.75, 500))
     assert repr(curve) == "<DiscreteFragility: levels 500 of pga, 0.01 to 2 g, probability 0 to 0.75>"
+
+
+# As the engine's own tests have them: blanks and lines anywhere, limits left out, a shape of a discrete function
+FOREIGN = """<?xml version="1.0" encoding="utf-8"?>
+<nrml
+xmlns="http://openquake.org/xmlns/nrml/0.5" xmlns:gml="http://www.opengis.net/gml">
+    <fragilityModel assetCategory="building" id="fm_12" lossCategory="structural">
+        <description>
+            Fragility model
+        </description>
+        <limitStates>
+            LS1 LS2
+        </limitStates>
+        <!-- theta = 9.0, beta = 9.0 -->
+        <fragilityFunction format="discrete" id="RC" shape="logncdf">
+            <imls imt="PGA" noDamageLimit="0">
+                0.1 0.2 0.3 0.5
+            </imls>
+            <poes ls="LS1"> 0.0073 0.35 0.74 0.99 </poes>
+            <poes ls="LS2"> 0.001 0.02
+            0.25 0.72 </poes>
+        </fragilityFunction>
+        <fragilityFunction id="UNM/C_LR/GOV2" format="continuous" shape="logncdf">
+            <imls imt="SA(0.30)" minIML="0.05" maxIML="15"/>
+            <!-- theta = 9.0, beta = 9.0 -->
+            <params ls="LS1" mean="0.15" stddev="0.39"/>
+            <params ls="LS2" mean="0.22" stddev="0.41"/>
+        </fragilityFunction>
+    </fragilityModel>
+</nrml>
+"""
+
+
+def same(one, other):
+    """Models equal to the bit."""
+    assert list(one.functions) == list(other.functions)
+    assert one.limits == other.limits
+    for name in ("id", "description", "asset_category", "loss_category"):
+        assert getattr(one, name) == getattr(other, name)
+    for taxonomy, curves in one.functions.items():
+        assert list(curves) == list(other.functions[taxonomy])
+        for state, curve in curves.items():
+            twin = other.functions[taxonomy][state]
+            assert (type(curve), curve.im) == (type(twin), twin.im)
+            for name in ("theta", "beta") if isinstance(curve, dd.Fragility) else ("levels", "probability"):
+                np.testing.assert_array_equal(getattr(curve, name), getattr(twin, name))
+
+
+def test_round_trip(path, tmp_path):
+    """What is read is what was written, to the bit, in other units too; and is written as the same bytes."""
+    rng = np.random.default_rng(2)
+    functions = {
+        f"{im}-{i}": {"c": dd.Fragility.of_parameters(*np.exp(rng.normal(size=2) - 1.0), im=im)}
+        for im in ("pga", "pgv", "sa(0.3)")
+        for i in range(20)
+    }
+    functions["fitted"] = {"c": lognormal(0.6, 0.4)}
+    for im in ("pga", "pgv"):
+        levels = np.cumsum(rng.random(20))
+        functions[f"levels-{im}"] = {"c": DiscreteFragility(levels, np.sort(rng.random(20)), im=im)}
+    dd.write_nrml(path, functions, id="centre", description="a < b", loss_category="contents")
+    model = dd.read_nrml(path)
+    for taxonomy, curves in functions.items():
+        for name in ("theta", "beta") if isinstance(curves["c"], dd.Fragility) else ("levels", "probability"):
+            np.testing.assert_array_equal(getattr(model.functions[taxonomy]["c"], name), getattr(curves["c"], name))
+    assert model.limits["levels-pga"] == (None, None, None)
+    before = path.read_bytes()
+    model.write(tmp_path / "again.xml")
+    assert (tmp_path / "again.xml").read_bytes() == before
+    model.save(tmp_path / "model.npz")
+    same(model, dd.load(tmp_path / "model.npz"))
+    assert repr(model) == "<FragilityModel: id centre, functions 63, limit states c>"
+
+
+def test_models_of_others(path, tmp_path):
+    """Also such as write_nrml would refuse: these curves cross."""
+    path.write_text(FOREIGN)
+    model = dd.read_nrml(path)
+    assert list(model.functions) == ["RC", "UNM/C_LR/GOV2"]
+    assert model.description == "Fragility model"
+    np.testing.assert_array_equal(model.functions["RC"]["LS2"].probability, [0.001, 0.02, 0.25, 0.72])
+    assert model.limits == {"RC": (0.0, None, None), "UNM/C_LR/GOV2": (None, 0.05, 15.0)}
+    curve = model.functions["UNM/C_LR/GOV2"]["LS1"]
+    assert curve.im == "sa(0.3)"
+    # As openquake.risklib.scientific has them; the comment, which does not fit, is not believed
+    assert curve.theta == pytest.approx(0.15**2 / np.sqrt(0.39**2 + 0.15**2), rel=1e-14)
+    assert curve.beta == pytest.approx(np.sqrt(np.log(1.0 + (0.39 / 0.15) ** 2)), rel=1e-14)
+    model.write(tmp_path / "again.xml")
+    same(model, dd.read_nrml(tmp_path / "again.xml"))
+    with pytest.raises(dd.InputError, match="exists, and is no fragility model of dondolo"):
+        model.write(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("<nrml", "<nrm", "is no XML"),
+        ("nrml/0.5", "nrml/0.4", "is NRML 0.4: must be 0.5, into which 'oq upgrade_nrml' turns it"),
+        ("http://openquake.org", "http://example.org", "is no NRML"),
+        ("fragilityModel", "vulnerabilityModel", "must have one fragilityModel, there are 0"),
+        ("limitStates", "states", "must have limitStates"),
+        ("LS1 LS2\n", "LS1 LS1\n", "limitStates: must be names, each once"),
+        ('id="UNM/C_LR/GOV2"', 'id="RC"', "fragilityFunction 'RC': is a duplicate"),
+        ('format="discrete"', 'format="tabular"', "format = 'tabular': must be continuous or discrete"),
+        ('imt="PGA"', 'imt="MMI"', "fragilityFunction 'RC': imt = 'MMI': must be PGA, PGV or SA"),
+        ('<poes ls="LS1">', '<poes ls="LS3">', "has the limit states LS3 LS2: must be LS1 LS2"),
+        ("0.74 0.99", "0.74", "limit state 'LS1': 4 levels, 3 probabilities"),
+        ("0.74 0.99", "0.99 0.74", "probability = 0.99, 0.74: must not decrease"),
+        ("0.74 0.99", "0.74 x", "poes = 'x': must be a number, not negative"),
+        ("0.1 0.2 0.3 0.5", "0.1 0.3 0.2 0.5", r"levels = 0.3, 0.2: must increase"),
+        ('maxIML="15"', "", "imls: must have minIML and maxIML"),
+        ('stddev="0.39"', 'stddev="0"', "mean = 0.15, stddev = 0: must be positive"),
+        ('stddev="0.39"', "", "params: must have stddev"),
+    ],
+)
+def test_models_that_are_refused(path, old, new, message):
+    path.write_text(FOREIGN.replace(old, new))
+    with pytest.raises(dd.InputError, match=message) as error:
+        dd.read_nrml(path)
+    assert str(error.value).startswith(str(path))
+    assert "\n" not in str(error.value)
+
+
+def test_the_engine_reads_it(path):
+    """OpenQuake itself, where it is installed."""
+    nrml = pytest.importorskip("openquake.hazardlib.nrml", reason="openquake.engine is not installed")
+    pytest.importorskip("openquake.risklib.read_nrml", reason="openquake.engine is not installed")
+    curves = {"damage": lognormal(0.3, 0.35), "collapse": lognormal(0.6, 0.4)}
+    steps = {
+        name: DiscreteFragility([0.1, 0.4, 0.9], p)
+        for name, p in (("damage", [0, 0.5, 1]), ("collapse", [0, 0.1, 0.8]))
+    }
+    dd.write_nrml(path, {"lognormal": curves, "steps": steps})
+    model = nrml.to_python(str(path))
+    found = model["PGA", "lognormal"].array
+    read = dd.read_nrml(path).functions
+    for i, curve in enumerate(curves.values()):
+        assert found["mean"][i] == pytest.approx(curve.theta * np.exp(0.5 * curve.beta**2), rel=1e-14)
+        assert list(read["lognormal"].values())[i].theta == curve.theta
+    np.testing.assert_array_equal(model["PGA", "steps"].array, [one.probability for one in steps.values()])
+
+
+def test_a_curve_of_parameters(tmp_path):
+    curve = dd.Fragility.of_parameters(0.6, 0.4, im="pga")
+    assert curve(0.6) == 0.5
+    assert "standard errors the parameters were given" in repr(curve)
+    with pytest.raises(dd.DondoloError, match="no standard errors: the parameters were given"):
+        curve.interval(0.6)
+    line = curve.plot().lines[0]
+    assert line.get_xdata()[-1] > 0.6 * np.exp(3 * 0.4)
+    for wrong in ((0.0, 0.4), (0.6, np.nan), (0.6, "x")):
+        with pytest.raises(dd.InputError, match="must be"):
+            dd.Fragility.of_parameters(*wrong)

@@ -16,10 +16,11 @@ module cases
 contains
 
    !> Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
-   !> 1, then walls and records as they are packed; reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of
-   !> the history (with its sign), levels, thresholds, then walls with their weights and probabilities, and records; text:
-   !> task, title, output, im, polarity, engine, states, then walls, their groups, and records, and how its tables were read, where
-   !> there is something to say of it
+   !> 1, number of values of ag, of f0 and of tc_star of a check, 0 without one, then walls and records as they are packed;
+   !> reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history (with its sign), levels,
+   !> thresholds, the values of the check with its confidence and behaviour factors, then walls with their weights and
+   !> probabilities, and records; text: task, title, output, im, polarity, engine, states, soil and topography of the check,
+   !> then walls, their groups, and records, and how its tables were read, where there is something to say of it
    subroutine read_case(path, sent, stat, message)
       character(len=*), intent(in) :: path
       integer(c_int64_t), intent(out) :: sent(4)
@@ -48,7 +49,7 @@ contains
          scale = 1
          if (case%job%task == 'history') scale = case%history_scale()
          parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
-            & size(case%stripes%thresholds), case%job%threads, case%history%record]
+            & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0]
          parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
             & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
             & case%stripes%thresholds]
@@ -59,6 +60,7 @@ contains
          call parcel%lines%add(case%records_input%polarity)
          call parcel%lines%add(trim(case%solver%solver%engine))
          call parcel%lines%add(case%stripes%states)
+         call pack_check(case, parcel)
          call pack_members(members, parcel)
          call pack_records(case%suite%records, parcel, error)
          do i = 1, case%notes%count
@@ -67,5 +69,24 @@ contains
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine read_case
+
+   !> Add the check of a case
+   subroutine pack_check(case, parcel)
+      type(case_type), intent(in) :: case
+      !> The last three of its integers are set, reals and two lines added
+      type(parcel_type), intent(inout) :: parcel
+
+      if (.not. allocated(case%check)) then
+         call parcel%lines%add('')
+         call parcel%lines%add('')
+         return
+      end if
+      associate (check => case%check)
+         parcel%integers(7:9) = [size(check%ag), size(check%f0), size(check%tc_star)]
+         call parcel%add(real([check%ag, check%f0, check%tc_star, check%confidence, check%behaviour], c_double))
+         call parcel%lines%add(check%soil)
+         call parcel%lines%add(check%topography)
+      end associate
+   end subroutine pack_check
 
 end module cases

@@ -85,13 +85,12 @@ contains
       ordinates = spectrum%acceleration(periods, damping)
    end subroutine code_spectrum
 
-   !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them. Of the building's modes, a period, a damping
-   !> ratio and a participation times shape each, those after the first m are not looked at, since f2py takes no empty arrays
-   subroutine check_ntc(walls, texts, numbers, n, given, modes, k, m, sent, stat, message)
+   !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them
+   subroutine check_ntc(walls, texts, numbers, n, given, sent, stat, message)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: n, given(3), k, m
-      real(c_double), intent(in) :: numbers(n), modes(3, k)
+      integer(c_int), intent(in) :: n, given(3)
+      real(c_double), intent(in) :: numbers(n)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -106,7 +105,7 @@ contains
       if (.not. allocated(error)) call find_walls(walls, people, error)
       if (.not. allocated(error)) call new_kinematic(kinematic, people(1), error)
       if (.not. allocated(error)) then
-         call check_by_ntc(sheet, kinematic, input, modes(:, :m))
+         call check_by_ntc(sheet, kinematic, input)
          call pack_sheet(sheet, parcel)
       end if
       call send(parcel, error, sent, stat, message)

@@ -70,11 +70,9 @@ def code_spectrum(parameters: Sequence[float] | FloatArray, damping: float, peri
     return np.asarray(_core.checks.code_spectrum(parameters, damping, periods))
 
 
-def kinematic_sheet(wall: Handle, site: SiteInput, modes: FloatArray) -> tuple[SheetRow, ...]:
-    """The sheet of a kinematic check; modes have a row of periods, one of damping ratios, one of participations."""
-    # f2py takes no empty arrays
-    padded = np.hstack([modes, np.ones((3, 1))])
-    return _rows(receive(*_core.checks.check_ntc(wall.number, *site, padded, modes.shape[1])))
+def kinematic_sheet(wall: Handle, site: SiteInput) -> tuple[SheetRow, ...]:
+    """The sheet of a kinematic check."""
+    return _rows(receive(*_core.checks.check_ntc(wall.number, *site)))
 
 
 def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: FloatArray) -> tuple[SheetRow, ...]:

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_array, instance_of
+from dondolo._base.arguments import instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.checks import SheetRow, dynamic_sheet, kinematic_sheet
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
+from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes, multiple_stripe
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
@@ -177,20 +178,15 @@ class CodeCheck(Shown, Saved):
         return facts
 
 
-def check_ntc(
-    wall: Wall, site: Site, *, building: Any = None, confidence: float = 1.35, behaviour: float = 2.0
-) -> CodeCheck:
+def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: float = 2.0) -> CodeCheck:
     """Kinematic check of a wall by NTC 2018 and Circolare 7/2019, C8.7.1.2.1.
 
     Parameters
     ----------
     wall : Wall
-        Of one block.
+        Of one block; on a `Building` the check is that at its floor.
     site : Site
         The hazard.
-    building : optional
-        What the wall stands on: `period` [s], `damping` and `participation` (factor times shape at the level of the
-        wall) of its modes. The ground if left out.
     confidence : float
         Confidence factor FC, 1 to 1.35; 1.35 where no compressive strength moves the hinge.
     behaviour : float
@@ -216,24 +212,15 @@ def check_ntc(
     """
     handle = upload((instance_of("wall", wall, Wall, "no wall"),))
     given = instance_of("site", site, Site, "no site")._input(confidence, behaviour)
-    return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given, _modes(building)))
-
-
-def _modes(building: Any) -> FloatArray:
-    """Modes of a building, a row of periods, one of damping ratios, one of participations; on the ground none."""
-    if building is None:
-        return np.empty((3, 0))
-    modes = np.stack([as_array(name, np.atleast_1d(getattr(building, name))) for name in _MODE])
-    if not np.all(modes[:2] > 0.0):
-        raise InputError("building: periods and damping ratios must be positive for the spectrum of a floor")
-    return modes
-
-
-_MODE = ("period", "damping", "participation")
+    return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given))
 
 
 def check_dynamic(
-    check: CodeCheck, stripes: Stripes | Record | Iterable[Record], *, polarity: Polarity = "as_recorded"
+    check: CodeCheck,
+    stripes: Stripes | Record | Iterable[Record],
+    *,
+    polarity: Polarity = "as_recorded",
+    solver: Solver | None = None,
 ) -> CodeCheck:
     """Add the criterion of Circolare 7/2019, C8.7.1.2.1.9, for time histories at the peak acceleration of the site.
 
@@ -248,6 +235,8 @@ def check_dynamic(
         Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
         levels; of records, one stripe is run.
     polarity : {'as_recorded', 'reversed', 'both'}
+        Of records.
+    solver : Solver, optional
         Of records.
 
     Returns
@@ -265,7 +254,7 @@ def check_dynamic(
     levels = {state: check.site.pga(limit_state=state) for state in states}
     if not isinstance(stripes, Stripes):
         several: Sequence[float] = sorted(set(levels.values()))
-        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False)
+        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False, solver=solver)
     if stripes.im != "pga" or stripes.wall != check.wall:
         raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
     rows = tuple(row for row in check.rows if row.method != "dynamic")

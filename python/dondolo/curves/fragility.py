@@ -38,6 +38,7 @@ _WHY = {
     "naive": "as if all histories were independent",
     "few_clusters": "less than three clusters of records",
     "one_cluster": "one cluster of records determines the curve",
+    "given": "the parameters were given",
 }
 
 
@@ -72,7 +73,8 @@ class Fragility(Shown, Saved):
     errors : str
         'clustered': histories of one record or event (of typological curves also: of one wall) depend on each other
         (Mancl and DeRouen 2001); 'naive': all histories are taken for independent, for curves fitted to counts. There
-        are no standard errors for 'few_clusters', less than three, and 'one_cluster', which alone determines the curve.
+        are no standard errors for 'few_clusters', less than three, 'one_cluster', which alone determines the curve, and
+        'given', a curve that was not fitted here.
     clusters : int
         Number of clusters of records; 0 for 'naive'.
     degrees_of_freedom : float
@@ -104,10 +106,54 @@ class Fragility(Shown, Saved):
     naive_covariance: FloatArray = field(default_factory=lambda: np.full((2, 2), np.nan))
     parts: tuple[Clusters, ...] = ()
 
+    @classmethod
+    def of_parameters(cls, theta: float, beta: float, *, im: str = "") -> Fragility:
+        """A curve that was fitted elsewhere.
+
+        Parameters
+        ----------
+        theta, beta : float
+            Median, in the unit of the measure, and dispersion; positive.
+        im : str, optional
+            Intensity measure.
+
+        Returns
+        -------
+        Fragility
+            Without levels and without standard errors.
+
+        Raises
+        ------
+        InputError
+            Parameters that are not positive.
+        """
+        for what, value in (("theta", theta), ("beta", beta)):
+            if not 0.0 < as_number(what, value) < np.inf:
+                raise InputError(f"{what} = {value:g}: must be positive")
+        empty = np.zeros(0)
+        return cls(
+            theta=float(theta),
+            beta=float(beta),
+            covariance=np.full((2, 2), np.nan),
+            status="ok",
+            log_likelihood=np.nan,
+            bracket=(0.0, np.inf),
+            levels=empty,
+            collapses=empty,
+            histories=empty,
+            im=im,
+            errors="given",
+        )
+
     @property
     def has_fit(self) -> bool:
         """Is there a curve?"""
         return self.status in ("ok", "extrapolated")
+
+    @property
+    def has_errors(self) -> bool:
+        """Are there standard errors?"""
+        return self.has_fit and self.errors in ("naive", "clustered")
 
     @property
     def se_ln_theta(self) -> float:
@@ -306,14 +352,17 @@ class Fragility(Shown, Saved):
                 f"no curve was fitted (status '{self.status}'): the median lies between {low:g} and {high:g}"
             )
 
+    def _need_errors(self) -> None:
+        self._need_fit()
+        if not self.has_errors:
+            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""
         from scipy.special import ndtri, stdtrit
 
-        self._need_fit()
         upper = tails(level)[1]
-        if self.errors not in ("naive", "clustered"):
-            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+        self._need_errors()
         return float(stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper))
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -327,7 +376,7 @@ class Fragility(Shown, Saved):
             ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
             ("standard errors", self._kind()),
             *ends,
-            ("log likelihood", f"{self.log_likelihood:.6g}"),
+            *([("log likelihood", f"{self.log_likelihood:.6g}")] if np.isfinite(self.log_likelihood) else []),
             ("status", self.status),
         ]
 

@@ -32,6 +32,18 @@ class MeanCurve(ABC):
     def members(self) -> Members:
         """The walls behind the curve."""
 
+    @property
+    def reach(self) -> tuple[float, float]:
+        """Intensities beyond which no fitted wall matters under a hazard that falls with the fourth power at most."""
+        theta, beta = self.members.theta, self.members.beta
+        if not len(theta) or np.isnan(theta).any():
+            return 0.0, np.inf
+        return float((theta * np.exp(-(4.0 * beta + 8.0) * beta)).min()), float((theta * np.exp(8.0 * beta)).max())
+
+    @abstractmethod
+    def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
+        """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
+
     @abstractmethod
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Mean (x,), fractiles (q, x) and, where they are wanted, probabilities (members, x) at some levels."""

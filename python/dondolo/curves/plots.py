@@ -31,25 +31,27 @@ def draw_fragility(
     high = np.where(z < n, beta_distribution.ppf(upper, z + 1.0, n - z), 1.0)
     # Counts are those of the walls that can collapse, the curve is that of all.
     fraction, low, high = (fragility.saturation * part for part in (fraction, low, high))
-    ax.errorbar(
-        x,
-        fraction,
-        (fraction - low, high - fraction),
-        linestyle="none",
-        marker=marker,
-        markersize=4.5,
-        color=style.BLACK if label is None else color,
-        elinewidth=0.8,
-        capsize=2,
-        label=f"fractions, {100.0 * confidence:.4g} % intervals" if label is None else None,
-        zorder=3,
-    )
-    grid = curves.grid(x)
+    if len(x):
+        ax.errorbar(
+            x,
+            fraction,
+            (fraction - low, high - fraction),
+            linestyle="none",
+            marker=marker,
+            markersize=4.5,
+            color=style.BLACK if label is None else color,
+            elinewidth=0.8,
+            capsize=2,
+            label=f"fractions, {100.0 * confidence:.4g} % intervals" if label is None else None,
+            zorder=3,
+        )
+    grid = curves.grid(x if len(x) else fragility.theta * np.exp(3.0 * fragility.beta))
     right = grid[-1]
     if fragility.has_fit:
-        band = np.asarray(fragility.interval(grid, confidence=confidence))
-        text = f"{100.0 * confidence:.4g} % band" if label is None else None
-        ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
+        if fragility.has_errors:
+            band = np.asarray(fragility.interval(grid, confidence=confidence))
+            text = f"{100.0 * confidence:.4g} % band" if label is None else None
+            ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
         unit = blank_unit(fragility.im)
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
         ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)

@@ -27,3 +27,27 @@ def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatAr
     number = np.diff(first, append=len(probabilities))
     whole = rows_in_series(probabilities.reshape(len(probabilities), -1), number)
     return whole.reshape(len(first), *probabilities.shape[1:])
+
+
+def series_slopes(p_occ: FloatArray, probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatArray:
+    """Derivative of the probability of a wall with respect to that of each of its mechanisms if it can occur.
+
+    Parameters
+    ----------
+    p_occ : ndarray, shape (rows,)
+        Probability that each mechanism can occur.
+    probabilities : ndarray, shape (rows, levels)
+        Of the mechanisms, wall by wall.
+    first : ndarray of int, shape (walls,)
+        The first row of each wall, increasing from 0.
+
+    Returns
+    -------
+    ndarray, shape (rows, levels)
+    """
+    slopes = np.empty_like(probabilities)
+    for start, end in zip(first, np.append(first[1:], len(p_occ)), strict=True):
+        survive = 1.0 - p_occ[start:end, None] * probabilities[start:end]
+        for row in range(start, end):
+            slopes[row] = p_occ[row] * np.delete(survive, row - start, axis=0).prod(axis=0)
+    return slopes

@@ -6,6 +6,8 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._fortran import _core
 from dondolo._fortran.library import receive, warn_of_notes
@@ -14,9 +16,11 @@ from dondolo._fortran.walls import unpack_walls, walls_end
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import States, Stripes, multiple_stripe
+from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
+from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
 from dondolo.walls.wall import wall_from
@@ -48,6 +52,10 @@ class Case:
         Which record a time history is of, from 0.
     scale : float
         Factor on it, with the sign of its polarity.
+    site : Site or None
+        Hazard of a check by NTC 2018.
+    confidence, behaviour : float
+        Factors of that check.
     """
 
     task: str
@@ -68,6 +76,9 @@ class Case:
     threads: int
     record_index: int
     scale: float
+    site: Site | None = None
+    confidence: float = 1.35
+    behaviour: float = 2.0
 
     def run(self, *, progress: bool = True) -> Results:
         """Run it; see `run_case`.
@@ -99,9 +110,16 @@ class Case:
             curves = [stripes.fit()]
             if self.states == "ordinal":
                 curves = [*stripes.fit_damage_states(self.edp_thresholds, states="ordinal")]
-            return Results(case=self, stripes=stripes, fragility=curves[-1])
+            return Results(case=self, stripes=stripes, fragility=curves[-1], check=self._check(how))
         ensemble["edp_thresholds"] = self.edp_thresholds
         return Results(case=self, typology=typology(self.population, self.records, self.levels, **ensemble))
+
+    def _check(self, solver: Solver) -> CodeCheck | None:
+        """The check of the wall, its histories by one stripe more."""
+        if self.site is None:
+            return None
+        check = check_ntc(self.population[0], self.site, confidence=self.confidence, behaviour=self.behaviour)
+        return check_dynamic(check, self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -117,6 +135,8 @@ class Results:
         Of the task 'stripes'.
     typology : Typology or None
         Of the task 'typology'.
+    check : CodeCheck or None
+        Of a case with a group &check.
     """
 
     case: Case
@@ -124,6 +144,7 @@ class Results:
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
+    check: CodeCheck | None = None
 
 
 def read_case(path: str | os.PathLike[str]) -> Case:
@@ -146,8 +167,15 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     parcel = receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
-    task, title, output, im, polarity, engine, states = parcel.lines[:7]
-    places = [5 + levels + thresholds, 6, 7]
+    task, title, output, im, polarity, engine, states, soil, topography = parcel.lines[:9]
+    counts = parcel.integers[6:9]
+    hazard = 5 + levels + thresholds
+    places = [hazard + (int(counts.sum()) + 2 if counts.any() else 0), 9, 9]
+    check: dict[str, Any] = {}
+    if counts.any():
+        *values, (confidence, behaviour) = np.split(parcel.reals[hazard : places[0]], np.cumsum(counts))
+        site = Site(*(one.tolist() if len(one) > 1 else one[0] for one in values), soil=soil, topography=topography)  # type: ignore[arg-type]
+        check = {"site": site, "confidence": float(confidence), "behaviour": float(behaviour)}
     people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
     reals, integers, lines = walls_end(parcel, walls, *places)
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
@@ -173,6 +201,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         threads=threads,
         record_index=record - 1,
         scale=scale,
+        **check,
     )
 
 

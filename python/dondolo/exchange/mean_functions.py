@@ -10,7 +10,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._fortran.records import blank_unit
 from dondolo.errors import silent
-from dondolo.exchange.nrml import DiscreteFragility
+from dondolo.exchange.fragility_model import DiscreteFragility
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 

@@ -47,28 +47,18 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from decimal import Decimal
 from itertools import pairwise
 from typing import Any, Literal, get_args
-from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
+from dondolo._base.arguments import as_number, one_of
 from dondolo._base.files import check_replaced
-from dondolo._base.shown import Shown
-from dondolo._fortran.library import constants
-from dondolo._fortran.records import blank_unit, describe_measure
-from dondolo._storage import tables
-from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
+from dondolo.exchange.fragility_model import MARK, Curve, DiscreteFragility, FragilityModel, Limits
+from dondolo.risk.openquake import imt_of
 
-_NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
-# What stands in the second line of every file
-_MARK = "<!-- dondolo "
 #: Losses that a model is for
 LossCategory = Literal["structural", "nonstructural", "contents", "business_interruption"]
 _NAME = re.compile(r"[A-Za-z0-9_-]{1,100}")
@@ -80,53 +70,6 @@ _REACH_DOWN, _REACH_UP = 6.0, 3.0
 _RARE = 1e-3
 # Of a difference of probits
 _ROUNDING = 1e-9
-
-
-@dataclass(frozen=True, eq=False, init=False, repr=False)
-class DiscreteFragility(Shown, Saved):
-    """A fragility curve as probabilities at levels, such as the mean of a typology.
-
-    Parameters
-    ----------
-    levels : array_like, shape (levels,)
-        Levels of intensity, positive and increasing; at least two.
-    probability : array_like, shape (levels,)
-        Of reaching the state, between 0 and 1, not decreasing.
-    im : str
-        Intensity measure.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> curve = dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75])
-    """
-
-    levels: FloatArray
-    probability: FloatArray
-    im: str
-
-    def __init__(self, levels: ArrayLike, probability: ArrayLike, *, im: str = "pga") -> None:
-        x = increasing("levels", levels)
-        p = as_array("probability", probability).copy()
-        if len(x) != len(p):
-            raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
-        if not np.all((p >= 0.0) & (p <= 1.0)):
-            raise InputError(f"probability = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
-        if np.any(np.diff(p) < 0.0):
-            i = int(np.argmax(np.diff(p) < 0.0))
-            raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
-        p.flags.writeable = False
-        for what, value in (("levels", x), ("probability", p), ("im", describe_measure(im).name)):
-            object.__setattr__(self, what, value)
-
-    def _facts(self) -> list[tuple[str, str]]:
-        unit = blank_unit(self.im)
-        ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
-        chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
-        return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]
-
-
-Curve = Fragility | DiscreteFragility
 
 
 def write_nrml(
@@ -179,7 +122,7 @@ def write_nrml(
     >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
     >>> dd.write_nrml("fragility.xml", {"parapets": {"collapse": curve}})
     """
-    check_replaced(path, _MARK, "fragility model")
+    check_replaced(path, MARK, "fragility model")
     if not isinstance(id, str) or not _NAME.fullmatch(id):
         raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
     description = _words("description", description)
@@ -190,20 +133,26 @@ def write_nrml(
         if value is not None and not 0.0 < as_number(what, value) < np.inf:
             raise InputError(f"{what} = {value:g}: must be positive")
     states = _states(functions)
-    root = ElementTree.Element("nrml", {"xmlns": _NAMESPACE})
-    attributes = {"id": id, "assetCategory": asset_category, "lossCategory": loss_category}
-    model = ElementTree.SubElement(root, "fragilityModel", attributes)
-    ElementTree.SubElement(model, "description").text = description
-    ElementTree.SubElement(model, "limitStates").text = " ".join(states)
+    of_functions = {}
     for taxonomy, curves in functions.items():
         _check_curves(taxonomy, curves)
+        try:
+            imt_of(curves[states[0]].im)
+        except InputError as error:
+            raise InputError(f"taxonomy '{taxonomy}': {error}") from None
         if isinstance(curves[states[0]], Fragility):
-            _continuous(model, taxonomy, curves, no_damage_limit, min_iml, max_iml)  # type: ignore[arg-type]
+            found = _continuous(taxonomy, curves, no_damage_limit, min_iml, max_iml)  # type: ignore[arg-type]
         else:
-            _discrete(model, taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
-    ElementTree.indent(root)
-    head = ["<?xml version='1.0' encoding='utf-8'?>", f"{_MARK}{constants().version} -->"]
-    tables.write_lines(path, [*head, ElementTree.tostring(root, encoding="unicode")])
+            found = _discrete(taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
+        of_functions[taxonomy] = found
+    FragilityModel(
+        functions={taxonomy: dict(curves) for taxonomy, curves in functions.items()},
+        limits=of_functions,
+        id=id,
+        description=description,
+        asset_category=asset_category,
+        loss_category=loss_category,
+    ).write(path)
 
 
 def _words(name: str, text: Any) -> str:
@@ -258,48 +207,22 @@ def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
             )
 
 
-def _measure(taxonomy: str, im: str) -> tuple[str, int]:
-    """OpenQuake's name of an intensity measure, and its unit in that of dondolo."""
-    spectral = re.fullmatch(r"sa\((.+)\)", im)
-    if spectral:
-        return f"SA({float(spectral.group(1))!r})", 1
-    known = {"pga": ("PGA", 1), "pgv": ("PGV", 100)}
-    if im not in known:
-        raise InputError(f"taxonomy '{taxonomy}': im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for NRML")
-    return known[im]
-
-
 def _continuous(
-    model: ElementTree.Element,
     taxonomy: str,
     curves: Mapping[str, Fragility],
     no_damage_limit: float | None,
     min_iml: float | None,
     max_iml: float | None,
-) -> None:
-    """Add a function of lognormal curves."""
-    im = next(iter(curves.values())).im
-    imt, unit = _measure(taxonomy, im)
+) -> Limits:
+    """Limits of a function of lognormal curves, checked."""
     low, high = _range(list(curves.values()), min_iml, max_iml)
-    none = low if no_damage_limit is None else no_damage_limit
+    none = low if no_damage_limit is None else float(no_damage_limit)
     if not low < high:
         raise InputError(f"taxonomy '{taxonomy}': min_iml = {low:g}, max_iml = {high:g}: must increase")
     if none >= high:
         raise InputError(f"taxonomy '{taxonomy}': no_damage_limit = {none:g}: must be below max_iml = {high:g}")
     _check_order(taxonomy, curves, low, high)
-    function = ElementTree.SubElement(
-        model, "fragilityFunction", {"id": taxonomy, "format": "continuous", "shape": "logncdf"}
-    )
-    limits = {"noDamageLimit": none, "minIML": low, "maxIML": high}
-    ElementTree.SubElement(
-        function, "imls", {"imt": imt, **{name: _text(value, unit) for name, value in limits.items()}}
-    )
-    for state, curve in curves.items():
-        mean = curve.theta * np.exp(0.5 * curve.beta**2)
-        deviation = mean * np.sqrt(np.expm1(curve.beta**2))
-        ElementTree.SubElement(
-            function, "params", {"ls": state, "mean": _text(mean, unit), "stddev": _text(deviation, unit)}
-        )
+    return Limits(none, low, high)
 
 
 def _range(curves: list[Fragility], min_iml: float | None, max_iml: float | None) -> tuple[float, float]:
@@ -344,16 +267,10 @@ def _check_order(taxonomy: str, curves: Mapping[str, Fragility], low: float, hig
         )
 
 
-def _discrete(
-    model: ElementTree.Element,
-    taxonomy: str,
-    curves: Mapping[str, DiscreteFragility],
-    no_damage_limit: float | None,
-) -> None:
-    """Add a function of probabilities at levels."""
+def _discrete(taxonomy: str, curves: Mapping[str, DiscreteFragility], no_damage_limit: float | None) -> Limits:
+    """Limits of a function of probabilities at levels, checked."""
     names = list(curves)
     levels = curves[names[0]].levels
-    imt, unit = _measure(taxonomy, curves[names[0]].im)
     for lighter, heavier in pairwise(names):
         if not np.array_equal(curves[heavier].levels, levels):
             raise InputError(f"taxonomy '{taxonomy}': its curves must have the same levels")
@@ -368,15 +285,4 @@ def _discrete(
             f"taxonomy '{taxonomy}': no_damage_limit = {no_damage_limit:g}: must be below the lowest level,"
             f" {levels[0]:g}"
         )
-    function = ElementTree.SubElement(model, "fragilityFunction", {"id": taxonomy, "format": "discrete"})
-    limit = {} if no_damage_limit is None else {"noDamageLimit": _text(no_damage_limit, unit)}
-    imls = ElementTree.SubElement(function, "imls", {"imt": imt, **limit})
-    imls.text = " ".join(_text(level, unit) for level in levels)
-    for state, curve in curves.items():
-        poes = ElementTree.SubElement(function, "poes", {"ls": state})
-        poes.text = " ".join(map(_text, curve.probability))
-
-
-def _text(value: float, unit: int = 1) -> str:
-    """A number times a unit, in as few digits as give it again: 1.1 times 100 is 110."""
-    return repr(float(Decimal(repr(float(value))) * unit))
+    return Limits(None if no_damage_limit is None else float(no_damage_limit))

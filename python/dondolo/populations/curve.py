@@ -21,6 +21,7 @@ from dondolo.errors import DondoloError
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
 from dondolo.populations.flags import Flags
+from dondolo.populations.influence import changes
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.walls.population import Population
@@ -145,14 +146,20 @@ class PopulationCurve(Group, MeanCurve):
         return self._source.levels
 
     @functools.cached_property
-    def members(self) -> Members:
-        """The walls behind the curve."""
-        source, people = self._source, self._source.population
+    def _chosen(self) -> np.ndarray[Any, np.dtype[np.bool_]]:
+        """Which rows of the population take part."""
+        people = self._source.population
         chosen = people.weights > 0.0
         if self.group:
             chosen &= np.array([name == self.group for name in people.groups])
         if self.mechanism != "all":
             chosen &= (people.p_occ > 0.0) & np.array([wall.mechanism == self.mechanism for wall in people.walls])
+        return chosen
+
+    @functools.cached_property
+    def members(self) -> Members:
+        """The walls behind the curve."""
+        source, people, chosen = self._source, self._source.population, self._chosen
         rows = np.flatnonzero(chosen)
         counts = source.exceedances[-1][:, rows] / source.histories[:, rows]
         curves = [source.curves[i] for i in rows.tolist()]
@@ -162,6 +169,15 @@ class PopulationCurve(Group, MeanCurve):
             return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
         weights = people.weights[rows] * people.p_occ[rows]
         return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+
+    def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
+        """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
+        flags = self._source.flags
+        if flags is None:
+            raise DondoloError(
+                "uncertainty: results that were read back hold counts, and not which records they are of"
+            )
+        return changes(self.members, flags, np.flatnonzero(self._chosen), x, weights)
 
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
         source = self._source

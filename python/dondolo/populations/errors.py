@@ -18,7 +18,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_curves
 from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
 from dondolo.curves.fragility import Fragility, with_errors
-from dondolo.curves.series import in_series
+from dondolo.curves.series import in_series, series_slopes
 from dondolo.populations.curve import Group
 from dondolo.populations.flags import Flags
 
@@ -53,7 +53,7 @@ def with_clustered_errors(typology: Typology, flags: Flags) -> Typology:
         # Change of the wall's fraction by each cluster: its derivative times what the cluster's outcomes deviate
         starts = first[walls] - rows[0]
         fractions = shares.sum(axis=1) / run
-        slopes = _slopes(people.p_occ[rows], fractions, starts)
+        slopes = series_slopes(people.p_occ[rows], fractions, starts)
         deviations = shares - part * fractions[:, None]
         whole = in_series(people.p_occ[rows, None] * fractions, starts)
         moved = np.add.reduceat(slopes[:, None] * deviations, starts, axis=0)
@@ -95,16 +95,6 @@ def _clustered(levels: FloatArray, curves: list[Fragility], counts: FloatArray, 
         else curve
         for curve, covariance, kind, number in zip(curves, covariances, errors, clusters, strict=True)
     ]
-
-
-def _slopes(p_occ: FloatArray, fractions: FloatArray, starts: Any) -> FloatArray:
-    """Derivative of a wall's probability of collapse with respect to the fraction of each of its rows."""
-    slopes = np.empty_like(fractions)
-    for start, end in zip(starts, np.append(starts[1:], len(p_occ)), strict=True):
-        survive = 1.0 - p_occ[start:end, None] * fractions[start:end]
-        for row in range(start, end):
-            slopes[row] = p_occ[row] * np.delete(survive, row - start, axis=0).prod(axis=0)
-    return slopes
 
 
 class _Sum:

@@ -137,7 +137,7 @@ def _of_case(results: Results) -> Run:
     """A case run in Python."""
     case = results.case
     run = run_of(results.typology or results.stripes or results.response)
-    run.title, run.population = case.title or run.title, case.population
+    run.title, run.population, run.check = case.title or run.title, case.population, results.check
     run.records = case.records if case.task != "history" else (case.records[case.record_index],)
     run.settings = [
         ("task", case.task),

@@ -54,7 +54,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, increasing, instance_of, shaped
+from dondolo._base.arguments import FloatArray, as_count, as_levels, as_number, increasing, instance_of, shaped
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
@@ -70,12 +70,16 @@ from dondolo.risk.walls import WallFrequencies, wall_frequencies
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.risk.uncertainty import RiskUncertainty
+
 Curve = Fragility | MeanCurve | Callable[[Any], Any]
 
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
 # A wall without a fit takes part in a mean with its counts, so that the mean may fall, by no more than this
 _FALL = 0.01
+# Points of a curve in a figure; enough for a smooth line
+_POINTS = 801
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -235,13 +239,39 @@ class Risk(Shown, Saved):
         found = integrand(functools.partial(probability, self.fragility), self.hazard, np.log(flat))
         return shaped(np.where(inside, found, 0.0), values)
 
+    @functools.cached_property
+    def dominant_level(self) -> float:
+        """Intensity that contributes most: where the deaggregation against ln x is largest, on the smoothed hazard.
+
+        NaN where nothing collapses.
+        """
+        x, density = self._smooth_density()
+        return float(x[int(np.argmax(density))]) if density.max() > 0.0 else np.nan
+
+    def _smooth_density(self) -> tuple[FloatArray, FloatArray]:
+        """Intensities, and the deaggregation on the smoothed hazard, without the kinks of power laws."""
+        smooth = self.hazard.smoothed()
+        ends = np.log(smooth.levels[[0, -1]])
+        if smooth.endless:
+            # Where the risk comes from
+            wide = np.linspace(-20.0, 20.0, 4001)
+            density = self.density(np.exp(wide))
+            ends = wide[density > 1e-3 * density.max()][[0, -1]] if density.max() > 0.0 else ends
+        u = np.linspace(ends[0], ends[1], _POINTS)
+        x = np.exp(u)
+        if smooth.endless:
+            return x, np.asarray(self.density(x))
+        x[[0, -1]] = smooth.levels[[0, -1]]
+        slope = smooth._slope_at(u)
+        return x, slope * smooth(x) * probability(self.fragility, x)
+
     def deaggregate(self, edges: ArrayLike) -> FloatArray:
         """Deaggregation: what the intensities between edges contribute to the frequency.
 
         Parameters
         ----------
         edges : array_like, shape (bins + 1,)
-            Intensities, positive and increasing.
+            Intensities, positive and increasing, such as the levels of the hazard curve.
 
         Returns
         -------
@@ -269,6 +299,63 @@ class Risk(Shown, Saved):
             curve_at = functools.partial(probability, self.fragility)
             parts, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), np.log(cuts))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
+
+    def plot_deaggregation(self, ax: Axes | None = None, *, bins: int = 20) -> Axes:
+        """Draw what intensities contribute to the frequency, in bins, and the one that contributes most.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        bins : int
+            Number of bins, equal on a logarithmic axis.
+
+        Returns
+        -------
+        Axes
+            Share of the frequency against intensity.
+        """
+        from dondolo.risk.plots import draw_deaggregation
+
+        return draw_deaggregation(self, ax, as_count("bins", bins, 1))
+
+    def uncertainty(self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0) -> RiskUncertainty:
+        """Distribution of the annual frequency: that of the fragility, for the mean hazard and each of its fractiles.
+
+        Parameters
+        ----------
+        n_draws : int
+            Number of draws, at least 100.
+        seed : int, Generator or None
+            Of the random numbers; None: different every time.
+
+        Returns
+        -------
+        RiskUncertainty
+
+        Raises
+        ------
+        InputError
+            Too few draws.
+        DondoloError
+            The curve has no standard errors, or is a function.
+
+        Notes
+        -----
+        The docstring of the module dondolo.risk.uncertainty tells what is drawn.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+        >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
+        >>> low, high = risk.uncertainty().interval()
+        >>> low < risk.annual_frequency < high
+        True
+        """
+        from dondolo.risk.uncertainty import uncertainty
+
+        return uncertainty(self, n_draws, seed)
 
     def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
         """Draw the hazard, the fragility, and the intensities that the risk comes from.

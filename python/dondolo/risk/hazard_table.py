@@ -16,6 +16,9 @@ from dondolo.errors import DondoloWarning, InputError
 #: Columns that say how often a level is exceeded.
 _FREQUENCIES = ("annual_frequency", "return_period", "poe")
 
+#: What titles of fractiles begin with
+FRACTILE = "fractile_"
+
 #: Names that the tables of the Italian code (NTC) have for columns.
 _NTC_NAMES = {"tr": "return_period", "t_r": "return_period", "a_g": "ag"}
 
@@ -25,22 +28,29 @@ _NTC_SHAPE = ("f0", "fo", "f_0", "f_o", "tc", "tc*", "t_c", "t_c*")
 _YEARS = ("year", "years", "yr", "anno", "anni")
 
 
-def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray]:
-    """Intensity measure, levels and annual frequencies of a table."""
+#: Share -> annual frequencies of a fractile
+Fractiles = dict[float, FloatArray]
+
+
+def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray, Fractiles]:
+    """Intensity measure, levels and annual frequencies of a table, and of its fractiles."""
     titles, values = read_number_table(path)
     try:
-        im, levels, frequency, unused = _understand(titles, values)
+        if any(title.lower().startswith("poe-") for title in titles):
+            raise InputError("is of OpenQuake: must be read by HazardCurve.from_openquake")
+        im, levels, columns, unused = _understand(titles, values)
+        frequency, fractiles = _frequencies(columns)
     except InputError as error:
         raise InputError(f"{os.fspath(path)}: {error}") from None
     if unused:
         names = ", ".join(unused)
         subject = {"file": os.fspath(path), "columns": names}
         warn([DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)])
-    return im, levels, frequency
+    return im, levels, frequency, fractiles
 
 
-def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, FloatArray, list[str]]:
-    """The same, and the columns that are not used."""
+def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, dict[str, FloatArray], list[str]]:
+    """Measure, levels, the columns that say how often they are exceeded, and the names of those that are not used."""
     columns: dict[str, FloatArray] = {}
     measures: list[tuple[str, FloatArray]] = []
     unused = []
@@ -48,7 +58,7 @@ def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray,
         name, unit = _name_and_unit(title)
         if name in _NTC_SHAPE:
             unused.append(title)
-        elif name in (*_FREQUENCIES, "investigation_time"):
+        elif name in (*_FREQUENCIES, "investigation_time") or name.startswith(FRACTILE):
             if name in columns:
                 raise InputError(f"column {title!r}: {name} is a duplicate")
             if unit and (name not in ("return_period", "investigation_time") or unit not in _YEARS):
@@ -60,7 +70,7 @@ def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray,
         which = ", ".join(repr(name) for name, _ in measures) or "none"
         raise InputError(f"one column must be the levels of a measure, such as 'pga' or 'ag (g)'; there is {which}")
     im, levels = measures[0]
-    return im, levels, _frequencies(columns), unused
+    return im, levels, columns, unused
 
 
 def _name_and_unit(title: str) -> tuple[str, str]:
@@ -96,8 +106,8 @@ def _levels(title: str, name: str, unit: str, column: FloatArray) -> tuple[str, 
         ) from None
 
 
-def _frequencies(columns: dict[str, FloatArray]) -> FloatArray:
-    """Annual frequencies of exceedance [1/year]."""
+def _frequencies(columns: dict[str, FloatArray]) -> tuple[FloatArray, Fractiles]:
+    """Annual frequencies of exceedance, and those of fractiles [1/year]."""
     given = [name for name in _FREQUENCIES if name in columns]
     if len(given) != 1:
         raise InputError(
@@ -107,16 +117,35 @@ def _frequencies(columns: dict[str, FloatArray]) -> FloatArray:
     (name,) = given
     if (name == "poe") != ("investigation_time" in columns):
         raise InputError("poe and investigation_time (years) belong together")
-    column = columns[name]
-    if name == "annual_frequency":
+    time = columns.get("investigation_time", np.ones(1))
+    _check("investigation_time", time, time > 0.0, "must be positive, in years")
+    fractiles = {
+        _share(title): _as_frequency(title, name, column, time)
+        for title, column in columns.items()
+        if title.startswith(FRACTILE)
+    }
+    return _as_frequency(name, name, columns[name], time), fractiles
+
+
+def _share(title: str) -> float:
+    """Share of a fractile, from the title of its column."""
+    try:
+        return float(title.removeprefix(FRACTILE))
+    except ValueError:
+        raise InputError(f"column {title!r}: must be as {FRACTILE}0.16") from None
+
+
+def _as_frequency(title: str, kind: str, column: FloatArray, time: FloatArray) -> FloatArray:
+    """A column of a kind as annual frequencies."""
+    if kind == "annual_frequency":
         return column
-    if name == "return_period":
-        _check(name, column, column > 0.0, "must be positive, in years")
+    if kind == "return_period":
+        _check(title, column, column > 0.0, "must be positive, in years")
         with np.errstate(over="ignore"):
             return 1.0 / column
-    time = columns["investigation_time"]
-    _check(name, column, (column > 0.0) & (column < 1.0), "must lie between 0 and 1, both excluded; 10 % is 0.1")
-    _check("investigation_time", time, time > 0.0, "must be positive, in years")
+    # A fractile may never be exceeded
+    above = column >= 0.0 if title != kind else column > 0.0
+    _check(title, column, above & (column < 1.0), "must lie between 0 and 1, both excluded; 10 % is 0.1")
     with np.errstate(over="ignore"):
         return np.asarray(-np.log1p(-column) / time)
 

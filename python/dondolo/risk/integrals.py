@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -122,6 +123,28 @@ def integrand(probability: Probability, hazard: HazardCurve, u: FloatArray) -> F
     # Below the levels H may overflow where P vanishes, but not their logarithms
     with np.errstate(divide="ignore", over="ignore"):
         return k * np.exp(np.log(probability(np.exp(u))) + np.log(frequency) - k * (u - start))
+
+
+def nodes(hazard: HazardCurve, reach: tuple[float, float]) -> tuple[FloatArray, FloatArray]:
+    """Points u = ln x and weights by which sum(weights * P) is an annual frequency, for the smooth P of many walls.
+
+    Of a power law without end between the ends of the reach, in x; of levels, P H at the highest is part of it, the
+    lower bound of what is above.
+    """
+    point, weight = np.polynomial.legendre.leggauss(_NODES)
+    ends = np.log(hazard.levels)
+    if hazard.endless:
+        with np.errstate(divide="ignore"):
+            ends = np.clip(np.log(reach), -_FAR, _FAR)
+    cuts = [np.linspace(low, high, math.ceil((high - low) / _STEP) + 1)[:-1] for low, high in pairwise(ends)]
+    low = np.concatenate(cuts)
+    half = 0.5 * np.diff(np.append(low, ends[-1]))[:, None]
+    u = ((low[:, None] + half) + half * point).ravel()
+    k, start, frequency = hazard._power_laws(u)
+    weights = (half * weight).ravel() * k * frequency * np.exp(-k * (u - start))
+    if hazard.endless:
+        return u, weights
+    return np.append(u, ends[-1]), np.append(weights, hazard.annual_frequency[-1])
 
 
 def lognormal_integrals(theta: FloatArray, beta: FloatArray, hazard: HazardCurve, cuts: FloatArray) -> FloatArray:

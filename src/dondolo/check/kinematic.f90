@@ -36,6 +36,9 @@ module dondolo_kinematic
       real(wp) :: unseating = huge(1.0_wp)
       !> Gravity [m/s2]
       real(wp) :: gravity = 0.0_wp
+      !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
+      !> level of the wall; of size 0 on the ground
+      real(wp), allocatable :: period(:), damping(:), participation(:)
       !> What gives the moments
       class(mechanism_type), allocatable, private :: mechanism
       !> Radius of the edge a [m]
@@ -82,6 +85,16 @@ contains
       if (.not. wall%mechanism%capacity < right_angle) then
          call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
          return
+      end if
+      allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0))
+      if (allocated(wall%building)) then
+         kinematic%period = wall%building%period
+         kinematic%damping = wall%building%damping
+         kinematic%participation = wall%building%participation
+         if (.not. all(kinematic%damping > 0.0_wp)) then
+            call raise_input(error, 'damping = 0: must be positive for the spectrum of a floor of the code')
+            return
+         end if
       end if
       kinematic%mechanism = wall%mechanism
       kinematic%gravity = wall%gravity

@@ -29,13 +29,10 @@ module dondolo_ntc_check
 contains
 
    !> Kinematic check of a wall
-   pure subroutine check_ntc(sheet, kinematic, input, modes, curve)
+   pure subroutine check_ntc(sheet, kinematic, input, curve)
       type(sheet_type), intent(out) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
-      !> Period [s], damping ratio, and participation times shape at the level of the wall, of each mode of the building
-      !> (3, modes); no mode: at the ground
-      real(wp), intent(in) :: modes(:, :)
       !> Curve of collapse over the peak acceleration at the site [g]: the sheet then has probabilities
       type(fragility_type), intent(in), optional :: curve
 
@@ -43,19 +40,31 @@ contains
       integer :: i
 
       do i = 1, merge(3, 1, input%has_states())
-         call put_site(sheet, input, i, modes)
+         call put_site(sheet, kinematic, input, i)
       end do
       call put_mechanism(sheet, kinematic, input)
-      spectrum = new_floor_spectrum(input%spectrum(1), modes(1, :), modes(2, :), modes(3, :))
+      spectrum = spectrum_of(kinematic, input, 1)
       call put_linear(sheet, kinematic, input, spectrum, 1)
-      spectrum = new_floor_spectrum(input%spectrum(2), modes(1, :), modes(2, :), modes(3, :))
+      spectrum = spectrum_of(kinematic, input, 2)
       call put_linear(sheet, kinematic, input, spectrum, 2)
       do i = 2, 3
-         spectrum = new_floor_spectrum(input%spectrum(i), modes(1, :), modes(2, :), modes(3, :))
+         spectrum = spectrum_of(kinematic, input, i)
          call put_nonlinear(sheet, kinematic, input, spectrum, i)
       end do
       if (present(curve)) call put_probabilities(sheet, curve)
    end subroutine check_ntc
+
+   !> Spectrum at the level of the wall
+   pure function spectrum_of(kinematic, input, state) result(spectrum)
+      type(kinematic_type), intent(in) :: kinematic
+      type(check_input_type), intent(in) :: input
+      !> Number of the limit state
+      integer, intent(in) :: state
+      !> The spectrum
+      type(floor_spectrum_type) :: spectrum
+
+      spectrum = new_floor_spectrum(input%spectrum(state), kinematic%period, kinematic%damping, kinematic%participation)
+   end function spectrum_of
 
    !> Put the probability of collapse behind each peak acceleration at the site, the site's own and what the wall stands
    pure subroutine put_probabilities(sheet, curve)
@@ -77,20 +86,19 @@ contains
    end subroutine put_probabilities
 
    !> Put the hazard of the site
-   pure subroutine put_site(sheet, input, state, modes)
+   pure subroutine put_site(sheet, kinematic, input, state)
       type(sheet_type), intent(inout) :: sheet
+      type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
       !> Number of the limit state; all have the hazard of the first if there is only one
       integer, intent(in) :: state
-      !> Modes of the building
-      real(wp), intent(in) :: modes(:, :)
 
       type(floor_spectrum_type) :: spectrum
       character(len=4) :: name
 
       name = ''
       if (input%has_states()) name = state_names(state)
-      spectrum = new_floor_spectrum(input%spectrum(state), modes(1, :), modes(2, :), modes(3, :))
+      spectrum = spectrum_of(kinematic, input, state)
       associate (ground => spectrum%ground)
          call sheet%add('site', name, 'ag', ground%pga/ground%soil_factor)
          call sheet%add('site', name, 'f0', ground%amplification)
@@ -98,7 +106,7 @@ contains
          call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1')
          call sheet%add('site', name, 'tc', ground%corners(2), 'NTC 3.2.3.2.1')
          call sheet%add('site', name, 'pga', ground%pga)
-         if (size(modes, 2) > 0) call sheet%add('site', name, 'floor_pga', spectrum%peak_acceleration(), 'C7.2.3')
+         if (size(spectrum%period) > 0) call sheet%add('site', name, 'floor_pga', spectrum%peak_acceleration(), 'C7.2.3')
       end associate
    end subroutine put_site
 

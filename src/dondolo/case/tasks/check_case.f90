@@ -29,14 +29,13 @@ contains
       type(fragility_type), intent(in), optional :: curve
 
       type(kinematic_type) :: kinematic
-      real(wp), parameter :: nothing(3, 0) = reshape([real(wp) ::], [3, 0])
 
       call new_kinematic(kinematic, case%wall, error)
       if (allocated(error)) return
       if (case%stripes%scaling%name == 'pga') then
-         call check_ntc(sheet, kinematic, case%check, nothing, curve)
+         call check_ntc(sheet, kinematic, case%check, curve)
       else
-         call check_ntc(sheet, kinematic, case%check, nothing)
+         call check_ntc(sheet, kinematic, case%check)
       end if
    end subroutine check_case
 

@@ -1,0 +1,219 @@
+"""How uncertain an annual frequency of collapse is: that of the fragility, beside that of the hazard.
+
+One curve
+    ln theta and 1/beta, the slope of the probit regression, are drawn from the distribution that the intervals of the
+    curve rest on: normal with its covariance, times the factor of Student's t with its degrees of freedom. Each draw
+    has an annual frequency in closed form. A draw with a slope that is not positive counts as level at 1/2, the limit
+    of a curve without bound of beta.
+Curve of a population
+    The frequency is a sum over walls and records. Left out one at a time, to first order, a wall or a cluster of
+    records changes it; the sums of the squares of the changes by records and by walls are its variance, of which the
+    degrees of freedom are Satterthwaite's. ln lambda is drawn from Student's t with it.
+Hazard
+    All draws are integrated over the mean hazard, and over each of its fractiles: an interval for each. A fractile of
+    the hazard gives the same fractile of the frequency only where one branch of the logic tree is above another at all
+    levels, which is why they are not mixed into one distribution.
+
+What an interval covers is told in docs/uncertainty.md: the choice of the records, and of the walls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray, as_count, as_generator, tails
+from dondolo._base.shown import Shown
+from dondolo._storage import tables
+from dondolo._storage.saved import Saved
+from dondolo.curves.clusters import freedom
+from dondolo.curves.fragility import Fragility
+from dondolo.curves.mean_curve import MeanCurve
+from dondolo.errors import DondoloError
+from dondolo.risk.frequency import Risk, mean_annual_frequency
+from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.integrals import nodes, of_lognormal
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Interval = tuple[float, float]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class RiskUncertainty(Shown, Saved):
+    """Distribution of an annual frequency of collapse, for the mean hazard and for each of its fractiles.
+
+    Attributes
+    ----------
+    risk : Risk
+        The estimate; frequencies are its lower bounds, as `Risk.annual_frequency`.
+    annual_frequency : ndarray, shape (draws,)
+        Draws for the mean hazard [1/year].
+    estimates : dict
+        Fractile of the hazard -> annual frequency for it [1/year].
+    fractiles : dict
+        Fractile of the hazard -> draws for it, shape (draws,) [1/year].
+    kind : str
+        What was drawn, in words.
+    degrees_of_freedom : float
+        Of Student's t.
+    """
+
+    risk: Risk
+    annual_frequency: FloatArray
+    estimates: dict[float, float]
+    fractiles: dict[float, FloatArray]
+    kind: str
+    degrees_of_freedom: float
+
+    def interval(self, *, confidence: float = 0.95, hazard: float | None = None) -> Interval:
+        """Confidence interval of the annual frequency.
+
+        Parameters
+        ----------
+        confidence : float
+            Between 0 and 1.
+        hazard : float, optional
+            Fractile of the hazard; the mean if left out.
+
+        Returns
+        -------
+        low, high : float
+            [1/year]; inf where the data leave it open.
+
+        Raises
+        ------
+        InputError
+            A confidence beyond 0 and 1, a fractile that the hazard has not.
+        """
+        if hazard is not None:
+            self.risk.hazard.fractile(hazard)
+        draws = self.annual_frequency if hazard is None else self.fractiles[float(hazard)]
+        low, high = np.quantile(draws, tails(confidence), method="closest_observation")
+        return float(low), float(high)
+
+    def table(self, *, confidence: float = 0.95) -> tables.Table:
+        """Annual frequency and its interval for the mean hazard and each fractile, as columns."""
+        cases: list[float | None] = [None, *self.fractiles]
+        ends = [self.interval(confidence=confidence, hazard=one) for one in cases]
+        return {
+            "hazard": ["mean" if one is None else f"{one:g}" for one in cases],
+            "annual_frequency": [self.risk.annual_frequency, *self.estimates.values()],
+            "low": [low for low, _ in ends],
+            "high": [high for _, high in ends],
+        }
+
+    def to_frame(self, *, confidence: float = 0.95) -> Any:
+        """The same as a pandas DataFrame."""
+        return tables.frame(self.table(confidence=confidence))
+
+    def plot(self, ax: Axes | None = None, *, confidence: float = 0.95) -> Axes:
+        """Draw the distribution for the mean hazard and for each fractile, with the intervals.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        confidence : float
+            Of the intervals, between 0 and 1.
+
+        Returns
+        -------
+        Axes
+            Probability that the annual frequency is less, against it on a logarithmic axis.
+        """
+        from dondolo.risk.plots import draw_uncertainty
+
+        return draw_uncertainty(self, ax, confidence)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [
+            ("mean annual frequency of collapse", f"{self.risk.annual_frequency:.4g} a year"),
+            ("95 % interval", "{:.4g} to {:.4g}".format(*self.interval())),
+        ]
+        for q, estimate in self.estimates.items():
+            low, high = self.interval(hazard=q)
+            facts.append((f"fractile {q:g} of the hazard", f"{estimate:.4g} ({low:.4g} to {high:.4g})"))
+        return [*facts, ("draws", f"{len(self.annual_frequency)}, {self.kind}")]
+
+
+def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
+    """Distribution of the annual frequency of a risk: see `Risk.uncertainty`."""
+    count, generator = as_count("n_draws", n_draws, 100), as_generator(seed)
+    fractiles = {q: risk.hazard.fractile(q) for q in risk.hazard.fractiles}
+    curve = risk.fragility
+    if isinstance(curve, Fragility):
+        degrees = curve.degrees_of_freedom
+        theta, beta = _parameters(curve, count, generator)
+        draws = [_frequencies(curve, theta, beta, hazard) for hazard in (risk.hazard, *fractiles.values())]
+        kind = curve._kind()
+    elif isinstance(curve, MeanCurve):
+        degrees, sigma, kind = _of_population(curve, risk.hazard)
+        steps = _students(generator, count, degrees)
+        draws = [risk.annual_frequency * np.exp(sigma * steps)]
+        for hazard in fractiles.values():
+            _, sigma, _ = _of_population(curve, hazard)
+            draws.append(_estimate(curve, hazard) * np.exp(sigma * steps))
+    else:
+        raise DondoloError("uncertainty: the curve is a function, of which no standard errors are known")
+    return RiskUncertainty(
+        risk=risk,
+        annual_frequency=draws[0],
+        estimates={q: _estimate(curve, hazard) for q, hazard in fractiles.items()},
+        fractiles=dict(zip(fractiles, draws[1:], strict=True)),
+        kind=kind,
+        degrees_of_freedom=degrees,
+    )
+
+
+def _estimate(curve: Fragility | MeanCurve, hazard: HazardCurve) -> float:
+    from dondolo.errors import silent
+
+    # The ends of a fractile are those of the mean, of which was warned.
+    with silent():
+        return mean_annual_frequency(curve, hazard).annual_frequency
+
+
+def _students(generator: np.random.Generator, count: int, degrees: float) -> FloatArray:
+    """Draws of Student's t; of the normal distribution for infinite degrees of freedom."""
+    normal = generator.standard_normal(count)
+    return normal if np.isinf(degrees) else normal * np.sqrt(degrees / generator.chisquare(degrees, count))
+
+
+def _parameters(curve: Fragility, count: int, generator: np.random.Generator) -> tuple[FloatArray, FloatArray]:
+    """Draws of theta and beta; beta is inf where the slope is not positive."""
+    curve._need_errors()
+    # Covariance of ln theta and 1/beta
+    scale = np.diag([1.0, -1.0 / curve.beta**2])
+    values, vectors = np.linalg.eigh(scale @ curve.covariance @ scale)
+    steps = generator.standard_normal((count, 2)) * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    degrees = curve.degrees_of_freedom
+    if np.isfinite(degrees):
+        steps *= np.sqrt(degrees / generator.chisquare(degrees, (count, 1)))
+    slope = 1.0 / curve.beta + steps[:, 1]
+    with np.errstate(divide="ignore"):
+        beta = 1.0 / np.maximum(slope, 0.0)
+    return curve.theta * np.exp(steps[:, 0]), beta
+
+
+def _frequencies(curve: Fragility, theta: FloatArray, beta: FloatArray, hazard: HazardCurve) -> FloatArray:
+    """Annual frequency of each draw."""
+    level = np.isinf(beta)
+    parts = of_lognormal(theta, np.where(level, 1.0, beta), hazard)
+    flat = np.inf if hazard.endless else 0.5 * hazard.annual_frequency[0]
+    return curve.saturation * np.where(level, flat, parts.inside + parts.above)
+
+
+def _of_population(curve: MeanCurve, hazard: HazardCurve) -> tuple[float, float, str]:
+    """Degrees of freedom, standard error of ln lambda, and of what, for the curve of a population."""
+    u, weights = nodes(hazard, curve.reach)
+    found = curve.changes(np.exp(u), weights)
+    whole = float(weights @ curve.mean(np.exp(u)))
+    if not whole > 0.0:
+        raise DondoloError("uncertainty: nothing collapses at the levels of the hazard curve")
+    variances = [(float(changes @ changes), len(changes) - 1) for changes in found.values()]
+    kind = " and ".join(f"{len(changes)} {what}" for what, changes in found.items())
+    return freedom(variances), float(np.sqrt(sum(variance for variance, _ in variances))) / whole, kind

@@ -1,0 +1,205 @@
+"""Hazard curves: fractiles, the smooth line through the levels, and the files of OpenQuake."""
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+LEVELS = np.array([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6])
+MEAN = np.array([0.1, 0.03, 0.01, 2.5e-3, 4e-4, 5e-5, 4e-6])
+# The head of a file of the engine, version 3.20, and of one of version 2
+NEW = """#,,,,,"generated_by='OpenQuake engine 3.20.0', start_date='2024-06-03T09:36:04', checksum=1, kind='{kind}', \
+investigation_time={time}, imt='{imt}'"
+lon,lat,depth,poe-0.1000000,poe-0.4000000,poe-0.6000000,poe-9.0000000
+0.00000,0.00000,-0.10000,4.553861E-01,5.754043E-02,6.354517E-03,0.000000E+00
+13.39000,42.35000,0.00000,{first},2.000000E-02,1.000000E-03,1.000000E-06
+"""
+OLD = """# mean, investigation_time=50.0, imt="PGA"
+lon,lat,depth,poe-0.1,poe-0.4
+0.0,0.0,0.0,0.5,0.01
+"""
+
+
+@pytest.fixture
+def hazard():
+    return dd.HazardCurve(LEVELS, MEAN, fractiles={0.84: 1.6 * MEAN, 0.16: np.append(0.4 * MEAN[:-1], 0.0)})
+
+
+def file_of(folder, name="hazard_curve-mean-PGA_1.csv", text=NEW, **values):
+    """A file of the engine."""
+    path = folder / name
+    path.write_text(text.format(**{"kind": "mean", "time": "1.0", "imt": "PGA", "first": "1.500000E-01"} | values))
+    return path
+
+
+def test_fractiles(hazard):
+    assert list(hazard.fractiles) == [0.16, 0.84]
+    assert "fractiles 0.16 0.84" in repr(hazard)
+    high, low = hazard.fractile(0.84), hazard.fractile(0.16)
+    np.testing.assert_array_equal(high.annual_frequency, 1.6 * MEAN)
+    # The highest level is never exceeded there.
+    np.testing.assert_array_equal(low.levels, LEVELS[:-1])
+    assert low.fractiles == {}
+    assert not hazard.fractiles[0.84].flags.writeable
+    assert list(hazard.to_frame().columns) == ["pga", "annual_frequency", "fractile_0.16", "fractile_0.84"]
+    with pytest.raises(
+        dd.InputError, match=r"q = 0.5: must be one of the fractiles of the hazard curve; there is 0.16"
+    ):
+        hazard.fractile(0.5)
+
+
+@pytest.mark.parametrize(
+    ("fractiles", "message"),
+    [
+        ([1.0], "fractiles: must be a mapping"),
+        ({"low": MEAN}, "fractiles = 'low': must be a number"),
+        ({1.0: MEAN}, r"fractiles\[1\]: the share must lie between 0 and 1"),
+        ({0.5: MEAN[1:]}, r"fractiles\[0.5\]: 6 frequencies for 7 levels"),
+        ({0.5: -MEAN}, r"fractiles\[0.5\] = -0.1: must not be negative"),
+        ({0.5: MEAN[::-1]}, r"fractiles\[0.5\] = 4e-06, 5e-05: must not increase with the level"),
+        ({0.16: MEAN, 0.84: 0.9 * MEAN}, r"fractiles\[0.84\] = 0.09: must not be less than 0.1 of the fractile 0.16"),
+    ],
+)
+def test_fractiles_that_are_none(fractiles, message):
+    with pytest.raises(dd.InputError, match=message):
+        dd.HazardCurve(LEVELS, MEAN, fractiles=fractiles)
+
+
+def test_fractiles_in_tables(hazard, tmp_path):
+    hazard.to_csv(tmp_path / "hazard.csv")
+    again = dd.HazardCurve.from_csv(tmp_path / "hazard.csv")
+    assert list(again.fractiles) == [0.16, 0.84]
+    for q, h in hazard.fractiles.items():
+        np.testing.assert_array_equal(again.fractiles[q], h)
+    hazard.save(tmp_path / "hazard.npz")
+    np.testing.assert_array_equal(dd.load(tmp_path / "hazard.npz").fractiles[0.16], hazard.fractiles[0.16])
+    table = tmp_path / "poe.csv"
+    table.write_text("pga,poe,investigation_time,fractile_0.05\n0.1,0.2,50,0.1\n0.2,0.1,50,0\n")
+    read = dd.HazardCurve.from_csv(table)
+    np.testing.assert_allclose(read.fractiles[0.05], [-np.log(0.9) / 50.0, 0.0], rtol=1e-14)
+    table.write_text("pga,annual_frequency,fractile_low\n0.1,0.2,0.1\n0.2,0.1,0\n")
+    with pytest.raises(dd.InputError, match=r"column 'fractile_low': must be as fractile_0.16"):
+        dd.HazardCurve.from_csv(table)
+
+
+def test_smoothed(hazard):
+    """Through the levels, monotone, and close to a curve that bends."""
+    smooth = hazard.smoothed(steps=10)
+    assert len(smooth.levels) == 61
+    np.testing.assert_array_equal(smooth.levels[::10], LEVELS)
+    np.testing.assert_array_equal(smooth.annual_frequency[::10], MEAN)
+    np.testing.assert_array_equal(smooth.fractiles[0.16][50:], np.append(smooth.fractiles[0.16][50], np.zeros(10)))
+    np.testing.assert_allclose(smooth.fractiles[0.84], 1.6 * smooth.annual_frequency, rtol=1e-13)
+
+    def bent(x):
+        return 1e-4 * x ** -(2.5 + 0.2 * np.log(x))
+
+    levels = np.geomspace(0.02, 5.0, 8)
+    given = dd.HazardCurve(levels, bent(levels))
+    x = np.geomspace(0.02, 5.0, 500)
+    kinked, cubic = (np.abs(np.log(curve(x) / bent(x))).max() for curve in (given, given.smoothed()))
+    assert cubic < 0.0035 < 0.03 < kinked
+    # The numbers that the module states, for levels 2.2 times the one before
+    curve = dd.fit_fragility([0.4, 0.9], [250, 750], 1000)
+    exact = dd.mean_annual_frequency(curve, dd.HazardCurve(x, bent(x))).inside
+    assert dd.mean_annual_frequency(curve, given).inside / exact == pytest.approx(0.98, abs=0.002)
+    assert dd.mean_annual_frequency(curve, given.smoothed()).inside / exact == pytest.approx(1.0, abs=3e-4)
+    level = dd.HazardCurve([0.1, 0.2, 0.4], [1e-2, 1e-3, 1e-3]).smoothed()
+    assert np.all(np.diff(level.annual_frequency) <= 0.0)
+    endless = dd.HazardCurve.power_law(1e-4, 2.0)
+    assert endless.smoothed() is endless
+    with pytest.raises(dd.InputError, match="steps = 0: must be an integer"):
+        hazard.smoothed(steps=0)
+
+
+def test_openquake(tmp_path):
+    """As the engine writes them: exact frequencies, levels at which nothing is seen left out and told."""
+    mean = file_of(tmp_path)
+    quantile = file_of(tmp_path, "quantile_curve-0.84-PGA_1.csv", kind="quantile-0.84", first="2.5E-01")
+    curve = dd.HazardCurve.from_openquake([quantile, mean], site=(13.39, 42.35))
+    assert curve.im == "pga"
+    np.testing.assert_array_equal(curve.levels, [0.1, 0.4, 0.6, 9.0])
+    np.testing.assert_array_equal(curve.annual_frequency, -np.log1p(-np.array([0.15, 0.02, 1e-3, 1e-6])))
+    assert curve.fractiles[0.84][0] == -np.log1p(-0.25)
+    with pytest.warns(dd.DondoloWarning, match=r"site 0: levels with a probability of 0 or 1 are left out: 9$"):
+        assert len(dd.HazardCurve.from_openquake(mean, site=0).levels) == 3
+    alone = dd.HazardCurve.from_openquake(str(quantile), site=1)
+    assert alone.annual_frequency[0] == curve.fractiles[0.84][0]
+    old = dd.HazardCurve.from_openquake(file_of(tmp_path, "hazard_curve-mean.csv", OLD))
+    np.testing.assert_array_equal(old.annual_frequency, -np.log1p(-np.array([0.5, 0.01])) / 50.0)
+    velocity = dd.HazardCurve.from_openquake(file_of(tmp_path, imt="PGV"), site=1)
+    assert (velocity.im, velocity.levels[1]) == ("pgv", 0.004)
+    assert dd.HazardCurve.from_openquake(file_of(tmp_path, imt="SA(0.5)"), site=1).im == "sa(0.5)"
+
+
+@pytest.mark.parametrize(
+    ("values", "site", "message"),
+    [
+        ({}, None, "has 2 sites: site must be its number, from 0, or"),
+        ({}, 2, "site = 2: must be between 0 and 1"),
+        ({}, (13.0, 42.0), r"site = \(13, 42\): is not in .*; the nearest is \(13.39, 42.35\)"),
+        ({}, "L'Aquila", r"site = \"L'Aquila\": must be \(longitude, latitude\)"),
+        ({}, (0.0, 91.0), r"site = \(0, 91\): must be \(longitude, latitude\) in degrees"),
+        ({"imt": "MMI"}, 1, "imt = 'MMI': must be PGA, PGV or SA"),
+        ({"imt": ""}, 1, "must have a comment with imt="),
+        ({"time": "none"}, 1, "investigation_time = 'none': must be a number"),
+        ({"time": "-1.0"}, 1, "investigation_time = -1: must be positive"),
+        ({"first": "-0.1"}, 1, r"site 1: poe-0.1000000 = -0.1: must lie between 0 and 1"),
+        ({"first": "1e-3"}, 1, "annual_frequency = .*: must not increase with the level"),
+        ({"first": "x"}, 1, "site 1: poe-0.1000000 = 'x': must be a number"),
+        ({"first": "0.1,0.1"}, 1, "site 1: has 8 cells, the titles are 7"),
+        ({"kind": "quantile-x"}, 1, None),
+    ],
+)
+def test_openquake_files_that_are_refused(tmp_path, values, site, message):
+    path = file_of(tmp_path, **values)
+    if message is None:
+        with pytest.raises(dd.InputError, match="kind = 'x': must be a number"):
+            dd.HazardCurve.from_openquake([file_of(tmp_path, "mean.csv"), path], site=site)
+        return
+    with pytest.raises(dd.InputError, match=message) as error:
+        dd.HazardCurve.from_openquake(path, site=site)
+    assert "\n" not in str(error.value)
+
+
+def test_openquake_files_that_do_not_belong_together(tmp_path):
+    mean = file_of(tmp_path)
+    for values, message in (
+        ({"imt": "PGV"}, "PGV and PGA"),
+        ({"time": "50.0"}, "50.0 and 1.0"),
+        ({"kind": "mean"}, "must be one mean and its quantiles, each once; there are 'mean', 'mean'"),
+    ):
+        other = file_of(tmp_path, "other.csv", **({"kind": "quantile-0.5"} | values))
+        with pytest.raises(dd.InputError, match=message):
+            dd.HazardCurve.from_openquake([mean, other], site=1)
+    other = file_of(tmp_path, "other.csv", NEW.replace("13.39", "13.40"), kind="quantile-0.5")
+    with pytest.raises(dd.InputError, match="has other sites than"):
+        dd.HazardCurve.from_openquake([mean, other], site=1)
+    with pytest.raises(dd.InputError, match=r"must be read by HazardCurve.from_openquake"):
+        dd.HazardCurve.from_csv(mean)
+    with pytest.raises(dd.InputError, match="must be read by"):
+        dd.HazardCurve.from_csv(file_of(tmp_path, "old.csv", OLD))
+    with pytest.raises(dd.InputError, match="must have the columns lon, lat"):
+        dd.HazardCurve.from_openquake(file_of(tmp_path, "own.csv", "pga,annual_frequency\n0.1,0.2\n"))
+
+
+def test_openquake_round_trip(hazard, tmp_path):
+    files = hazard.to_openquake(tmp_path, site=(-70.5, -33.25), investigation_time=1.0)
+    assert [name.rsplit("/", 1)[1] for name in files] == [
+        "hazard_curve-mean-PGA.csv",
+        "quantile_curve-0.16-PGA.csv",
+        "quantile_curve-0.84-PGA.csv",
+    ]
+    again = dd.HazardCurve.from_openquake(files, site=(289.5, -33.25))
+    np.testing.assert_array_equal(again.levels, LEVELS)
+    np.testing.assert_allclose(again.annual_frequency, MEAN, rtol=1e-14)
+    np.testing.assert_allclose(again.fractiles[0.16], hazard.fractiles[0.16], rtol=1e-14)
+    velocity = dd.HazardCurve([0.011, 0.07], [0.1, 0.01], im="pgv")
+    (path,) = velocity.to_openquake(tmp_path, site=(0.0, 0.0))
+    np.testing.assert_array_equal(dd.HazardCurve.from_openquake(path).levels, velocity.levels)
+    with pytest.raises(dd.InputError, match="im = 'arias': must be 'pga', 'pgv' or"):
+        dd.HazardCurve([0.1, 0.2], [0.1, 0.01], im="arias").to_openquake(tmp_path, site=(0.0, 0.0))
+    with pytest.raises(dd.InputError, match="investigation_time = 0: must be positive"):
+        velocity.to_openquake(tmp_path, site=(0.0, 0.0), investigation_time=0.0)
+    with pytest.raises(dd.DondoloError, match="is no folder"):
+        velocity.to_openquake(tmp_path / "none", site=(0.0, 0.0))
