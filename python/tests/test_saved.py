@@ -78,6 +78,7 @@ def results(stripes, few, wall):
             asset_category="buildings",
             loss_category="structural",
         ),
+        "code check": dd.check_ntc(dd.OneSidedWall(3.0, 0.25), dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")),
         "typology": people,
         "one mechanism": one,
         "group": people.groups[0],

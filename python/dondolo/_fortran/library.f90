@@ -81,14 +81,22 @@ contains
 
    !> Check a name, a title or another word of the user's
    subroutine check_text(what, text, stat, message)
-      ! What it is, and its text
+      ! What it is, and its text, in which C0 80 stands for NUL, at which a text of f2py would end (modified UTF-8)
       character(len=*), intent(in) :: what, text
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(error_type), allocatable :: error
+      character(len=:), allocatable :: meant
+      integer :: at
 
-      if (len_trim(name_problem(text)) > 0) call raise_input(error, what//' = '''//shown(text)//''': '// &
-         & trim(name_problem(text)))
+      meant = text
+      do
+         at = index(meant, achar(192)//achar(128))
+         if (at == 0) exit
+         meant = meant(:at - 1)//achar(0)//meant(at + 2:)
+      end do
+      if (len_trim(name_problem(meant)) > 0) call raise_input(error, what//' = '''//shown(meant)//''': '// &
+         & trim(name_problem(meant)))
       call report(error, stat, message)
    end subroutine check_text
 

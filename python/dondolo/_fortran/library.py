@@ -178,7 +178,7 @@ def as_text(name: str, value: Any) -> bytes:
         text = value.encode()
     except UnicodeEncodeError:
         raise InputError(f"{name} = {value!r}: must be a text") from None
-    # What Python prints has no character that Fortran refuses. A text of f2py ends at NUL: C0 80 in modified UTF-8.
+    # What Python prints has no character that Fortran refuses. A text of f2py would end at NUL.
     if not value.isprintable() or len(text) > constants().longest_name:
         check(*_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
     return text
