@@ -498,7 +498,7 @@ bad() {
 while IFS='|' read -r change part; do
    [ -n "$change" ] && bad "$change" "$part"
 done <<'TABLE'
-s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &population
+s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &building, &population
 s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
 s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
 s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'spreadsheet_safe', 'threads'

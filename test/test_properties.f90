@@ -327,7 +327,7 @@ contains
             call read_values(group, input, error)
             call check_ok(error, what)
             call input%set('mechanism', trim(mechanism_names(m)))
-            if (mechanism_names(m) == 'one_sided') call complete(input, what)
+            if (has_owner(table(i), trim(mechanism_names(m)))) call complete(input, what)
             do j = 1, size(table)
                if (input%has('section_height') .and. any(table(j)%name == [character(len=9) :: 'height', 'thickness'])) cycle
                if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
@@ -362,7 +362,16 @@ contains
          & 'thrust_height', 'spring', 'spring_depth', 'spring_height', 'bed']
       integer :: i
 
-      if (index(what, 'load') == 1 .and. .not. input%has('load_inertia')) call input%set('load_inertia', 'both')
+      select case (what)
+      case ('overburden')
+         call input%set('overburden_inertia', 0.5_wp)
+      case ('load_lifted')
+         call input%set('load_pushed', [0.5_wp, 0.5_wp])
+      case ('load_pushed')
+         call input%set('load_lifted', [0.5_wp, 0.5_wp])
+      case default
+         if (index(what, 'load') == 1 .and. .not. input%has('load_inertia')) call input%set('load_inertia', 'both')
+      end select
       do i = 1, size(names)
          if (input%has(trim(names(i))) .or. .not. goes_with(trim(names(i)), what)) cycle
          select case (names(i))
