@@ -136,7 +136,7 @@ def damaged(executable, root, tmp_path_factory):
             "walls",
             r"^(parapet brick low,.*),.*,.*$",
             r"\1",
-            r"line \d+: 17 cells: must be 19 as in the header",
+            r"line \d+: 18 cells: must be 20 as in the header",
         ),
         (
             "population",

@@ -163,7 +163,7 @@ def test_refused_by_the_executable(root, executable, tmp_path):
 
 
 def test_plot(records):
-    ax = dd.Building([0.3, 0.1], participation=[1.2, -0.2]).plot(records, periods=np.geomspace(0.05, 2.0, 12))
+    ax = dd.Building([0.3, 0.1], participation=[1.2, -0.2]).plot(records=records, periods=np.geomspace(0.05, 2.0, 12))
     floor, ground = (line.get_ydata() for line in ax.lines[len(records) : len(records) + 2])
     expected = [record.spectrum(ax.lines[0].get_xdata()).pseudo_acceleration / 9.81 for record in records]
     assert np.allclose(ground, np.exp(np.log(expected).mean(axis=0)))

@@ -26,6 +26,13 @@ def stripes(wall, records):
     return dd.multiple_stripe(wall, records, LEVELS, polarity="both", progress=False)
 
 
+def with_outcomes(stripes, collapsed, edp, **plain):
+    """Stripes of other histories, all of which ran."""
+    rest = {"ran": np.ones_like(collapsed), "impacts": np.zeros_like(collapsed, dtype=np.int32)}
+    rest |= {"time_of_peak": np.zeros_like(edp), "scale": np.ones_like(edp)}
+    return replace(stripes, collapsed=collapsed, edp=edp, **rest, **plain)
+
+
 def made(stripes, collapsed, edp=None):
     """Stripes that collapse where a table, written level by level from the lowest, says so."""
     collapsed = np.array([[mark == "x" for mark in row] for row in collapsed])
@@ -34,7 +41,7 @@ def made(stripes, collapsed, edp=None):
     names = tuple(f"r{i}" for i in range(n))
     levels = LEVELS[: len(collapsed)]
     plain = {"levels": levels, "record_names": names, "polarity": np.ones(n, dtype=np.int32)}
-    return replace(stripes, collapsed=collapsed, edp=edp, events=(), checksums=(), **plain)
+    return with_outcomes(stripes, collapsed, edp, events=(), checksums=(), **plain)
 
 
 def test_first_collapses_and_resurrections(stripes):
@@ -81,7 +88,7 @@ def capacities(stripes, values, levels):
     edp, names = np.where(collapsed, 1.0, 0.5), tuple(f"r{i}" for i in range(len(values)))
     polarity = np.ones(len(values), dtype=np.int32)
     plain = {"levels": levels, "record_names": names, "polarity": polarity, "events": (), "checksums": ()}
-    return replace(stripes, collapsed=collapsed, edp=edp, **plain)
+    return with_outcomes(stripes, collapsed, edp, **plain)
 
 
 def cost_of(first, levels):

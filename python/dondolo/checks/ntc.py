@@ -119,15 +119,15 @@ class CodeCheck(Shown, Saved):
             raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")
         return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
 
-    def plot(self, curve: Fragility, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, *, curve: Fragility) -> Axes:
         """Draw the checks as lines on a fragility curve, with the probability of collapse at each.
 
         Parameters
         ----------
-        curve : Fragility
-            Its measure is 'pga'.
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        curve : Fragility
+            Its measure is 'pga'.
 
         Returns
         -------

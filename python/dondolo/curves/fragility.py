@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -376,7 +377,7 @@ class Fragility(Shown, Saved):
             ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
             ("standard errors", self._kind()),
             *ends,
-            *([("log likelihood", f"{self.log_likelihood:.6g}")] if np.isfinite(self.log_likelihood) else []),
+            *([("log likelihood", f"{self.log_likelihood:.6g}")] if math.isfinite(self.log_likelihood) else []),
             ("status", self.status),
         ]
 

@@ -97,20 +97,20 @@ class Building:
         return data
 
     def plot(
-        self, records: Iterable[Any], *, periods: ArrayLike | None = None, damping: float = 0.05, ax: Axes | None = None
+        self, ax: Axes | None = None, *, records: Iterable[Any], periods: ArrayLike | None = None, damping: float = 0.05
     ) -> Axes:
         """Draw the response spectra of the floor against those of the ground.
 
         Parameters
         ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
         records : iterable of Record
             Motions of the ground.
         periods : array_like, optional
             [s]; 100 from 0.05 to 4 s if left out.
         damping : float
             Damping ratio of what stands on the floor.
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
 
         Returns
         -------

@@ -20,7 +20,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         chances = check.probabilities(curve)
         words = "; ".join(f"{' '.join(key).strip()} {value:.2g}" for key, value in chances.items())
         drawn = figure(
-            lambda: check.plot(curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
+            lambda: check.plot(curve=curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
         )
     kinematic = list(check.capacities)
     dynamic = [key for key in check.verified if key[0] == "dynamic"]
