@@ -327,7 +327,8 @@ contains
             call read_values(group, input, error)
             call check_ok(error, what)
             call input%set('mechanism', trim(mechanism_names(m)))
-            if (has_owner(table(i), trim(mechanism_names(m)))) call complete(input, what)
+            if (has_owner(table(i), trim(mechanism_names(m))) .and. (mechanism_names(m) == 'one_sided' .or. &
+               & any(what == [character(len=12) :: 'overburden', 'stress_block']))) call complete(input, what)
             do j = 1, size(table)
                if (input%has('section_height') .and. any(table(j)%name == [character(len=9) :: 'height', 'thickness'])) cycle
                if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
