@@ -3,7 +3,8 @@ program dondolo_main
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_benchmark, only : run_benchmark
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
    use dondolo_interrupt, only : die_of_signal, end_in_order

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from dondolo.curves.fragility import Fragility, fit
+from dondolo.curves.fitting import fit
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels
 from scipy.special import ndtr, ndtri, stdtrit
 

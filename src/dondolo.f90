@@ -21,7 +21,8 @@
 !>     end if
 !>     if (allocated(error)) print *, error%message
 module dondolo
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type

@@ -1,7 +1,8 @@
 !> Tests of the room case: the namelist reader, the groups, the echo, and what a run gives.
 program test_case
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type, status_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type

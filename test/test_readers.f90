@@ -8,7 +8,8 @@ program test_readers
    use, intrinsic :: iso_fortran_env, only : input_unit, output_unit
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, smc, with_crlf
    use checks, only : check, finish, suite
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_catalogue, only : read_catalogue
    use dondolo_csv_row, only : cell_type
    use dondolo_error, only : error_type

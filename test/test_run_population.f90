@@ -3,7 +3,8 @@
 program test_run_population
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_error, check_ok, check_text, finish, suite
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type

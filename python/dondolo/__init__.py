@@ -20,12 +20,14 @@ from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, in
 from dondolo.analysis.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.bootstrap import Bootstrap
 from dondolo.curves.comparison import Comparison, compare
-from dondolo.curves.fragility import Fragility, fit_fragility
+from dondolo.curves.fitting import fit_fragility
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.regression import Logistic, Regression
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
 from dondolo.exchange.cases import Case, Results, read_case, run_case
@@ -54,10 +56,10 @@ from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.uncertainty import RiskUncertainty
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
+from dondolo.walls.mechanisms import *  # noqa: F403
+from dondolo.walls.mechanisms import __all__ as _walls
 from dondolo.walls.population import Population, read_population
 from dondolo.walls.sampling import sample_population
-from dondolo.walls.wall import *  # noqa: F403
-from dondolo.walls.wall import __all__ as _walls
 
 __version__ = _constants().version
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from dondolo.curves.damage_states import fit_states
-from dondolo.curves.fragility import fit
+from dondolo.curves.fitting import fit
 from dondolo.curves.sample import Sample
 from scipy.optimize import minimize
 from scipy.special import ndtr

@@ -9,7 +9,7 @@ import typing
 import pytest
 from dondolo._fortran.library import properties
 from dondolo._fortran.walls import WALL_EXTRAS
-from dondolo.walls.wall import MECHANISMS
+from dondolo.walls.mechanisms import MECHANISMS
 
 import dondolo as dd
 

@@ -1,7 +1,8 @@
 !> Effect of each shortcut of plain_motion on the histories of a case: `dondolo-shortcuts CASE.nml` prints a table.
 program shortcuts
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
-   use dondolo_case, only : case_type, read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type

@@ -2,7 +2,8 @@
 module cases
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room
-   use dondolo_case, only : case_type, load_case => read_case
+   use dondolo_case, only : case_type
+   use dondolo_read_case, only : load_case => read_case
    use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population, only : member_type, read_population

@@ -12,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo.curves.fragility import Fragility, fit
+from dondolo.curves.fitting import fit
+from dondolo.curves.fragility import Fragility
 
 #: Stripes that a budget must pay for: two that bracket the curve, and one between them
 FEWEST = 3

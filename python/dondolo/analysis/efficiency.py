@@ -13,8 +13,9 @@ from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, new_request
-from dondolo.analysis.stripes import Stripes, multiple_stripe
-from dondolo.curves import fragility
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves import fitting
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError, Interrupted
@@ -243,7 +244,7 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
             tried[level] = collapses_at(level)
     x = np.array(sorted(tried))
     z, n = np.array([tried[level] for level in x], dtype=np.float64).T
-    pilot = fragility.fit(x, z, n, im=im)
+    pilot = fitting.fit(x, z, n, im=im)
     reach = np.linspace(-_REACH, _REACH, count)
     if pilot.has_fit:
         return pilot.theta * np.exp(pilot.beta * reach)

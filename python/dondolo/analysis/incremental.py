@@ -51,7 +51,8 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import Clusters, errors_of_parts, no_errors
-from dondolo.curves.fragility import Fragility, extrapolation, with_errors
+from dondolo.curves.fitting import extrapolation, with_errors
+from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
 
 if TYPE_CHECKING:

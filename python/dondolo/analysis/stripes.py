@@ -1,34 +1,31 @@
-"""Multiple stripe analysis of one wall."""
+"""Stripes of one wall: what its histories came to at each level, and the curves that follow."""
 
 from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, warnings_of_curve
-from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
-from dondolo.analysis.request import Outcome, Pace, Plan, Polarity, Request, new_request, polarity_names, progress_bar
-from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_sets import cut, in_matrix, join, span, stack
+from dondolo.analysis.stripe_sets import cut, join, span
+from dondolo.analysis.stripe_tables import histories_table, stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.damage_states import fit_states
-from dondolo.curves.fragility import Fragility, fit
+from dondolo.curves.fitting import fit
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
-from dondolo.errors import DondoloWarning, InputError, Interrupted
-from dondolo.records.record import Record
+from dondolo.errors import InputError
 from dondolo.walls.table import walls_table
 from dondolo.walls.wall import Wall, upload
 
@@ -42,9 +39,6 @@ States = Literal["separate", "ordinal"]
 
 # Damage states if none are named, as shares of the collapse limit
 _SHARES = (0.1, 0.4, 1.0)
-
-# A level of any measure that every record can be scaled to
-_TRIAL = 1e-3
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -383,235 +377,3 @@ class Stripes(Shown, Saved):
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
         ]
-
-
-def multiple_stripe(
-    wall: Wall,
-    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
-    levels: ArrayLike | Literal["auto"] | None = None,
-    *,
-    budget: int | None = None,
-    im: str = "pga",
-    polarity: Polarity = "as_recorded",
-    solver: Solver | None = None,
-    estimate_error: bool = False,
-    threads: int = 0,
-    progress: bool = True,
-) -> Stripes:
-    """Run records at levels of intensity: every record at every level, or other records at each level.
-
-    Parameters
-    ----------
-    wall : Wall
-        The wall.
-    records : Record, iterable of Record, RecordSet, or mapping of float to these
-        The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its
-        levels only, with the factor of the set where it has one.
-    levels : array_like, shape (levels,), or 'auto'
-        Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
-        levels. 'auto': stripe by stripe, each level is chosen where the histories so far leave most to learn of the
-        curve of collapse, rounded to three digits, until the budget is spent (see Notes).
-    budget : int, optional
-        With levels = 'auto': how many histories to run at most, enough for three stripes of all records. What does not
-        suffice for a stripe is not spent.
-    im : str
-        Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
-        'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
-        trigger acceleration and p its frequency parameter.
-    polarity : {'as_recorded', 'reversed', 'both'}
-        'both' doubles the histories, except for two-sided walls, which are symmetric.
-    solver : Solver, optional
-        How the motions are integrated.
-    estimate_error : bool
-        Run every history a second time with halved steps, to estimate the error of its EDP?
-    threads : int
-        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
-    progress : bool
-        Show a progress bar in a terminal or notebook.
-
-    Returns
-    -------
-    Stripes
-
-    Raises
-    ------
-    InputError
-        What cannot be run, with the sentence of the executable.
-    Interrupted
-        Ctrl-C; its `partial` has the stripes that are complete.
-
-    Warns
-    -----
-    DondoloWarning
-        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion;
-        with estimated errors, histories in doubt.
-
-    Notes
-    -----
-    Section 3.3 of Nale et al.
-
-    With levels = 'auto' the first level scales the median record to a PGA of twice the wall's trigger acceleration.
-    While nothing or everything collapses, the next level is twice or half the last. Then a level maximises the
-    determinant of the information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell
-    between which levels it lies (docs/uncertainty.md). The same levels result for any number of threads, and the
-    stripes are those of a run at these levels.
-    It ends early where the next level would scale a record beyond all measure.
-    """
-    instance_of("wall", wall, Wall, "no wall")
-    if isinstance(levels, str):
-        one_of("levels", levels, ("auto",))
-        if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
-            raise InputError("levels = 'auto': the records have levels of their own")
-        request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error)
-        return _auto(request, budget, progress)
-    if budget is not None:
-        raise InputError(f"budget = {budget!r}: only with levels = 'auto'")
-    request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error)
-    try:
-        plan = request.plan()
-    except KeyboardInterrupt:
-        raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
-    warn(plan.warnings)
-    outcome, interrupted = request.run(plan.histories, progress, wall.name)
-    if not interrupted:
-        stripes = _stripes(request, plan, outcome, len(request.levels))
-        warn(_warnings(stripes))
-        return stripes
-    complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
-    partial = _stripes(request, plan, outcome, complete) if complete else None
-    raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
-
-
-def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
-    """Stripes at levels that are chosen one after the other."""
-    wall = request.walls[0]
-
-    def at(levels: ArrayLike) -> Request:
-        several = np.atleast_1d(np.asarray(levels, dtype=np.float64))
-        several.flags.writeable = False
-        return dataclasses.replace(request, levels=several)
-
-    trials = [at(level).plan() for level in (_TRIAL, 2.0 * _TRIAL)]
-    size = len(trials[0].record)
-    if budget is None:
-        raise InputError("budget: must be given with levels = 'auto'")
-    budget = as_count("budget", budget, 1)
-    if budget < FEWEST * size:
-        raise InputError(f"budget = {budget}: must be at least {FEWEST * size}, {FEWEST} stripes of {size} histories")
-    # Scales are powers of the level.
-    peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
-    one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
-    level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
-    parts: list[Stripes] = []
-    pace = Pace(request.samples)
-    interrupted = False
-    with progress_bar(budget // size * size, progress, wall.name, "history") as bar:
-        while level is not None and len(parts) < budget // size and not interrupted:
-            here = at(level)
-            try:
-                plan = here.plan()
-                outcome, interrupted = here.advance(plan.histories, pace, bar.update)
-            except InputError:
-                if not parts:
-                    raise
-                break
-            except KeyboardInterrupt:
-                interrupted = True
-            if not interrupted:
-                parts.append(_stripes(here, plan, outcome, 1))
-                so_far = stack(parts)
-                counts = so_far.collapses.astype(np.float64), so_far.histories.astype(np.float64)
-                level = next_level(so_far.levels, *counts)
-    if interrupted:
-        text = f"interrupted: {len(parts)} of {budget // size} stripes are complete"
-        raise Interrupted(text, stack(parts) if parts else None)
-    stripes = stack(parts)
-    warn(at(stripes.levels).plan().warnings)
-    warn(_warnings(stripes))
-    return stripes
-
-
-def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:
-    """The stripes up to a level."""
-    levels, ran = request.levels[:complete], plan.ran[:complete]
-    rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
-    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
-    return Stripes(
-        wall=request.walls[0],
-        im=request.im,
-        levels=levels,
-        scale=np.where(ran, plan.scale[:complete], np.nan),
-        ran=ran,
-        record_names=tuple(request.records[i].name for i in plan.record),
-        polarity=plan.polarity,
-        engine=request.engine,
-        rtol=rtol,
-        atol=atol,
-        edp_limit=edp_limit,
-        work=outcome.work,
-        events=tuple(record.event for record in request.records),
-        checksums=tuple(record.checksum for record in request.records),
-        **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},
-    )
-
-
-def _warnings(stripes: Stripes) -> list[DondoloWarning]:
-    """What the executable would warn of, of estimated errors."""
-    if stripes.edp_error is None:
-        return []
-    level, history = np.unravel_index(np.nanargmax(stripes.edp_error), stripes.edp_error.shape)
-    return warnings_of_errors(
-        stripes.edp[stripes.ran],
-        stripes.edp_error[stripes.ran],
-        stripes.edp_limit,
-        stripes.record_names[history],
-        float(stripes.levels[level]),
-    )
-
-
-def histories_table(stripes: Stripes) -> tables.Table:
-    """Columns of ``_histories.csv``."""
-    ran = stripes.ran
-    level, history = np.nonzero(ran)
-    signs = polarity_names(stripes.polarity)
-    table: tables.Table = {
-        "wall": [stripes.wall.name] * len(level),
-        "mechanism": [stripes.wall.mechanism] * len(level),
-        "record": [stripes.record_names[i] for i in history],
-        "polarity": [signs[i] for i in history],
-        "im": [stripes.im] * len(level),
-        "im_level": stripes.levels[level],
-        "scale": stripes.scale[ran],
-        "edp": stripes.edp[ran],
-        "collapsed": stripes.collapsed[ran].astype(int),
-        "impacts": stripes.impacts[ran],
-        "time_of_peak_s": stripes.time_of_peak[ran],
-    }
-    if stripes.edp_error is not None:
-        table["edp_error"] = stripes.edp_error[ran]
-    return table
-
-
-def stripes_table(
-    walls: Sequence[Wall],
-    im: str,
-    levels: FloatArray,
-    edp_thresholds: ArrayLike,
-    exceedances: np.ndarray[Any, Any],
-    histories: ArrayLike,
-) -> tables.Table:
-    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls), histories (levels, walls)."""
-    thresholds = np.asarray(edp_thresholds)
-    states, number = len(thresholds), len(levels)
-    counts = exceedances.transpose(2, 0, 1).ravel()
-    sizes = np.repeat(np.asarray(histories).T[:, None, :], states, axis=1).ravel()
-    return {
-        "wall": [wall.name for wall in walls for _ in range(states * number)],
-        "mechanism": [wall.mechanism for wall in walls for _ in range(states * number)],
-        "im": [im] * len(counts),
-        "im_level": np.tile(levels, states * len(walls)),
-        "histories": sizes,
-        "collapses": counts,
-        "fraction": counts / sizes,
-        "edp_threshold": np.tile(np.repeat(thresholds, number), len(walls)),
-    }

@@ -19,7 +19,8 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripes import Stripes, multiple_stripe
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
 from dondolo.records.codes import LimitState, Site

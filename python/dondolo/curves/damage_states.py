@@ -9,7 +9,8 @@ import numpy as np
 
 from dondolo._fortran.curves import fit_ordinal
 from dondolo.curves.clusters import errors_of_changes
-from dondolo.curves.fragility import Fragility, curve_of, with_errors
+from dondolo.curves.fitting import curve_of, with_errors
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample
 
 

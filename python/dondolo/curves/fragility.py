@@ -1,28 +1,26 @@
-"""Fragility curves: the lognormal fitted by Fortran, and what statistics adds to it."""
+"""Fragility curves: a lognormal with its uncertainty."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_levels, as_number, shaped, tails
+from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._fortran.curves import CurveData, fit_curves, probability
-from dondolo._fortran.library import warn
+from dondolo._fortran.curves import probability
 from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
-from dondolo.curves.clusters import Clusters, Errors, errors_of_sample
+from dondolo.curves.clusters import Clusters
 from dondolo.curves.sample import Sample, given_labels
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, InputError
 from dondolo.figures import style
 from dondolo.walls.wall import Wall
 
@@ -30,10 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Interval = tuple[float, float]
-
-_Curve = TypeVar("_Curve", bound="Fragility")
-
-_BOUNDS = ("theta_low", "theta_high", "beta_low", "beta_high")
 
 _WHY = {
     "naive": "as if all histories were independent",
@@ -336,6 +330,8 @@ class Fragility(Shown, Saved):
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""
+        from dondolo.curves.table import fragility_table
+
         return tables.frame(fragility_table([self.wall], [self]))
 
     def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
@@ -343,6 +339,8 @@ class Fragility(Shown, Saved):
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """
+        from dondolo.curves.table import fragility_table
+
         comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
         tables.write_csv(path, fragility_table([self.wall], [self]), comments, spreadsheet_safe=spreadsheet_safe)
 
@@ -390,144 +388,3 @@ class Fragility(Shown, Saved):
             kinds = " and ".join(f"{len(part.labels)} clusters of {part.kind}" for part in self.parts)
             return kinds or f"{self.clusters} clusters of records"
         return _WHY[self.errors]
-
-
-def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, *, im: str = "") -> Fragility:
-    """Fit a lognormal fragility curve by maximum likelihood (Baker 2015).
-
-    Parameters
-    ----------
-    levels : array_like, shape (levels,)
-        Levels of intensity, positive.
-    collapses : array_like, shape (levels,)
-        Collapses at each level; need not be whole numbers (weighted counts).
-    histories : array_like, shape (levels,) or scalar
-        Histories at each level.
-    im : str, optional
-        Intensity measure of the levels, such as 'pga': the name on axes, and what may be compared.
-
-    Returns
-    -------
-    Fragility
-        Its status says whether there is a curve.
-
-    Raises
-    ------
-    InputError
-        Counts that cannot be.
-
-    Warns
-    -----
-    DondoloWarning
-        The median lies outside the levels.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
-    >>> round(curve.theta, 9), round(curve.beta, 9)
-    (0.282842712, 0.513830774)
-    """
-    curve = fit(*_counts(levels, collapses, histories), im=im)
-    if curve.status == "extrapolated":
-        warn([extrapolation(curve)])
-    return curve
-
-
-def extrapolation(curve: Fragility) -> DondoloWarning:
-    """The warning that a curve with its median outside the levels is worth."""
-    low, high = float(curve.levels.min()), float(curve.levels.max())
-    return DondoloWarning(
-        f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates",
-        "extrapolated",
-        numbers={"levels": len(curve.levels), "first_level": low, "last_level": high, "theta": curve.theta},
-    )
-
-
-def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
-    """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
-    curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
-    curve = curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
-    if curve.has_fit and curve.sample is not None:
-        return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))
-    return curve
-
-
-def with_errors(curve: _Curve, errors: Errors) -> _Curve:
-    """A curve with other standard errors."""
-    errors.covariance.flags.writeable = False
-    return dataclasses.replace(curve, **errors._asdict())
-
-
-def curve_of(
-    data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
-) -> Fragility:
-    """A curve as Fortran has fitted it."""
-    theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)
-    if data.status not in ("ok", "extrapolated"):
-        theta = beta = var_theta = both = var_beta = height = np.nan
-    largest = np.finfo(np.float64).max
-    covariance = np.array([[var_theta, both], [both, var_beta]])
-    return Fragility(
-        theta=theta,
-        beta=beta,
-        covariance=covariance,
-        status=data.status,
-        log_likelihood=height,
-        bracket=(low, np.inf if high >= largest else high),
-        levels=levels,
-        collapses=collapses,
-        histories=histories,
-        naive_covariance=covariance,
-        **origin,
-    )
-
-
-def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    # Copies: the curve keeps them, and what the caller does with theirs must not change it.
-    x, z = as_array("levels", levels).copy(), as_array("collapses", collapses).copy()
-    if np.ndim(histories) == 0:
-        n = np.full(len(x), as_number("histories", histories))
-    else:
-        n = as_array("histories", histories).copy()
-    if not len(x) == len(z) == len(n):
-        raise InputError(f"{len(x)} levels, {len(z)} collapses, {len(n)} histories: must be as many")
-    return x, z, n
-
-
-def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -> tables.Table:
-    """Columns of ``_fragility.csv``."""
-    return {
-        "wall": [wall.name if wall else "" for wall in walls],
-        "mechanism": [wall.mechanism if wall else "" for wall in walls],
-        "im": [curve.im for curve in curves],
-        "theta": [curve.theta for curve in curves],
-        "beta": [curve.beta for curve in curves],
-        "se_ln_theta": [curve.se_ln_theta for curve in curves],
-        "se_beta": [curve.se_beta for curve in curves],
-        "log_likelihood": [curve.log_likelihood for curve in curves],
-        "status": [curve.status for curve in curves],
-        "bracket_low": [curve.bracket[0] if curve.bracket[0] > 0.0 else None for curve in curves],
-        "bracket_high": [curve.bracket[1] if np.isfinite(curve.bracket[1]) else None for curve in curves],
-        "edp_threshold": [curve.edp_threshold for curve in curves],
-        **{name: [row[name] for row in map(_bounds, curves)] for name in _BOUNDS},
-        "errors": [curve.errors if curve.has_fit else None for curve in curves],
-        "clusters": [curve.clusters if curve.has_fit else None for curve in curves],
-        "degrees_of_freedom": [_freedom(curve) if curve.has_fit else None for curve in curves],
-        "naive_se_ln_theta": [float(np.sqrt(curve.naive_covariance[0, 0])) for curve in curves],
-        "naive_se_beta": [float(np.sqrt(curve.naive_covariance[1, 1])) for curve in curves],
-    }
-
-
-def _freedom(curve: Fragility) -> float:
-    """Degrees of freedom as in the table, where those of records alone are whole numbers."""
-    degrees = curve.degrees_of_freedom if curve.errors == "clustered" else float(max(curve.clusters - 1, 0))
-    return int(degrees) if degrees.is_integer() else degrees
-
-
-def _bounds(curve: Fragility) -> dict[str, float | None]:
-    """Bounds of the 95 % intervals; None where there are none."""
-    if not (curve.has_fit and np.isfinite(curve.se_beta)):
-        return dict.fromkeys(_BOUNDS)
-    ends = [end for name in ("theta", "beta") for end in curve.parameter_interval()[name]]
-    return {name: end if np.isfinite(end) else None for name, end in zip(_BOUNDS, ends, strict=True)}

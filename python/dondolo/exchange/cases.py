@@ -15,15 +15,16 @@ from dondolo._fortran.records import records_end, unpack_records
 from dondolo._fortran.walls import unpack_walls, walls_end
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripes import States, Stripes, multiple_stripe
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import States, Stripes
 from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
+from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
-from dondolo.walls.wall import wall_from
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -28,9 +28,10 @@ from dondolo.populations.typology import Typology
 from dondolo.records.building import building_from
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
+from dondolo.walls.mechanisms import MECHANISMS
 from dondolo.walls.population import Population
 from dondolo.walls.table import numbered
-from dondolo.walls.wall import MECHANISMS, Wall
+from dondolo.walls.wall import Wall
 
 # How often results are read again that another run replaces meanwhile
 _TRIES = 20

@@ -11,7 +11,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import fit_walls
 from dondolo._fortran.library import as_text
 from dondolo.analysis.work import Work
-from dondolo.curves.fragility import curve_of
+from dondolo.curves.fitting import curve_of
 from dondolo.curves.series import in_series
 from dondolo.errors import Interrupted
 from dondolo.populations.curve import Group, IntArray, flat_population

@@ -17,7 +17,8 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_curves
 from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
-from dondolo.curves.fragility import Fragility, with_errors
+from dondolo.curves.fitting import with_errors
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series, series_slopes
 from dondolo.populations.curve import Group
 from dondolo.populations.flags import Flags

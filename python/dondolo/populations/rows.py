@@ -12,7 +12,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import CurveData
-from dondolo.curves.fragility import Fragility, curve_of
+from dondolo.curves.fitting import curve_of
+from dondolo.curves.fragility import Fragility
 from dondolo.walls.population import Population
 
 IntArray = np.ndarray[Any, np.dtype[np.int32]]

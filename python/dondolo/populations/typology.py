@@ -19,9 +19,10 @@ from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
-from dondolo.analysis.stripes import stripes_table
+from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
-from dondolo.curves.fragility import Fragility, fragility_table
+from dondolo.curves.fragility import Fragility
+from dondolo.curves.table import fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve
 from dondolo.populations.errors import with_clustered_errors

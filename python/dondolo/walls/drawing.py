@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 from dondolo.figures import style
 from dondolo.walls.drawing_loads import draw_loads
+from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.shape import shape
-from dondolo.walls.wall import TwoBlockWall, Wall
+from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

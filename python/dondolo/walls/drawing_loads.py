@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo.figures import style
+from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.shape import Points, Shape, moved, storeys
-from dondolo.walls.wall import TwoBlockWall, Wall
+from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -22,8 +22,9 @@ from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
+from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.table import property_columns, walls_table
-from dondolo.walls.wall import Wall, property_of, wall_from
+from dondolo.walls.wall import Wall, property_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -19,8 +19,9 @@ from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution
+from dondolo.walls.mechanisms import MECHANISMS, wall_from
 from dondolo.walls.population import Population
-from dondolo.walls.wall import MECHANISMS, Wall, wall_from
+from dondolo.walls.wall import Wall
 
 Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo.walls.wall import TwoBlockWall, Wall
+from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.wall import Wall
 
 Points = np.ndarray[Any, np.dtype[np.float64]]
 

@@ -1,0 +1,121 @@
+"""Fits of the lognormal by Fortran, with the standard errors that belong to the sample."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._fortran.curves import CurveData, fit_curves
+from dondolo._fortran.library import warn
+from dondolo.curves.clusters import Errors, errors_of_sample
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloWarning, InputError
+
+_Curve = TypeVar("_Curve", bound=Fragility)
+
+
+def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, *, im: str = "") -> Fragility:
+    """Fit a lognormal fragility curve by maximum likelihood (Baker 2015).
+
+    Parameters
+    ----------
+    levels : array_like, shape (levels,)
+        Levels of intensity, positive.
+    collapses : array_like, shape (levels,)
+        Collapses at each level; need not be whole numbers (weighted counts).
+    histories : array_like, shape (levels,) or scalar
+        Histories at each level.
+    im : str, optional
+        Intensity measure of the levels, such as 'pga': the name on axes, and what may be compared.
+
+    Returns
+    -------
+    Fragility
+        Its status says whether there is a curve.
+
+    Raises
+    ------
+    InputError
+        Counts that cannot be.
+
+    Warns
+    -----
+    DondoloWarning
+        The median lies outside the levels.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
+    >>> round(curve.theta, 9), round(curve.beta, 9)
+    (0.282842712, 0.513830774)
+    """
+    curve = fit(*_counts(levels, collapses, histories), im=im)
+    if curve.status == "extrapolated":
+        warn([extrapolation(curve)])
+    return curve
+
+
+def extrapolation(curve: Fragility) -> DondoloWarning:
+    """The warning that a curve with its median outside the levels is worth."""
+    low, high = float(curve.levels.min()), float(curve.levels.max())
+    return DondoloWarning(
+        f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates",
+        "extrapolated",
+        numbers={"levels": len(curve.levels), "first_level": low, "last_level": high, "theta": curve.theta},
+    )
+
+
+def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
+    """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
+    curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
+    curve = curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    if curve.has_fit and curve.sample is not None:
+        return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))
+    return curve
+
+
+def with_errors(curve: _Curve, errors: Errors) -> _Curve:
+    """A curve with other standard errors."""
+    errors.covariance.flags.writeable = False
+    return dataclasses.replace(curve, **errors._asdict())
+
+
+def curve_of(
+    data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
+) -> Fragility:
+    """A curve as Fortran has fitted it."""
+    theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)
+    if data.status not in ("ok", "extrapolated"):
+        theta = beta = var_theta = both = var_beta = height = np.nan
+    largest = np.finfo(np.float64).max
+    covariance = np.array([[var_theta, both], [both, var_beta]])
+    return Fragility(
+        theta=theta,
+        beta=beta,
+        covariance=covariance,
+        status=data.status,
+        log_likelihood=height,
+        bracket=(low, np.inf if high >= largest else high),
+        levels=levels,
+        collapses=collapses,
+        histories=histories,
+        naive_covariance=covariance,
+        **origin,
+    )
+
+
+def _counts(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
+    # Copies: the curve keeps them, and what the caller does with theirs must not change it.
+    x, z = as_array("levels", levels).copy(), as_array("collapses", collapses).copy()
+    if np.ndim(histories) == 0:
+        n = np.full(len(x), as_number("histories", histories))
+    else:
+        n = as_array("histories", histories).copy()
+    if not len(x) == len(z) == len(n):
+        raise InputError(f"{len(x)} levels, {len(z)} collapses, {len(n)} histories: must be as many")
+    return x, z, n

@@ -1,0 +1,276 @@
+"""The walls of each mechanism."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import InitVar, dataclass
+from typing import ClassVar, Literal
+
+from dondolo._fortran.walls import WallData
+from dondolo._storage.saved import part_of_results
+from dondolo.walls.wall import DEFAULT, Terms, Wall
+
+# What the package exports of the walls: a new mechanism is added here alone
+__all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
+
+# One value or several
+Values = float | Sequence[float] | None
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class BlockWall(Wall):
+    """What walls of one block share: storeys, the hinge, and what they carry."""
+
+    section_height: Values = None
+    section_thickness: Values = None
+    section_fill: Values = None
+    section_offset: Values = None
+    section_base_width: Values = None
+    section_top_width: Values = None
+    mass: float | None = None
+    centroid_depth: float | None = None
+    centroid_height: float | None = None
+    hinge_inertia: float | None = None
+    hinge_depth: float | None = None
+    compressive_strength: float | None = None
+    stress_block: float | None = None
+    edge_radius: float | None = None
+    load: Values = None
+    load_depth: Values = None
+    load_height: Values = None
+    load_inertia: str | Sequence[str] | None = None
+    load_lifted: Values = None
+    load_pushed: Values = None
+    load_seat: Values = None
+    inertia_mass: Values = None
+    inertia_depth: Values = None
+    inertia_height: Values = None
+    thrust: Values = None
+    thrust_depth: Values = None
+    thrust_height: Values = None
+    thrust_decay: Values = None
+    spring: Values = None
+    spring_depth: Values = None
+    spring_height: Values = None
+    bed: Values = None
+    bed_depth: Values = None
+    bed_bottom: Values = None
+    bed_top: Values = None
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False)
+class OneSidedWall(BlockWall):
+    """A wall that rotates outwards only, about its outer base edge (a facade that came loose, a parapet).
+
+    Parameters
+    ----------
+    height : float
+        Height of the wall [m].
+    thickness : float
+        Thickness of the wall [m].
+    density : float, optional
+        Density of the masonry [kg/m3], 1800 if left out.
+    restitution : {'default', 'sorrentino', 'impulse', 'constant'}, optional
+        Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
+        (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the
+        wall carries.
+    restitution_value : float, optional
+        Speed after / before an impact, only with restitution = 'constant': 0 <= value < 1.
+    restitution_factor : float, optional
+        Factor on the speed ratio of any model, 1 if left out.
+    gravity : float, optional
+        Acceleration of gravity [m/s2], 9.81 if left out.
+    name : str, optional
+        Name in the results, 'wall' if left out.
+    building : Building, optional
+        What the wall stands on, where that is not the ground: its floor moves as the building makes it.
+    section_height : float or sequence of float, optional
+        Heights of the storeys from the bottom, instead of height [m].
+    section_thickness : float or sequence of float, optional
+        Their thicknesses, instead of thickness [m].
+    section_fill : float or sequence of float, optional
+        Part of each storey that is masonry, 1 if not given.
+    section_offset : float or sequence of float, optional
+        Depth of the outer face of each storey behind that of the lowest, 0 if not given [m].
+    section_base_width : float or sequence of float, optional
+        Width of each elevation at its bottom / width that values per metre refer to, 1 if not given.
+    section_top_width : float or sequence of float, optional
+        The same at its top, as at its bottom if not given; 0 for a gable.
+    mass : float, optional
+        Mass of the body, instead of its density [kg/m].
+    centroid_depth : float, optional
+        Depth of its centroid behind the outer face, with mass [m].
+    centroid_height : float, optional
+        Height of its centroid, with mass [m].
+    hinge_inertia : float, optional
+        Its inertia about the hinge, with mass [kg m2/m].
+    hinge_depth : float, optional
+        Depth of the hinge behind the outer face, of each hinge of two_block behind its face [m].
+    compressive_strength : float, optional
+        Strength of the masonry, from which that depth follows [Pa].
+    stress_block : float, optional
+        Stress in the compressed part of the base / that strength, 0.85 if not given.
+    edge_radius : float, optional
+        Radius of the edge that the wall rolls on, which is also the depth of its hinge at rest [m].
+    load : float or sequence of float, optional
+        Vertical loads that go with the wall, per metre of wall [N/m].
+    load_depth : float or sequence of float, optional
+        Depth of each load behind the outer face [m].
+    load_height : float or sequence of float, optional
+        Height of each load above the base [m].
+    load_inertia : {'none', 'vertical', 'both'} or sequence of them, optional
+        Which mass of each load the wall moves: 'none' is a dead force, 'vertical' a mass that other walls hold
+        sideways, 'both' one that the wall pushes too (docs/loads.md); one for all loads or one for each.
+    load_lifted : float or sequence of float, optional
+        Part of each load whose mass the wall lifts, with load_pushed instead of load_inertia.
+    load_pushed : float or sequence of float, optional
+        Part of each load whose mass the wall pushes.
+    load_seat : float or sequence of float, optional
+        Horizontal travel at which each load loses its seat [m].
+    inertia_mass : float or sequence of float, optional
+        Masses that the wall pushes and does not carry, per metre of wall [kg/m].
+    inertia_depth : float or sequence of float, optional
+        Depth of each of them behind the outer face [m].
+    inertia_height : float or sequence of float, optional
+        Height of each of them above the base [m].
+    thrust : float or sequence of float, optional
+        Horizontal forces outwards, per metre of wall [N/m].
+    thrust_depth : float or sequence of float, optional
+        Depth of each thrust behind the outer face, the inner face if not given [m].
+    thrust_height : float or sequence of float, optional
+        Height of each thrust above the base [m].
+    thrust_decay : float or sequence of float, optional
+        Travel over which each thrust falls to 1/e, constant if not given [m].
+    spring : float or sequence of float, optional
+        Stiffness of springs that pull and push, per metre of wall [N/m2].
+    spring_depth : float or sequence of float, optional
+        Depth of each spring behind the outer face [m].
+    spring_height : float or sequence of float, optional
+        Height of each spring above the base [m].
+    bed : float or sequence of float, optional
+        Stiffness of springs spread over a height, per metre of wall and of height [N/m3].
+    bed_depth : float or sequence of float, optional
+        Depth of each bed behind the outer face [m].
+    bed_bottom : float or sequence of float, optional
+        Height at which each bed begins [m].
+    bed_top : float or sequence of float, optional
+        Height at which each bed ends [m].
+
+    Raises
+    ------
+    InputError
+        A value that makes no sense, with the sentence of the executable.
+
+    Notes
+    -----
+    Equation (1) of Nale et al.; docs/theory.md, section 2. Depths are measured from the outer face of the base, towards
+    which the wall falls, heights from the base. What belongs to several loads is a value for each, or one for all;
+    which inertia to choose is the subject of docs/loads.md.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(height=3.0, thickness=0.25)
+    >>> round(wall.frequency_parameter, 6)
+    2.210895
+
+    A floor of 10 kN/m whose mass the wall pushes too, and a roof that thrusts:
+
+    >>> facade = dd.OneSidedWall(
+    ...     3.0,
+    ...     0.25,
+    ...     load=10e3,
+    ...     load_depth=0.175,
+    ...     load_height=3.0,
+    ...     load_inertia="both",
+    ...     thrust=200.0,
+    ...     thrust_height=3.0,
+    ... )
+    >>> round(facade.trigger_acceleration / facade.gravity, 4)
+    0.0563
+    """
+
+    mechanism: ClassVar[str] = "one_sided"
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False)
+class FreeStandingWall(BlockWall):
+    """A wall that stands free and rocks to both sides (the block of Housner 1963).
+
+    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
+    1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
+    its thickness, and nothing thrusts.
+    """
+
+    mechanism: ClassVar[str] = "free_standing"
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False, kw_only=True)
+class TwoBlockWall(Wall):
+    """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
+
+    Parameters are those of a bare `OneSidedWall`, its hinge_depth, compressive_strength and stress_block, the models
+    of restitution 'default', 'sorrentino', 'impulse' and 'constant', and those below. 'default' is 'sorrentino', or
+    'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not know.
+
+    Parameters
+    ----------
+    hinge : float, optional
+        Height of the intermediate hinge / height of the wall, 0.5 if left out.
+    overburden : float, optional
+        Vertical load on the top, per metre of wall [N/m], 0 if left out.
+    overburden_inertia : float, optional
+        Part of that load whose mass the wall lifts: 0 for a force alone (springs, tendons), 1 for a storey of wall
+        above. It decides the result and must be given with a load (docs/loads.md).
+    eccentricity : float, optional
+        Distance of that load from the centreline towards the active top hinge [m], 0 if left out. The hinge of a wall
+        that folds outwards is at its outer face: a load nearer the inner face has a negative eccentricity.
+    bearing : {'inner', 'outer', 'centre'}, optional
+        Where that load bears, instead of the eccentricity: near the inner or the outer face, or on the centreline.
+    bearing_distance : float, optional
+        Distance of the load's resultant from the inner or the outer face [m]: half the length that joists bear on the
+        wall, a third where they bear harder on its edge.
+
+    Notes
+    -----
+    The wall keeps a bearing as its eccentricity. It is that of a wall that folds outwards; docs/theory.md, section 2.
+
+    Examples
+    --------
+    Joists that bear 0.12 m into the wall from its inner face:
+
+    >>> import dondolo as dd
+    >>> wall = dd.TwoBlockWall(
+    ...     3.0, 0.25, overburden=8000.0, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06
+    ... )
+    >>> wall.eccentricity
+    -0.065
+    """
+
+    mechanism: ClassVar[str] = "two_block"
+
+    hinge: float = DEFAULT
+    overburden: float = DEFAULT
+    overburden_inertia: float | None = None
+    eccentricity: float = DEFAULT
+    hinge_depth: float | None = None
+    compressive_strength: float | None = None
+    stress_block: float | None = None
+    bearing: InitVar[Literal["inner", "outer", "centre"] | None] = None
+    bearing_distance: InitVar[float | None] = None
+
+    def __post_init__(self, bearing: str | None, bearing_distance: float | None) -> None:
+        self._understand(bearing=bearing, bearing_distance=bearing_distance)
+
+
+MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
+
+
+def wall_from(data: WallData) -> Wall:
+    """A wall that Fortran has understood already."""
+    wall = object.__new__(MECHANISMS[data.properties["mechanism"]])
+    wall._fill(data)
+    return wall

@@ -1,0 +1,365 @@
+!> Reading a case: its namelist file and all that it names, checked before anything is computed.
+module dondolo_read_case
+   use dondolo_building_group, only : read_building_group
+   use dondolo_case, only : case_type
+   use dondolo_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_check_group, only : read_check_group
+   use dondolo_error, only : error_type, raise_input, status_missing
+   use dondolo_history_group, only : find_record, read_history_group
+   use dondolo_job_group, only : read_job
+   use dondolo_kinds, only : wp
+   use dondolo_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_lane_variants, only : check_variant
+   use dondolo_memory, only : check_room
+   use dondolo_namelist, only : namelist_type, read_namelist
+   use dondolo_namelist_group, only : group_type
+   use dondolo_paths, only : beside
+   use dondolo_population_group, only : read_population_group
+   use dondolo_property_tables, only : group_names
+   use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_records_group, only : read_records_group
+   use dondolo_settings_group, only : read_values
+   use dondolo_simulate, only : check_history
+   use dondolo_solver, only : check_limit
+   use dondolo_solver_group, only : read_solver_group
+   use dondolo_stripes_group, only : check_states, read_stripes_group
+   use dondolo_study, only : study_type
+   use dondolo_suite, only : new_suite
+   use dondolo_survey, only : survey_population
+   use dondolo_system, only : is_folder
+   use dondolo_text, only : brief, to_text
+   use dondolo_wall, only : new_wall
+   use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
+   implicit none
+   private
+
+   public :: read_case
+
+   !> Memory that a sample of a record takes while the records are measured and joined [bytes]
+   real(wp), parameter :: bytes_of_sample = 64.0_wp
+
+contains
+
+
+   !> Read a case and all its files, and check all of it
+   subroutine read_case(file, case, error, rows)
+      !> Path of the namelist file
+      character(len=*), intent(in) :: file
+      type(case_type), intent(out) :: case
+      !> The first thing that is wrong; of a population, everything
+      type(error_type), allocatable, intent(out) :: error
+      !> First and last row of the population that are to be run, from 1; all if absent
+      integer, intent(in), optional :: rows(2)
+
+      type(namelist_type) :: namelist
+      type(wall_input_type) :: wall
+      type(record_rows_type) :: runs
+
+      case%file = file
+      call check_variant(error)
+      if (allocated(error)) return
+      if (is_folder(file)) then
+         call raise_input(error, file//': is a folder, must be a namelist file')
+         return
+      end if
+      call read_namelist(file, namelist, error)
+      if (allocated(error)) return
+      call namelist%check_groups(group_names, error)
+      if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
+      if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
+      if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
+      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error, &
+         & wall_properties(:own_properties))
+      if (.not. allocated(error)) call read_building_group(namelist%group('building'), wall, error)
+      if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
+      if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
+      if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
+      if (.not. allocated(error)) call read_check(namelist, case, error)
+      if (.not. allocated(error)) call check_combinations(namelist, case, error)
+      if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
+      if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
+      if (.not. allocated(error)) call measure_case(namelist, case, error)
+      if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
+      if (allocated(error)) return
+      if (case%job%task == 'typology') then
+         call survey(case, rows, error)
+      else if (present(rows)) then
+         call raise_input(error, '--walls: only for task = ''typology''')
+      else
+         call check_scales(namelist, case, error)
+      end if
+   end subroutine read_case
+
+   !> Survey the population
+   subroutine survey(case, rows, error)
+      !> The case: its survey is made
+      type(case_type), intent(inout), target :: case
+      !> First and last row that are to be run; all if absent
+      integer, intent(in), optional :: rows(2)
+      !> Everything that is wrong with the population
+      type(error_type), allocatable, intent(out) :: error
+
+      type(study_type) :: study
+      character(len=:), allocatable :: note
+      integer :: range(2)
+
+      range = [1, huge(1)]
+      if (present(rows)) range = rows
+      call case%make_study(study)
+      call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error)
+      if (allocated(error)) return
+      if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
+      case%survey%is_part = present(rows)
+      if (.not. present(rows) .or. case%survey%last == range(2)) return
+      note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
+         & to_text(case%survey%rows)//' rows'
+      if (case%survey%first > case%survey%rows) then
+         call raise_input(error, note)
+      else
+         call case%notes%add(note)
+      end if
+   end subroutine survey
+
+   !> Check that the groups suit the task
+   subroutine check_task(namelist, task, error)
+      type(namelist_type), intent(in) :: namelist
+      !> The task
+      character(len=*), intent(in) :: task
+      !> A group too many or too few
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=10) :: needed, other
+      type(group_type) :: group
+
+      needed = 'wall'
+      other = 'population'
+      if (task == 'typology') then
+         needed = 'population'
+         other = 'wall'
+      end if
+      group = namelist%group(trim(needed))
+      if (group%line == 0) then
+         group = namelist%group('job')
+         call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &
+            & group%in_line('task'))
+         return
+      end if
+      group = namelist%group(trim(other))
+      if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
+         & '): not for task = '''//task//''', which takes &'//trim(needed))
+      if (allocated(error) .or. task /= 'typology') return
+      group = namelist%group('building')
+      if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
+         & '): not for task = ''typology'', each wall of which has its own, in columns of &population')
+   end subroutine check_task
+
+   !> Make the wall, or find the population
+   subroutine make_wall(namelist, input, case, error)
+      type(namelist_type), intent(in) :: namelist
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> The case: its wall is made
+      type(case_type), intent(inout) :: case
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      if (case%job%task == 'typology') then
+         group = namelist%group('population')
+         call read_population_group(group, case%population_file, error)
+         if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
+         return
+      end if
+      group = namelist%group('wall')
+      call new_wall(case%wall, input, error, case%solver%gravity)
+      call group%locate(error)
+      if (allocated(error)) return
+      group = namelist%group('solver')
+      call check_limit(case%solver%solver, case%wall%mechanism, error)
+      if (.not. allocated(error)) then
+         call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
+      end if
+      call group%locate(error)
+      if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
+   end subroutine make_wall
+
+   !> Read the check by a building code
+   subroutine read_check(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      !> The case: its check is read
+      type(case_type), intent(inout) :: case
+      !> What is wrong with it, or a wall that it is not for
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(kinematic_type) :: kinematic
+
+      group = namelist%group('check')
+      call read_check_group(group, case%check, error)
+      if (allocated(error) .or. .not. allocated(case%check)) return
+      if (case%job%task == 'stripes') then
+         call new_kinematic(kinematic, case%wall, error)
+         call group%locate(error)
+      else
+         call raise_input(error, group%place()//' (line '//to_text(group%line)//'): only for task = ''stripes''')
+      end if
+   end subroutine read_check
+
+   !> Check what belongs together
+   subroutine check_combinations(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(inout) :: case
+      !> What is missing
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
+         group = namelist%group('solver')
+         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         return
+      end if
+      group = namelist%group('stripes')
+      if (case%job%task == 'typology' .and. case%stripes%states == 'ordinal') then
+         call group%refuse('states', 'must be ''separate'' for task = ''typology''', error)
+         return
+      end if
+      call check_states(case%stripes, case%solver%solver%edp_limit, error)
+      call group%locate(error)
+      if (allocated(error)) return
+      if (case%job%histories .and. case%job%task /= 'typology') then
+         group = namelist%group('job')
+         call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', error)
+         return
+      end if
+      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
+      call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
+         & 'first, last and count'//group%in_line(''))
+   end subroutine check_combinations
+
+   !> Read the accelerograms
+   subroutine read_records(group, case, rows, error)
+      !> The group &records
+      type(group_type), intent(in) :: group
+      !> The case: its records are read
+      type(case_type), intent(inout) :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(out) :: rows
+      !> What is wrong with them, or too little memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(record_type), allocatable :: records(:)
+      character(len=:), allocatable :: note
+      integer :: i
+
+      call check_file(group, 'catalogue', case%records_input%catalogue, error)
+      if (allocated(error)) return
+      if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
+         call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
+         return
+      end if
+      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows)
+      if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
+         & i=1, size(records))]), error)
+      if (allocated(error)) return
+      call new_suite(case%suite, records)
+      if (len(note) > 0) call case%notes%add(note)
+   end subroutine read_records
+
+   !> Check that a variable names a file that exists
+   subroutine check_file(group, name, path, error)
+      !> Group of the variable
+      type(group_type), intent(in) :: group
+      !> Name of the variable
+      character(len=*), intent(in) :: name
+      !> Path as it was given
+      character(len=*), intent(in) :: path
+      !> There is no such file
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: file, hint
+      logical :: exists
+
+      file = beside(path, group%file)
+      inquire (file=file, exist=exists)
+      if (is_folder(file)) then
+         call group%refuse(name, file//' is a folder, must be a file', error)
+      else if (.not. exists) then
+         hint = ''
+         if (index(path, '\') > 0) hint = '; folders must be separated by /, not \'
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, error)
+         error%stat = status_missing
+      end if
+   end subroutine check_file
+
+   !> Find the record of the time history, and measure the records where they are scaled to levels
+   subroutine measure_case(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(inout) :: case
+      !> No such record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+
+      group = namelist%group('history')
+      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%suite%records, error)
+      if (allocated(error)) return
+      if (case%is_scaled()) call case%suite%measure(case%stripes%scaling%measure, case%job%threads)
+   end subroutine measure_case
+
+   !> Choose the records of each level
+   subroutine choose_records(namelist, case, rows, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(inout), target :: case
+      !> Rows of the catalogue
+      type(record_rows_type), intent(in) :: rows
+      !> A level that is not among the others, or has no record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(study_type) :: study
+
+      if (case%job%task == 'history') return
+      call case%make_study(study)
+      call study%set_rows(rows, error)
+      group = namelist%group('stripes')
+      call group%locate(error)
+      if (.not. allocated(error)) call move_alloc(study%factor, case%factor)
+   end subroutine choose_records
+
+   !> Check that no record is scaled beyond all measure
+   subroutine check_scales(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      type(case_type), intent(in), target :: case
+      !> A scale that is too large
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_type) :: group
+      type(study_type) :: study
+      real(wp) :: scale
+
+      if (case%job%task == 'history') then
+         group = namelist%group('history')
+         associate (record => case%suite%records(case%history%record))
+            scale = abs(case%history_scale())
+            if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
+            if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
+               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
+                  & ' of 0 and cannot be scaled to a level', error)
+            else
+               call raise_input(error, group%place()//': the scale '//brief(scale)//' makes record '''// &
+                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
+                  & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
+            end if
+         end associate
+         return
+      end if
+      call case%make_study(study)
+      call study%check_scales(case%wall, error)
+      group = namelist%group('stripes')
+      if (allocated(error)) error%message = group%place()//': '//error%message// &
+         & group%in_line(trim(merge('levels', 'last  ', group%has('levels'))))
+   end subroutine check_scales
+
+end module dondolo_read_case
