@@ -56,19 +56,31 @@ def whose(folder):
 
 def test_two_runs_at_one_output(executable, folder):
     """One whole study, and one clear refusal unless the second began when the first had ended."""
-    refused = 0
-    for _ in range(20):
+    for _ in range(10):
         shutil.rmtree(folder / "out", ignore_errors=True)
         runs = {name: start(executable, folder, name) for name in "ab"}
         said = {name: run.communicate()[1] for name, run in runs.items()}
         codes = {name: run.returncode for name, run in runs.items()}
         assert sorted(codes.values()) in ([0, 0], [0, 2]), said
         if 2 in codes.values():
-            refused += 1
             assert codes[whose(folder)] == 0
             assert "out/x: is being written by another run" in said["a" if codes["a"] == 2 else "b"]
         assert sorted(os.listdir(folder / "out")) == FILES
-    assert refused
+
+
+def test_a_second_run_is_refused_while_the_first_goes_on(executable, folder):
+    """The first is stopped where it holds the lock, however fast the machine."""
+    first = start(executable, folder, "a")
+    lock = folder / "out/x.lock"
+    while not (lock.exists() and lock.read_text()):
+        assert first.poll() is None, first.communicate()[1]
+        time.sleep(0.001)
+    first.send_signal(signal.SIGSTOP)
+    second = start(executable, folder, "b")
+    assert "out/x: is being written by another run" in second.communicate()[1]
+    assert second.returncode == 2
+    first.send_signal(signal.SIGCONT)
+    assert (first.wait(), whose(folder), sorted(os.listdir(folder / "out"))) == (0, "a", FILES)
 
 
 def test_kills_leave_the_old_set_or_the_new(executable, folder):

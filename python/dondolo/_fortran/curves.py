@@ -103,6 +103,14 @@ def fit_ordinal(
     ]
 
 
+def coded(curves: Sequence[tuple[str, float, float]]) -> tuple[FloatArray, NDArray[np.int32]]:
+    """Numbers (8, curves) and codes (curves,) of curves that are known by status, theta and beta."""
+    names = constants().statuses
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
+    return numbers.T, np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+
+
 def cluster_curves(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
 ) -> tuple[FloatArray, list[str], NDArray[np.int32]]:
@@ -110,13 +118,10 @@ def cluster_curves(
 
     Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
     """
-    names, known = constants().statuses, constants().errors
-    numbers = np.zeros((len(curves), 8))
-    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
-    codes = np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
-    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], numbers.T, codes)
+    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], *coded(curves))
     covariances, errors, clusters, stat, message = found
     check(stat, message)
+    known = constants().errors
     return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
 
 
@@ -148,7 +153,7 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
 
 def curve_of_population(
     population: FlatPopulation,
-    curves: Sequence[tuple[str, float, float]],
+    curves: tuple[FloatArray, NDArray[np.int32]],
     which: tuple[str, str],
     x: FloatArray,
     q: FloatArray,
@@ -156,15 +161,11 @@ def curve_of_population(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
 
-    Curves are status, theta and beta of each row; which: the mechanism, or 'all', and the group. The probabilities are
+    Curves are those of the rows, as `coded`; which: the mechanism, or 'all', and the group. The probabilities are
     there with `members` only.
     """
-    statuses = constants().statuses
-    numbers = np.zeros((len(curves), 8))
-    numbers[:, :2] = [curve[1:] for curve in curves]
-    codes = np.array([statuses.index(status) + 1 for status, *_ in curves], dtype=np.int32)
     texts = (as_text("group", text) for text in which)
-    mean, fractiles, *sent = _core.curves.curve_of_population(*population, numbers.T, codes, *texts, x, q, int(members))
+    mean, fractiles, *sent = _core.curves.curve_of_population(*population, *curves, *texts, x, q, int(members))
     check(*sent[1:])
     found = np.zeros((0, len(x)))
     if members:

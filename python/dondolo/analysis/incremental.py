@@ -160,7 +160,8 @@ class Incremental(Shown, Saved):
             labels = tuple(dict.fromkeys(sample.clusters))
             # Histories of each cluster between two levels, below the lowest and above the highest
             place = np.searchsorted(levels, self.first_collapse)
-            number = np.array([labels.index(label) for label in sample.clusters])[sample.record_index]
+            numbers = {label: i for i, label in enumerate(labels)}
+            number = np.array([numbers[label] for label in sample.clusters])[sample.record_index]
             counts = np.zeros((len(labels), len(levels) + 1))
             np.add.at(counts, (number, place), 1.0)
             mean, beta, covariance, changes = _censored(np.log(levels), counts)

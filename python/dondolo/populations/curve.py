@@ -180,10 +180,7 @@ class PopulationCurve(Group, MeanCurve):
         return changes(self.members, flags, np.flatnonzero(self._chosen), x, weights)
 
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
-        source = self._source
-        population = flat_population(source.population, source.levels, source.exceedances[-1].T, source.histories)
-        curves = [(curve.status, curve.theta, curve.beta) for curve in source.curves]
-        return curve_of_population(population, curves, (self.mechanism, self.group), x, q, members)
+        return curve_of_population(*self._source._flat, (self.mechanism, self.group), x, q, members)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curves of the walls, thin, with their weighted mean and fractiles.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -14,6 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._base.transactions import publishing
+from dondolo._fortran.curves import FlatPopulation, coded
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
@@ -24,7 +26,7 @@ from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.table import fragility_table
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.populations.curve import Group, IntArray, PopulationCurve
+from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
 from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import Flags
 from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
@@ -103,6 +105,12 @@ class Typology(Shown, Saved):
         """Collapses of each row, shape (levels, rows)."""
         collapses: IntArray = self.exceedances[-1]
         return collapses
+
+    @functools.cached_property
+    def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
+        """The population with its collapses, and the curves of its rows, as Fortran takes them."""
+        curves = [(curve.status, curve.theta, curve.beta) for curve in self.curves]
+        return flat_population(self.population, self.levels, self.collapses.T, self.histories), coded(curves)
 
     def __getitem__(self, key: str | tuple[str, str]) -> PopulationCurve:
         """A curve of the population, or of a part of it: of a mechanism, or of a mechanism and a group.
