@@ -67,6 +67,8 @@ def _same_cell(one, two):
     if one == two:
         return True
     try:
-        return math.isclose(float(one), float(two), rel_tol=1e-13) and one.isdigit() == two.isdigit()
+        # A whole number by one sum may be none by the other.
+        mine, theirs = float(one), float(two)
+        return math.isclose(mine, theirs, rel_tol=1e-13) and (mine != theirs or one.isdigit() == two.isdigit())
     except ValueError:
         return False

@@ -11,6 +11,10 @@ CASES = {
     "two_block": ["walls", "histories", "stripes", "fragility"],
     "facade_strip": ["walls", "histories", "stripes", "fragility"],
     "pinnacle": ["walls", "histories", "stripes", "fragility"],
+    "facade": ["walls", "histories", "stripes", "fragility"],
+    "parapet_on_building": ["walls", "histories", "stripes", "fragility"],
+    "gable": ["walls", "histories", "stripes", "fragility"],
+    "garden_wall": ["walls", "histories", "stripes", "fragility"],
     "history": ["history"],
     "population": ["walls", "stripes", "fragility", "typology"],
 }

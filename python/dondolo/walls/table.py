@@ -15,6 +15,8 @@ def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.
     table: tables.Table = {}
     for what, head in heads.items():
         values = [property_of(wall, what) for wall in walls]
+        # The executable writes whole numbers, those of storeys, as it writes all others.
+        values = [float(value) if isinstance(value, int) else value for value in values]
         if what in WALL_EXTRAS and all(value is None for value in values):
             continue
         if what not in WALL_LISTS:
