@@ -3,7 +3,7 @@
 !> The wall, unless said otherwise: H = 3 m, t = 0.25 m, 1800 kg/m3; its load: 10 kN/m at depth 0.175 m on the top.
 program test_loaded_block
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type
+   use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
    use dondolo_normal_form, only : new_normal_form, normal_form_type
    use dondolo_record, only : record_type
@@ -11,12 +11,14 @@ program test_loaded_block
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall_body, only : read_wall_body, wall_body_type
    use lane_runs, only : run_alone
    use motion_inputs, only : accelerogram, stillness, tight
    implicit none
 
    real(wp), parameter :: exact = 1.0e-12_wp, g = 9.81_wp
 
+   call test_bodies()
    call test_terms()
    call test_statics()
    call test_energy()
@@ -127,6 +129,29 @@ contains
       call new_wall(wall, input, error)
       call check_ok(error, 'new_wall')
    end function made
+
+   !> Mass, centroid and inertia of sections
+   subroutine test_bodies()
+
+      call suite('bodies')
+      call check_body('stepped', [8775.0_wp, 0.248076923076923_wp, 4.50384615384615_wp, 74321.9502403846_wp])
+      call check_body('gable', [810.0_wp, 0.15_wp, 1.0_wp, 411.075_wp])
+   end subroutine test_bodies
+
+   !> The body of a case
+   subroutine check_body(name, expected)
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: expected(4)
+      type(wall_body_type) :: wall
+      type(problems_type) :: problems
+
+      call read_wall_body(a_case(name), g, problems, wall)
+      call check(problems%count == 0, name)
+      call check_close(wall%body%mass, expected(1), exact, name//': mass')
+      call check_close(wall%body%depth, expected(2), exact, name//': depth of the centroid')
+      call check_close(wall%body%height, expected(3), exact, name//': its height')
+      call check_close(wall%body%inertia, expected(4), exact, name//': inertia about it')
+   end subroutine check_body
 
    !> J, C, L, G and Q
    subroutine test_terms()

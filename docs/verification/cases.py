@@ -15,7 +15,7 @@ WALLS = {
     "free_standing": "mechanism = 'free_standing' height = 2.0 thickness = 0.5",
 }
 
-# Walls with loads: their masses go with the wall; the hinge by crushing under a load that is only lifted; a storey above
+# Walls with loads: a mass that goes with the wall; the hinge by crushing, the mass only lifted; a storey above
 LOADED_WALLS = {
     "one_sided_loaded": "mechanism = 'one_sided' height = 3.0 thickness = 0.25 load = 10.0e3 load_depth = 0.175 "
     "load_height = 3.0 load_inertia = 'both'",

@@ -442,10 +442,10 @@ contains
          faces = faces_at(wall%sections, height)
          if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
-               & to_text(tall)//' m, the wall')
+               & rounded(tall)//' m, the wall')
          else if (depth < faces(1) - same*tall .or. depth > faces(2) + same*tall) then
             call problems%note(what//' '//to_text(number)//': its depth '//to_text(depth)//' must lie between '// &
-               & to_text(faces(1))//' and '//to_text(faces(2))//' m, the faces of the wall at its height')
+               & rounded(faces(1))//' and '//rounded(faces(2))//' m, the faces of the wall at its height')
          end if
       end subroutine inside
 
