@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -100,3 +101,14 @@ def pytest_configure(config: pytest.Config) -> None:
 def interruptible() -> None:
     """Ctrl-C works even where the shell that started the tests ignores it."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def environment() -> Iterator[None]:
+    """The tests of a file leave the environment as they found it."""
+    before = dict(os.environ)
+    yield
+    after = dict(os.environ)
+    for changes in (before, after):
+        changes.pop("PYTEST_CURRENT_TEST", None)
+    assert after == before

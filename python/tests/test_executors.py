@@ -202,13 +202,16 @@ def test_errors(pool, monkeypatch):
 
 @pytest.fixture(scope="module")
 def cluster():
-    """Two processes of Dask."""
+    """Two processes of Dask, which sets variables of the environment for its workers and leaves them set."""
+    environment = dict(os.environ)
     distributed = pytest.importorskip("distributed", reason="needs Dask: pip install distributed")
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as there,
         distributed.Client(there) as client,
     ):
         yield client
+    os.environ.clear()
+    os.environ.update(environment)
 
 
 def test_dask(whole, tmp_path, crews, cluster):

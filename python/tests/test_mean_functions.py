@@ -31,9 +31,15 @@ def stored(centre):
 
 @pytest.fixture(scope="module")
 def centre(executable, root, tmp_path_factory):
-    """Prefix of the files of the illustrative centre."""
+    """Prefix of the files of the illustrative centre, under every fourth record."""
     folder = tmp_path_factory.mktemp("centre")
-    subprocess.run([executable, "--quiet", root / "data/cases/historic_centre.nml"], cwd=folder, check=True)
+    head, rows = (root / "data/records/synthetic44.csv").read_text().split("component,pga_m_s2\n")
+    rows = [f"{root}/data/records/{row}" for row in rows.splitlines(keepends=True)[::4]]
+    (folder / "records.csv").write_text(f"{head}component,pga_m_s2\n{''.join(rows)}")
+    case = (root / "data/cases/historic_centre.nml").read_text()
+    case = case.replace("'../records/synthetic44.csv'", "'records.csv'").replace("'../walls", f"'{root}/data/walls")
+    (folder / "case.nml").write_text(case)
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=folder, check=True)
     return folder / "out/historic_centre"
 
 

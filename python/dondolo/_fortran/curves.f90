@@ -306,7 +306,7 @@ contains
       do first = 1, n, part
          if (allocated(error)) exit
          last = min(first + part - 1, n)
-         call population_probabilities(population, 1, x(first:last), p, error)
+         call population_probabilities(population, 1, x(first:last), p, error, members)
          if (allocated(error)) exit
          mean(first:last) = members%mean(p)
          fractiles(:, first:last) = members%fractiles(p, q)

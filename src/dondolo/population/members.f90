@@ -27,8 +27,8 @@ module dondolo_members
 
 contains
 
-   !> Probabilities of collapse of all rows, if their mechanisms can occur, and of all walls
-   subroutine population_probabilities(population, state, x, p, error)
+   !> Probabilities of collapse of all rows, if their mechanisms can occur, and of all walls, or of some members alone
+   subroutine population_probabilities(population, state, x, p, error, members)
       !> The population, fitted
       type(population_counts_type), intent(in) :: population
       !> Number of the damage state
@@ -39,16 +39,22 @@ contains
       real(wp), allocatable, intent(out) :: p(:, :)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Whose columns are needed; those of other walls are left undefined
+      type(members_type), intent(in), optional :: members
 
       type(wall_curves_type) :: wall
       real(wp), allocatable :: own(:, :)
+      logical, allocatable :: needed(:)
       integer :: i, rows
 
       rows = population%rows()
       call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(rows + population%walls(), wp), error)
       if (allocated(error)) return
       allocate (p(size(x), rows + population%walls()))
+      allocate (needed(size(p, 2)), source=.not. present(members))
+      if (present(members)) needed(members%column) = .true.
       do i = 1, population%walls()
+         if (.not. (needed(rows + i) .or. any(needed(population%first(i):population%first(i + 1) - 1)))) cycle
          wall = population%wall(i, state)
          own = wall%probabilities(population%levels, x)
          p(:, population%first(i):population%first(i + 1) - 1) = own(:, :size(own, 2) - 1)
@@ -118,6 +124,7 @@ contains
       real(wp) :: total
       integer :: i
 
+      if (size(shares) == 0) return
       total = 0.0_wp
       do i = 1, size(self%weight)
          total = total + self%weight(i)
