@@ -127,7 +127,6 @@ contains
       call suite('limit states')
       input = a_wall(3.0_wp, 0.25_wp)
       call make_sheet(sheet, input, the_site([0.1_wp, 0.2_wp, 0.3_wp]))
-      call check_close(sheet%value('nonlinear', 'SLC', 'capacity_ag'), expected(9), exact, 'a_g,SLC')
       call check_close(sheet%value('linear', 'SLD', 'ratio'), 0.0833333333333333_wp/1.35_wp/0.12_wp, exact, 'SLD at its a_g')
       call check_close(sheet%value('site', 'SLC', 'pga'), 0.33_wp, exact, 'a_g S of SLC')
       call make_sheet(alone, input, the_site([0.3_wp]))

@@ -142,15 +142,18 @@ contains
    subroutine check_body(name, expected)
       character(len=*), intent(in) :: name
       real(wp), intent(in) :: expected(4)
-      type(wall_body_type) :: wall
+      type(wall_type) :: wall
+      type(wall_body_type) :: read
       type(problems_type) :: problems
 
-      call read_wall_body(a_case(name), g, problems, wall)
-      call check(problems%count == 0, name)
-      call check_close(wall%body%mass, expected(1), exact, name//': mass')
-      call check_close(wall%body%depth, expected(2), exact, name//': depth of the centroid')
-      call check_close(wall%body%height, expected(3), exact, name//': its height')
-      call check_close(wall%body%inertia, expected(4), exact, name//': inertia about it')
+      wall = made(a_case(name))
+      call read_wall_body(wall%input, g, problems, read)
+      associate (body => read%body)
+         call check_close(body%mass, expected(1), exact, name//': mass')
+         call check_close(body%depth, expected(2), exact, name//': depth of the centroid')
+         call check_close(body%height, expected(3), exact, name//': its height')
+         call check_close(body%inertia, expected(4), exact, name//': inertia about it')
+      end associate
    end subroutine check_body
 
    !> J, C, L, G and Q

@@ -24,6 +24,8 @@ program test_reference
 
    integer :: i
    real(wp), parameter :: recorded_levels(20) = [(0.05_wp*i, i=1, 20)], synthetic_levels(10) = [(0.1_wp*i, i=1, 10)]
+   !> Of walls with loads: of one block and of two
+   real(wp), parameter :: loaded_levels(5, 2) = reshape([(0.2_wp*i, i=1, 5), (0.25_wp*i, i=2, 6)], [5, 2])
    type(record_type), allocatable :: records(:)
    type(error_type), allocatable :: error
    character(len=4096) :: folder
@@ -49,45 +51,73 @@ program test_reference
 
 contains
 
-   !> The walls that accuracy is judged on
-   function made(mechanism) result(wall)
-      character(len=*), intent(in) :: mechanism
+   !> The walls that accuracy is judged on; docs/verification/cases.py has the same
+   function made(name) result(wall)
+      character(len=*), intent(in) :: name
       type(wall_type) :: wall
       type(wall_input_type) :: input
 
-      call input%set('mechanism', mechanism)
       call input%set('height', 3.0_wp)
       call input%set('thickness', 0.25_wp)
-      select case (mechanism)
+      select case (name)
       case ('two_block')
+         call input%set('mechanism', 'two_block')
          call input%set('hinge', 0.6_wp)
          call input%set('restitution_factor', 0.87_wp)
+      case ('two_block_loaded')
+         call input%set('mechanism', 'two_block')
+         call input%set('hinge', 0.6_wp)
+         call input%set('overburden', 5.0e3_wp)
+         call input%set('overburden_inertia', 1.0_wp)
       case ('free_standing')
+         call input%set('mechanism', 'free_standing')
          call input%set('height', 2.0_wp)
          call input%set('thickness', 0.5_wp)
+      case ('one_sided')
+         call input%set('mechanism', 'one_sided')
+      case ('one_sided_loaded', 'one_sided_crushed')
+         call input%set('mechanism', 'one_sided')
+         call input%set('load', [10.0e3_wp])
+         call input%set('load_depth', [0.175_wp])
+         call input%set('load_height', [3.0_wp])
+         call input%set('load_inertia', trim(merge('both    ', 'vertical', name == 'one_sided_loaded')))
+         if (name == 'one_sided_crushed') call input%set('compressive_strength', 1.0e6_wp)
       end select
       call new_wall(wall, input, error)
-      call check_ok(error, mechanism)
+      call check_ok(error, name)
    end function made
 
    !> All tables of one set of accelerograms
    subroutine test_walls(set, levels)
       character(len=*), intent(in) :: set
+      !> Of walls without loads
       real(wp), intent(in) :: levels(:)
       character(len=13), parameter :: names(3) = [character(len=13) :: 'one_sided', 'two_block', 'free_standing']
+      integer :: j
+
+      do j = 1, size(names)
+         call test_wall(trim(names(j)), set, levels)
+      end do
+      call test_wall('one_sided_loaded', set, loaded_levels(:, 1))
+      call test_wall('one_sided_crushed', set, loaded_levels(:, 1))
+      call test_wall('two_block_loaded', set, loaded_levels(:, 2))
+   end subroutine test_walls
+
+   !> A table, by both engines
+   subroutine test_wall(name, set, levels)
+      character(len=*), intent(in) :: name, set
+      real(wp), intent(in) :: levels(:)
       character(len=5), parameter :: engines(2) = ['lanes', 'rk45 ']
       type(response_type), allocatable :: exact(:, :)
-      integer :: j, k
+      integer :: k
 
-      do j = 1, 3
-         call suite(trim(names(j))//', '//set)
-         call read_table('test/reference/'//trim(names(j))//'_'//set//'.csv', levels, exact)
-         do k = 1, size(engines)
-            call suite(trim(names(j))//', '//set//', '//trim(engines(k)))
-            call test_table(exact, trim(engines(k)), made(trim(names(j))), levels)
-         end do
+      call suite(name//', '//set)
+      call read_table('test/reference/'//name//'_'//set//'.csv', levels, exact)
+      do k = 1, size(engines)
+         call suite(name//', '//set//', '//trim(engines(k)))
+         call test_table(exact, trim(engines(k)), made(name), levels)
       end do
-   end subroutine test_walls
+   end subroutine test_wall
 
    !> Read a table: EDP, flag and time of the peak of every history
    subroutine read_table(path, levels, exact)
