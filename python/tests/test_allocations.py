@@ -1,0 +1,68 @@
+"""What grows with the input is allocated with stat=, or its room is asked for beforehand in a file named here."""
+
+import re
+
+SOURCES = ("src", "app", "python/dondolo/_fortran")
+
+# Who asks whether there is room, for what stands in which files
+ASKED = {
+    "src/dondolo/base/system/text_file.f90": r"src/dondolo/(base/(system/text_file|text/)|case/namelist/"
+    r"|record/(formats/|metadata|record_(format|reader|table))|case/tasks/population_case)",
+    "src/dondolo/record/catalogue.f90": r"src/dondolo/record/catalogue",
+    "src/dondolo/case/input/read_case.f90": r"src/dondolo/record/(suite|record_set)",
+    "src/dondolo/building/floors.f90": r"src/dondolo/building/floor",
+    "src/dondolo/fragility/study.f90": r"src/dondolo/fragility/study",
+    "src/dondolo/fragility/stripes.f90": r"src/dondolo/(fragility/(stripes|stripe_counts)|motion/common/queue)",
+    "src/dondolo/population/population.f90": r"src/dondolo/population/(population|roster|run_\w+|row_result)\.",
+    "src/dondolo/population/members.f90": r"src/dondolo/population/(members|fractiles)",
+    "src/dondolo/population/population_counts.f90": r"src/dondolo/population/(population_(counts|sums)|typology)\.",
+    "src/dondolo/population/store.f90": r"src/dondolo/population/store\.",
+    "python/dondolo/_fortran/curves.f90": r"python/dondolo/_fortran/curves",
+    "python/dondolo/_fortran/histories.f90": r"python/dondolo/_fortran/histories",
+    "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/record_parcel",
+    "python/dondolo/_fortran/stores.f90": r"python/dondolo/_fortran/stores",
+    "python/dondolo/_fortran/stripes.f90": r"python/dondolo/_fortran/stripes",
+    "python/dondolo/_fortran/wall_parcel.f90": r"python/dondolo/_fortran/wall_parcel",
+}
+
+# What stays small, and why
+SMALL = {
+    "app/arguments": "a word of the command line",
+    "app/(synthetic44|benchmark_walls)": "records and walls of a fixed number",
+    "src/dondolo/(base/properties/|case/input/survey|wall/wall_body|building/building)": "lists of properties",
+    "src/dondolo/(case/(warnings/|groups/stripes_group|tasks/combine_rows)|fragility/ordinal)": "levels and states",
+    "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
+    "src/dondolo/base/system/(line_reader|number_table)": "a line, or so many numbers as the reader allows",
+    "src/dondolo/population/store_format": "a head, or a row, whose length is limited",
+    "python/dondolo/_fortran/handles": "places of what was uploaded, a chunk at a time",
+}
+
+
+def unasked(path):
+    """Allocations of a source file whose size is not a number and that have no stat=."""
+    text = re.sub(r"&[ \t]*(?:![^\n]*)?\n[ \t]*&?", " ", path.read_text())
+    for content in re.findall(r"^[^!\n]*\ballocate ?\((.*)\)[ \t]*(?:!.*)?$", text, re.MULTILINE):
+        sizes = re.findall(r"\(((?:[^()]|\([^()]*\))*)\)", content)
+        if "stat=" not in content and ("len=" in content or not all(re.fullmatch(r"[\d:, ]*", x) for x in sizes)):
+            yield content
+
+
+def test_every_allocation_may_fail(root):
+    files = [path for folder in SOURCES for path in (root / folder).rglob("*.[fF]90")]
+    names = {path.relative_to(root).as_posix(): path for path in files}
+    open_ones = {name for name, path in names.items() if any(unasked(path))}
+    assert len(open_ones) > 10
+    rules = [*ASKED.values(), *SMALL]
+    assert [name for name in sorted(open_ones) if not any(re.match(rule, name) for rule in rules)] == []
+    assert [rule for rule in rules if not any(re.match(rule, name) for name in open_ones)] == []
+    for name in ASKED:
+        assert re.search(r"call check_room\(", names[name].read_text()), name
+
+
+def test_an_allocation_is_seen(tmp_path):
+    path = tmp_path / "a.f90"
+    path.write_text(
+        "if (x) allocate (a(n), b(3)) ! why\nallocate (c(0))\nallocate (d(n), stat=k)\n! allocate (e(n))\n"
+        "allocate (f(2), &\n   & g(size(h)))\nallocate (character(len=n) :: i)\ndeallocate (j(n))\nallocate (k)\n"
+    )
+    assert [found[0] for found in unasked(path)] == ["a", "f", "c"]
