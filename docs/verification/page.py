@@ -10,12 +10,13 @@ from cases import ROOT
 from markdown import bullets, many, percent, power, small
 from sections_accuracy import LARGE, cost, targets, truth, work_precision
 from sections_flags import ORDINARY, doubts, estimates, flags, largest_shift, wrong_flags
+from sections_loaded import loaded
 from sections_shortcuts import ALL, shortcut_errors, shortcuts, tests
 from study import DEFAULT, TIGHT, collect
 
 
 def summary(study, missed):
-    """Summary of the page in ten lines."""
+    """Summary of the page."""
     pairs = study.pairs()
     total = sum(len(study.exact[pair]) for pair in pairs)
     change = max(study.exact[pair].spread.max() for pair in pairs)
@@ -57,7 +58,7 @@ def summary(study, missed):
     )
 
 
-def write(study):
+def write(study, executable, records):
     """Write the page and its figures."""
     missed, third = targets(study)
     lines = [
@@ -68,13 +69,14 @@ def write(study):
         *summary(study, missed),
     ]
     lines += truth(study) + work_precision(study) + third + flags(study) + estimates(study) + shortcuts(study) + tests()
+    lines += loaded(executable, records)
     (ROOT / "docs" / "verification.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
 def main():
     """Run the study and write the page."""
     executable, shortcuts_executable, records = sys.argv[1:4]
-    write(collect(executable, shortcuts_executable, records))
+    write(collect(executable, shortcuts_executable, records), executable, records)
 
 
 if __name__ == "__main__":

@@ -87,6 +87,25 @@ TESTS = [
         "test_wall",
         ("two blocks hinged at mid height",),
     ),
+    (
+        "The same of walls with storeys, loads, masses, thrusts, springs and hinges at some depth, and their first swings",
+        "computed independently, 15 digits",
+        "test_loaded_block",
+        ("bodies", "terms", "trigger, capacity, energy", "first swing", "restitution"),
+    ),
+    (
+        "The same of two blocks with hinges at some depth and with the mass of their overburden",
+        "computed independently, 15 digits",
+        "test_loaded_two_block",
+        ("terms", "restitution", "first swing"),
+    ),
+    ("Motions of floors", "computed independently, 15 digits", "test_floors", ("values", "limits", "convergence")),
+    (
+        "Checks by NTC 2018, spectra of the site and of floors",
+        "computed independently, 17 digits",
+        "test_code_check",
+        ("spectra", "wall W1", "parapet on a building", "facade with floors and thrust"),
+    ),
     ("C = J'/2 and G - Q = V'", "energy", "test_wall", ("C = J''/2 and G - Q = V''",)),
     (
         "Fits of fragility curves, their standard errors and likelihood",
@@ -106,7 +125,7 @@ TESTS = [
         "test_grouping",
         ("threads and grouping",),
     ),
-    ("The tables of section 1", "the same sources in 33 digits", "test_reference", ("recorded accelerograms",)),
+    ("The tables of sections 1 and 8", "the same sources in 33 digits", "test_reference", ("recorded accelerograms",)),
 ]
 
 
