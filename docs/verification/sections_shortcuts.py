@@ -88,7 +88,7 @@ TESTS = [
         ("two blocks hinged at mid height",),
     ),
     (
-        "The same of walls with storeys, loads, masses, thrusts, springs and hinges at some depth, and their first swings",
+        "The same of walls with storeys, loads, thrusts, springs and hinges at some depth, and their first swings",
         "computed independently, 15 digits",
         "test_loaded_block",
         ("bodies", "terms", "trigger, capacity, energy", "first swing", "restitution"),
