@@ -13,8 +13,10 @@ module dondolo_check_lines
 contains
 
    !> Print a check at a glance; the whole sheet is in its table
-   subroutine print_check(sheet)
+   subroutine print_check(sheet, was_run)
       type(sheet_type), intent(in) :: sheet
+      !> Have histories been run?
+      logical, intent(in) :: was_run
 
       character(len=*), parameter :: methods(2) = [character(len=9) :: 'linear', 'nonlinear']
       integer :: i, k
@@ -32,7 +34,12 @@ contains
          end do
       end do
       do k = 2, size(state_names)
-         call print_histories(sheet, state_names(k))
+         if (sheet%value('dynamic', state_names(k), 'histories') > 0.0_wp) then
+            call print_histories(sheet, state_names(k))
+         else if (was_run) then
+            write (output_unit, '(a)') 'dynamic '//state_names(k)//': left out, since each level has records of its own '// &
+               & 'and none is at a_g S = '//rounded(sheet%value('site', state_names(k), 'pga'))//' g'
+         end if
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
          & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//rounded(sheet%value('site', 'SLV', 'probability'))// &
@@ -62,7 +69,6 @@ contains
       !> Limit state
       character(len=*), intent(in) :: state
 
-      if (sheet%value('dynamic', state, 'histories') < 0.0_wp) return
       write (output_unit, '(a)') 'dynamic '//state//' at a_g S = '//rounded(sheet%value('dynamic', state, 'pga'))//' g: '// &
          & to_text(nint(sheet%value('dynamic', state, 'beyond')))//' of '// &
          & to_text(nint(sheet%value('dynamic', state, 'histories')))//' histories of '// &

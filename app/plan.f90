@@ -60,7 +60,7 @@ contains
          if (allocated(case%check)) then
             call check_case(case, sheet, error)
             if (allocated(error)) return
-            call print_check(sheet)
+            call print_check(sheet, was_run=.false.)
          end if
          call oddities%look(case%wall)
       end if

@@ -46,7 +46,7 @@ contains
          call print_stripes(case, results)
          if (allocated(case%check)) then
             write (output_unit, '(a)') ''
-            call print_check(results%check)
+            call print_check(results%check, was_run=.true.)
          end if
       case ('typology')
          if (allocated(results%typologies)) then

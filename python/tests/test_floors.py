@@ -169,3 +169,15 @@ def test_plot(records):
     assert np.allclose(ground, np.exp(np.log(expected).mean(axis=0)))
     assert floor[6] > 2.0 * ground[6]
     assert len(ax.lines) == len(records) + 4
+
+
+def test_spectrum_of_the_code(records):
+    """Values of an independent computation; the same beside those of the records."""
+    site, house = dd.Site(0.2, 2.5, 0.35, soil="B"), dd.Building(0.3, **HOUSE)
+    code = site.spectrum(periods=[0.1, 0.3, 0.6, 1.0], damping=0.08, building=house)
+    expected = [1.3941798041402019, 3.3449714361931694, 0.92781245815397021, 0.38212923131786948]
+    assert code.sa == pytest.approx(expected, rel=1e-12)
+    ax = house.plot(records=records, periods=[0.1, 0.3, 0.6, 1.0], damping=0.08, site=site)
+    assert np.array_equal(ax.lines[-2].get_ydata(), code.sa)
+    with pytest.raises(dd.InputError, match="damping = 0: must be positive"):
+        site.spectrum(building=dd.Building(0.3, participation=1.0, damping=0.0))

@@ -6,6 +6,7 @@ module checks
    use dondolo_check_sheet, only : sheet_type
    use dondolo_code_spectrum, only : elastic_spectrum_type
    use dondolo_error, only : error_type, problems_type
+   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_handles, only : find_walls
    use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
@@ -73,16 +74,21 @@ contains
       call report(error, stat, message)
    end subroutine ntc_parameters
 
-   !> Ordinates [g] at n periods [s] of the spectrum of a code with the parameters that ntc_parameters has
-   subroutine code_spectrum(parameters, damping, periods, n, ordinates)
-      real(c_double), intent(in) :: parameters(5), damping
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(in) :: periods(n)
+   !> Ordinates [g] at n periods [s] of the spectrum of a code with the parameters that ntc_parameters has; with modes that of
+   !> a floor: period [s], damping ratio, and participation times shape, of each mode one after the other
+   subroutine code_spectrum(parameters, damping, modes, m, periods, n, ordinates)
+      integer(c_int), intent(in) :: m, n
+      real(c_double), intent(in) :: parameters(5), damping, modes(m), periods(n)
       real(c_double), intent(out) :: ordinates(n)
-      type(elastic_spectrum_type) :: spectrum
+      type(elastic_spectrum_type) :: ground
+      type(floor_spectrum_type) :: floor
+      integer :: i
 
-      spectrum = elastic_spectrum_type(1.0_c_double, parameters(1), parameters(2), parameters(3:))
-      ordinates = spectrum%acceleration(periods, damping)
+      ground = elastic_spectrum_type(1.0_c_double, parameters(1), parameters(2), parameters(3:))
+      floor = new_floor_spectrum(ground, modes(1::3), modes(2::3), modes(3::3))
+      do i = 1, n
+         ordinates(i) = floor%acceleration(periods(i), damping)
+      end do
    end subroutine code_spectrum
 
    !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them

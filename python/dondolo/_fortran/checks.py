@@ -65,9 +65,11 @@ def ntc_parameters(site: SiteInput, state: str) -> FloatArray:
     return np.asarray(parameters)
 
 
-def code_spectrum(parameters: Sequence[float] | FloatArray, damping: float, periods: FloatArray) -> FloatArray:
-    """Ordinates [g] of the spectrum of a code at periods [s]."""
-    return np.asarray(_core.checks.code_spectrum(parameters, damping, periods))
+def code_spectrum(
+    parameters: Sequence[float] | FloatArray, damping: float, modes: FloatArray, periods: FloatArray
+) -> FloatArray:
+    """Ordinates [g] of the spectrum of a code at periods [s]; with modes, of shape (modes, 3), that of a floor."""
+    return np.asarray(_core.checks.code_spectrum(parameters, damping, modes.ravel(), periods))
 
 
 def kinematic_sheet(wall: Handle, site: SiteInput) -> tuple[SheetRow, ...]:

@@ -15,6 +15,8 @@ from dondolo._storage.saved import part_of_results
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.records.codes import Site
+
 # One value or several
 Values = float | Sequence[float]
 
@@ -97,7 +99,13 @@ class Building:
         return data
 
     def plot(
-        self, ax: Axes | None = None, *, records: Iterable[Any], periods: ArrayLike | None = None, damping: float = 0.05
+        self,
+        ax: Axes | None = None,
+        *,
+        records: Iterable[Any],
+        periods: ArrayLike | None = None,
+        damping: float = 0.05,
+        site: Site | None = None,
     ) -> Axes:
         """Draw the response spectra of the floor against those of the ground.
 
@@ -111,6 +119,8 @@ class Building:
             [s]; 100 from 0.05 to 4 s if left out.
         damping : float
             Damping ratio of what stands on the floor.
+        site : Site, optional
+            Whose spectrum of the floor by the code, of SLV, is drawn beside them; the records are drawn as they are.
 
         Returns
         -------
@@ -120,7 +130,7 @@ class Building:
         """
         from dondolo.records.plots import draw_floor
 
-        return draw_floor(self, tuple(records), periods, damping, ax)
+        return draw_floor(self, tuple(records), periods, damping, ax=ax, site=site)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""

@@ -25,6 +25,7 @@ from dondolo._fortran.checks import STATES, SiteInput, code_spectrum, ntc_parame
 from dondolo._fortran.library import as_text
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
+from dondolo.records.building import Building
 from dondolo.records.target import TargetSpectrum
 
 #: Classes of soil
@@ -36,6 +37,9 @@ LimitState = Literal["SLD", "SLV", "SLC"]
 
 # Periods of a spectrum unless given [s]
 _PERIODS = np.geomspace(0.05, 4.0, 60)
+
+# Period, damping ratio and participation of each mode of a building: those of the ground
+_NO_MODES = np.empty((0, 3))
 
 # EN 1998-1, tables 3.2 and 3.3: S, T_B, T_C, T_D
 _EC8_SOILS = {
@@ -114,9 +118,14 @@ class Site(Shown):
         return float(self._parameters(limit_state)[0])
 
     def spectrum(
-        self, *, periods: ArrayLike | None = None, damping: float = 0.05, limit_state: LimitState = "SLV"
+        self,
+        *,
+        periods: ArrayLike | None = None,
+        damping: float = 0.05,
+        limit_state: LimitState = "SLV",
+        building: Building | None = None,
     ) -> TargetSpectrum:
-        """Elastic horizontal spectrum.
+        """Elastic horizontal spectrum, of the ground or of a floor.
 
         Parameters
         ----------
@@ -126,6 +135,8 @@ class Site(Shown):
             Damping ratio.
         limit_state : {'SLD', 'SLV', 'SLC'}
             Whose hazard, where each has its own.
+        building : Building, optional
+            At whose floor; the ground if left out.
 
         Returns
         -------
@@ -135,14 +146,19 @@ class Site(Shown):
         Raises
         ------
         InputError
-            Periods that do not increase, a damping ratio beyond 0 and 1.
+            Periods that do not increase, a damping ratio beyond 0 and 1, a building with a mode without damping.
 
         Notes
         -----
         NTC 2018, 3.2.3.2.1: S_S and C_C of table 3.2.IV, S_T of table 3.2.V, T_C = C_C T_C*, T_B = T_C/3,
-        T_D = 4 a_g/g + 1.6 s.
+        T_D = 4 a_g/g + 1.6 s. Floors: Circolare 7/2019, C7.2.3 (docs/code_checks.md).
         """
-        return _spectrum(self._parameters(limit_state), damping, periods)
+        modes = _NO_MODES
+        if building is not None:
+            modes = np.column_stack([np.atleast_1d(building.period), building.damping, building.participations])
+            if not modes[:, 1].all():
+                raise InputError("damping = 0: must be positive for the spectrum of a floor of the code")
+        return _spectrum(self._parameters(limit_state), damping, periods, modes)
 
     def _parameters(self, limit_state: str) -> FloatArray:
         one_of("limit_state", limit_state, STATES)
@@ -242,10 +258,12 @@ def ec8_spectrum(
     return _spectrum(np.array([a * amplified, 2.5, *corners]), damping, periods)
 
 
-def _spectrum(parameters: FloatArray, damping: float, periods: ArrayLike | None) -> TargetSpectrum:
-    """Spectrum of the form that both codes have."""
+def _spectrum(
+    parameters: FloatArray, damping: float, periods: ArrayLike | None, modes: FloatArray = _NO_MODES
+) -> TargetSpectrum:
+    """Spectrum of the form that both codes have, or of a floor above it."""
     ratio = as_number("damping", damping)
     if not 0.0 < ratio < 1.0:
         raise InputError(f"damping = {ratio:g}: must lie between 0 and 1")
     t = increasing("periods", _PERIODS if periods is None else periods)
-    return TargetSpectrum(t, code_spectrum(parameters, ratio, t), damping=ratio)
+    return TargetSpectrum(t, code_spectrum(parameters, ratio, modes, t), damping=ratio)

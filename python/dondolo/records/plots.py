@@ -17,6 +17,8 @@ from dondolo.records.target import TargetSpectrum
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.records.codes import Site
+
 _PERIODS = np.geomspace(0.05, 4.0, 100)
 
 
@@ -47,9 +49,15 @@ def draw_spectra(records: RecordSet, target: TargetSpectrum | None, periods: Arr
 
 
 def draw_floor(
-    building: Building, records: tuple[Record, ...], periods: ArrayLike | None, damping: float, ax: Axes | None
+    building: Building,
+    records: tuple[Record, ...],
+    periods: ArrayLike | None,
+    damping: float,
+    *,
+    ax: Axes | None,
+    site: Site | None,
 ) -> Axes:
-    """Draw the spectra of a floor, and the median of those of the ground."""
+    """Draw the spectra of a floor, the median of those of the ground, and the spectrum of the floor by the code."""
     ax = style.axes(ax)
     t = increasing("periods", _PERIODS if periods is None else periods)
     ground, floor = (
@@ -62,6 +70,9 @@ def draw_floor(
         )
     for spectra, color, label in ((floor, style.RED, "floor, median"), (ground, style.BLUE, "ground, median")):
         ax.plot(t, np.exp(np.log(spectra).mean(axis=0)), color=color, linewidth=2.2, label=label)
+    if site is not None:
+        code = site.spectrum(periods=t, damping=damping, building=building)
+        ax.plot(t, code.sa, color=style.BLACK, linewidth=1.8, linestyle="--", label="floor, Circolare C7.2.3")
     for period in np.atleast_1d(building.period):
         ax.axvline(period, color=style.BLACK, linewidth=0.8, linestyle=":")
     return _finish(ax, t)
