@@ -1,14 +1,15 @@
 !> What is printed of a check by a building code.
 module dondolo_check_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_check_input, only : state_names
+   use dondolo_check_input, only : check_input_type, state_names
+   use dondolo_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_sheet, only : sheet_type
    use dondolo_kinds, only : wp
    use dondolo_text, only : counted, right, rounded, to_text
    implicit none
    private
 
-   public :: print_check
+   public :: print_check, print_verdicts
 
 contains
 
@@ -18,7 +19,6 @@ contains
       !> Have histories been run?
       logical, intent(in) :: was_run
 
-      character(len=*), parameter :: methods(2) = [character(len=9) :: 'linear', 'nonlinear']
       integer :: i, k
 
       write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1: alpha_0 '// &
@@ -26,12 +26,9 @@ contains
          & ', a_0* '//rounded(sheet%value('mechanism', '', 'a_0'))//' m/s2, d_0* '// &
          & rounded(sheet%value('mechanism', '', 'd_0'))//' m'
       write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'stands, g', 'ratio', 'P(collapse)'
-      do i = 1, size(methods)
-         do k = 1, size(state_names)
-            if (sheet%value(methods(i), state_names(k), 'ratio') < 0.0_wp) cycle
-            write (output_unit, '(a, 5a14)') methods(i)//'    ', state_names(k), cell('site', 'pga'), &
-               & cell(methods(i), 'capacity_pga'), cell(methods(i), 'ratio'), cell(methods(i), 'probability')
-         end do
+      do i = 1, size(check_states)
+         write (output_unit, '(a, 5a14)') check_methods(i)//'    ', check_states(i), cell('site', 'pga'), &
+            & cell(check_methods(i), 'capacity_pga'), cell(check_methods(i), 'ratio'), cell(check_methods(i), 'probability')
       end do
       do k = 2, size(state_names)
          if (sheet%value('dynamic', state_names(k), 'histories') > 0.0_wp) then
@@ -56,12 +53,34 @@ contains
 
          real(wp) :: value
 
-         value = sheet%value(method, state_names(k), name)
+         value = sheet%value(method, check_states(i), name)
          cell = right('-', len(cell))
          if (value >= 0.0_wp) cell = right(rounded(value), len(cell))
       end function cell
 
    end subroutine print_check
+
+   !> Print the checks of a population at a glance; those of each row are in their table
+   subroutine print_verdicts(verdicts, input)
+      type(verdicts_type), intent(in) :: verdicts
+      type(check_input_type), intent(in) :: input
+
+      integer :: i
+
+      write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1, of '//counted(verdicts%checked, 'row')
+      if (verdicts%others > 0) write (output_unit, '(a)') 'not checked: '//counted(verdicts%others, 'row')// &
+         & '; the table of checks says why'
+      if (verdicts%checked > 0) then
+         write (output_unit, '(a, 4a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'verified', 'least ratio'
+         do i = 1, size(check_states)
+            associate (spectrum => input%spectrum(findloc(state_names, check_states(i), dim=1)))
+               write (output_unit, '(a, 4a14)') check_methods(i)//'    ', check_states(i), right(rounded(spectrum%pga), 14), &
+                  & right(to_text(verdicts%verified(i)), 14), right(rounded(verdicts%least(i)), 14)
+            end associate
+         end do
+      end if
+      write (output_unit, '(a)') ''
+   end subroutine print_verdicts
 
    !> Print the criterion for time histories
    subroutine print_histories(sheet, state)

@@ -2,8 +2,8 @@
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
-   use dondolo_check_case, only : check_case
    use dondolo_check_lines, only : print_check
+   use dondolo_check_rows, only : check_wall
    use dondolo_check_sheet, only : sheet_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
@@ -58,7 +58,7 @@ contains
          call print_body(case%wall)
          write (output_unit, '(a)') ''
          if (allocated(case%check)) then
-            call check_case(case, sheet, error)
+            call check_wall(case, case%wall, sheet, error)
             if (allocated(error)) return
             call print_check(sheet, was_run=.false.)
          end if

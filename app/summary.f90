@@ -2,7 +2,7 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
-   use dondolo_check_lines, only : print_check
+   use dondolo_check_lines, only : print_check, print_verdicts
    use dondolo_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
@@ -52,6 +52,10 @@ contains
          if (allocated(results%typologies)) then
             call print_curves(case, results)
             call print_typology(case, results)
+            if (allocated(case%check)) then
+               write (output_unit, '(a)') ''
+               call print_verdicts(results%verdicts, case%check)
+            end if
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
                & to_text(case%survey%rows)//' are complete; when all are, take them together:', &

@@ -201,8 +201,8 @@ contains
       if (case%job%task == 'stripes') then
          call new_kinematic(kinematic, case%wall, error)
          call group%locate(error)
-      else
-         call raise_input(error, group%place()//' (line '//to_text(group%line)//'): only for task = ''stripes''')
+      else if (case%job%task == 'history') then
+         call raise_input(error, group%place()//' (line '//to_text(group%line)//'): not for task = ''history''')
       end if
    end subroutine read_check
 

@@ -53,6 +53,7 @@ contains
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
       end select
    end function suffixes
 

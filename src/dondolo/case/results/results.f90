@@ -1,5 +1,6 @@
 !> What comes of a case.
 module dondolo_results
+   use dondolo_check_rows, only : verdicts_type
    use dondolo_check_sheet, only : sheet_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
@@ -52,6 +53,8 @@ module dondolo_results
       integer :: resumed = 0
       !> Check by a building code; without rows: none was asked for
       type(sheet_type) :: check
+      !> What came of the checks of a population, once their table is written
+      type(verdicts_type) :: verdicts
       !> The one response: task 'history'
       type(response_type) :: response
       !> Its time history

@@ -2,6 +2,7 @@
 !> files of counts.
 module dondolo_row_reports
    use dondolo_case, only : case_type
+   use dondolo_check_rows, only : check_row_head, make_check_row
    use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
@@ -34,6 +35,7 @@ contains
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(row_counts_type) :: row
+      character(len=:), allocatable :: line
       integer :: i
       logical :: found
 
@@ -51,7 +53,13 @@ contains
             row%reached = population%reached(:, :, i)
             row%curve = population%curve(:, i)
             if (name == '_histories.csv') call read_histories(results, i, row, error)
-            if (.not. allocated(error)) call write_row(case, member, row, name, files, error)
+            if (allocated(error)) exit
+            if (name == '_checks.csv') then
+               call make_check_row(case, member, row%curve(size(row%curve)), results%verdicts, line)
+               call files%line(line)
+            else
+               call write_row(case, member, row, name, files, error)
+            end if
          end do
       end associate
       call reader%close()
@@ -123,6 +131,8 @@ contains
          call files%line(stripes_head)
       case ('_fragility.csv')
          call files%line(fragility_head)
+      case ('_checks.csv')
+         call files%line(check_row_head)
       end select
    end subroutine write_names
 

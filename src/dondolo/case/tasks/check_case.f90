@@ -1,13 +1,12 @@
-!> The check of a case by a building code: the kinematic sheet, and the criterion for time histories at the site's level.
+!> The criterion of a building code for time histories at the site's level, beside the kinematic check of a case.
 module dondolo_check_case
    use dondolo_case, only : case_type
    use dondolo_check_input, only : state_names
    use dondolo_check_sheet, only : sheet_type
    use dondolo_error, only : error_type
-   use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_ntc_check, only : check_histories, check_ntc
+   use dondolo_ntc_check, only : check_histories
    use dondolo_response, only : response_type
    use dondolo_scaling, only : new_scaling
    use dondolo_stripes, only : multiple_stripe, stripes_type
@@ -15,29 +14,9 @@ module dondolo_check_case
    implicit none
    private
 
-   public :: check_case, check_stripes
+   public :: check_stripes
 
 contains
-
-   !> The kinematic check of a case that has one
-   subroutine check_case(case, sheet, error, curve)
-      type(case_type), intent(in) :: case
-      type(sheet_type), intent(out) :: sheet
-      !> The wall cannot be checked so
-      type(error_type), allocatable, intent(out) :: error
-      !> Curve of collapse, for probabilities where its measure is the peak acceleration
-      type(fragility_type), intent(in), optional :: curve
-
-      type(kinematic_type) :: kinematic
-
-      call new_kinematic(kinematic, case%wall, error)
-      if (allocated(error)) return
-      if (case%stripes%scaling%name == 'pga') then
-         call check_ntc(sheet, kinematic, case%check, curve)
-      else
-         call check_ntc(sheet, kinematic, case%check)
-      end if
-   end subroutine check_case
 
    !> Add the criterion for time histories, from a stripe that stands at the peak acceleration of the site or from one more;
    !> nothing where each level has records of its own and none stands there

@@ -2,7 +2,8 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
-   use dondolo_check_case, only : check_case, check_stripes
+   use dondolo_check_case, only : check_stripes
+   use dondolo_check_rows, only : check_wall
    use dondolo_error, only : error_type, raise_failure
    use dondolo_floor_motion, only : filter_record
    use dondolo_floors, only : floors_type
@@ -163,7 +164,7 @@ contains
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
       call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)
       if (allocated(case%check)) then
-         call check_case(case, results%check, error, results%row%curve(size(study%thresholds)))
+         call check_wall(case, case%wall, results%check, error, results%row%curve(size(study%thresholds)))
          if (.not. allocated(error)) call check_stripes(case, stripes, results%check, error, team)
          if (.not. allocated(error)) call check_interrupt(error)
          if (allocated(error)) return
