@@ -36,7 +36,7 @@ contains
       call print_group('stripes', task)
       call print_group('solver', task)
       if (task == 'history') call print_group('history', task)
-      if (task == 'stripes') call print_group('check', task)
+      if (task /= 'history') call print_group('check', task)
    end subroutine print_template
 
    !> Print a group

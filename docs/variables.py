@@ -13,7 +13,7 @@ TITLES = {
     "records": "The accelerograms",
     "stripes": "The intensity measure and its levels",
     "solver": "How the motions are computed",
-    "check": "A check by a building code beside the curve, for the task 'stripes'",
+    "check": "A check by a building code beside the curves, for the tasks 'stripes' and 'typology'",
     "history": "Which record and how strong, for the task 'history'",
 }
 HEAD = """# Variables of a case

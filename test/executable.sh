@@ -260,6 +260,16 @@ check "typology: mean fraction" equal \
    "$(grep -v '^#' out/people_stripes.csv | awk -F, 'NR > 1 { k = (NR - 2) % 4; w = NR < 6 ? 2 : 1; s[k] += w * $(NF - 1) / 3 }
       END { for (k = 0; k < 4; k++) printf "%.9f ", s[k] }')"
 rm -rf out
+{ population_case; echo "&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B' /"; } >checked.nml
+run checked.nml
+check "checks of a population: rows" equal "$(rows out/people_checks.csv)" 2
+check "checks of a population: a_g S that a wall stands, nonlinear, SLV" equal \
+   "$(grep '^a,' out/people_checks.csv | awk -F, '{ printf "%.10f", $11 / 1.2 }')" 0.0820616990
+check "checks of a population: why there is none" contains out/people_checks.csv "mechanism = 'two_block': the kinematic check is for one"
+check "checks of a population: summary" contains stdout 'C8.7.1.2.1, of 1 row'
+check "checks of a population: verdicts" grep -qE '^nonlinear +SLV +0\.24 +0 +0\.4103$' stdout
+rm checked.nml
+rm -rf out
 population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
 run people.nml
 check "typology: no level where so many cannot collapse" grep -qE \
@@ -628,7 +638,7 @@ s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'F' \/\n\1/|bad
 s/^(&stripes)/\&check ag = 2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check: ag = 2: must lie between 0.001 and 1 g
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5 \/\n\1/|bad.nml: &check: tc_star: must be given
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, confidence = 1.5 \/\n\1/|bad.nml: &check: confidence = 1.5: must lie between 1 and 1.35
-s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): only for task = 'stripes'
+s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): not for task = 'history'
 TABLE
 
 # Names that would forge lines of result files, or move the cursor: ESC, U+0085, U+2028, U+2029

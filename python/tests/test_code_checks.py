@@ -3,6 +3,7 @@
 The formulas are held against worked numbers in test/test_code_check.f90.
 """
 
+import csv
 import subprocess
 
 import matplotlib
@@ -137,3 +138,36 @@ def test_case_and_report(root, executable, tmp_path):
     run = subprocess.run([executable, "wrong.nml"], cwd=tmp_path, check=False, capture_output=True, text=True)
     assert run.returncode == 2
     assert "wrong.nml: &check: soil = 'f': must be one of" in run.stderr
+
+
+def test_population(root, executable, tmp_path):
+    """The rows of the executable are the checks of the walls, each with its own curve."""
+    (tmp_path / "walls.csv").write_text(
+        "name,mechanism,height,thickness,period1,participation1,load1,load1_depth,load1_height,load1_inertia\n"
+        "a,one_sided,3.0,0.25,,,,,,\nb,one_sided,1.5,0.25,0.3,1.2,,,,\nc,two_block,3.0,0.25,,,,,,\n"
+        "d,free_standing,2.0,0.4,,,1e3,0.2,2.0,both\n"
+    )
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes levels = 0.2, 0.4, 0.8 /\n"
+        "&check ag = 0.08, 0.2, 0.26, f0 = 2.5, tc_star = 0.35, soil = 'B', confidence = 1.2 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
+    lines = [line for line in (tmp_path / "out_checks.csv").read_text().splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    stored = dd.read_results(tmp_path / "out")
+    site = dd.Site((0.08, 0.2, 0.26), 2.5, 0.35, soil="B")
+    assert [row["wall"] for row in rows] == ["a", "b", "c", "d"]
+    assert rows[2]["note"].startswith("mechanism = 'two_block': the kinematic check is for one block")
+    assert not rows[2]["alpha_0"]
+    for row, wall in zip(rows, stored.population, strict=True):
+        if row["note"]:
+            continue
+        check = dd.check_ntc(wall, site, confidence=1.2)
+        for method, state in check.capacities:
+            for quantity, unit in (("capacity_pga", "g"), ("ratio", "ratio")):
+                value = check.value(method, state, quantity)
+                assert float(row[f"{method}_{state.lower()}_{unit}"]) == pytest.approx(value, rel=1e-14)
+        curve = stored.typology.curve(wall.name)
+        if curve.has_fit:
+            assert float(row["probability_site"]) == pytest.approx(curve(check.pga), rel=1e-9)

@@ -163,7 +163,7 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
     walls.check(run)
     table.check(run)
-    if "check" in run.settings:
+    if task == "stripes" and "check" in run.settings:
         sheet = ResultFile(prefix + "_check.csv", run)
         with sheet.reading():
             stored = replace(stored, check=_check(sheet, run, population.walls[0]))
