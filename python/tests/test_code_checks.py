@@ -160,7 +160,7 @@ def test_population(root, executable, tmp_path):
     assert [row["wall"] for row in rows] == ["a", "b", "c", "d"]
     assert rows[2]["note"].startswith("mechanism = 'two_block': the kinematic check is for one block")
     assert not rows[2]["alpha_0"]
-    for row, wall in zip(rows, stored.population, strict=True):
+    for row, wall, curve in zip(rows, stored.population, stored.typology.curves, strict=True):
         if row["note"]:
             continue
         check = dd.check_ntc(wall, site, confidence=1.2)
@@ -168,6 +168,5 @@ def test_population(root, executable, tmp_path):
             for quantity, unit in (("capacity_pga", "g"), ("ratio", "ratio")):
                 value = check.value(method, state, quantity)
                 assert float(row[f"{method}_{state.lower()}_{unit}"]) == pytest.approx(value, rel=1e-14)
-        curve = stored.typology.curve(wall.name)
         if curve.has_fit:
             assert float(row["probability_site"]) == pytest.approx(curve(check.pga), rel=1e-9)

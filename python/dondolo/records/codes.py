@@ -155,7 +155,8 @@ class Site(Shown):
         """
         modes = _NO_MODES
         if building is not None:
-            modes = np.column_stack([np.atleast_1d(building.period), building.damping, building.participations])
+            own = building._understood
+            modes = np.array([np.atleast_1d(building.period), own.damping, own.participation]).T
             if not modes[:, 1].all():
                 raise InputError("damping = 0: must be positive for the spectrum of a floor of the code")
         return _spectrum(self._parameters(limit_state), damping, periods, modes)
