@@ -67,6 +67,20 @@ def tables(folder):
     return {file.name: [line for line in file.read_text().splitlines() if line[:1] != "#"] for file in files}
 
 
+def test_a_run_that_was_killed_when_all_rows_were_in(folder, root):
+    """The next run ends what it has left, though there is nothing to put in."""
+    execute(folder, "--walls", "1:99")
+    store = folder / "out/z_walls_1-8.counts"
+    whole = store.read_bytes()
+    left = f"{store}.lock", f"{store}.20260101T000000Z-0123456789abcdef.part"
+    for again in (lambda: execute(folder, "--walls", "1:99"), lambda: run(folder, root, store)):
+        for path in left:
+            Path(path).write_text("dondolo lock\nrun 20260101T000000Z-0123456789abcdef\npid 1\nhost here\n")
+        again()
+        assert [path.name for path in (folder / "out").iterdir()] == [store.name]
+        assert store.read_bytes() == whole
+
+
 def test_the_same_bytes(folder, root):
     """However a study is divided, its store ends with the same bytes."""
     execute(folder, "--walls", "1:99")

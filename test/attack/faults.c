@@ -32,19 +32,29 @@ static long at, how, large;
 static const char *folder;
 static int log_descriptor = -1, is_ready;
 
-__attribute__((constructor)) static void prepare(void)
+/* Begin to count; for a process that forks others, each of which calls it with its own numbers and log, "": none */
+void attack_begin(long number, long kind, const char *text)
 {
-   const char *text = getenv("ATTACK_LOG");
-
-   folder = getenv("ATTACK_FOLDER");
-   at = getenv("ATTACK_AT") ? atol(getenv("ATTACK_AT")) : 0;
-   how = getenv("ATTACK_HOW") ? atol(getenv("ATTACK_HOW")) : EIO;
-   large = getenv("ATTACK_LARGE") ? atol(getenv("ATTACK_LARGE")) : 0;
-   if (text != NULL) {
+   at = number;
+   how = kind;
+   atomic_store(&calls, 0);
+   if (*text != 0) {
       REAL(int, "open", const char *, int, ...);
       log_descriptor = real(text, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
    }
    is_ready = 1;
+}
+
+static const char *given(const char *name, const char *otherwise)
+{
+   return getenv(name) ? getenv(name) : otherwise;
+}
+
+__attribute__((constructor)) static void prepare(void)
+{
+   folder = getenv("ATTACK_FOLDER");
+   large = atol(given("ATTACK_LARGE", "0"));
+   attack_begin(atol(given("ATTACK_AT", "0")), atol(given("ATTACK_HOW", "0")), given("ATTACK_LOG", ""));
 }
 
 /* Is this the call? A kill before it happens here. */

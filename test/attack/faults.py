@@ -8,6 +8,7 @@ what was wrong unless it was killed, and the next run ends with the same bytes a
 from __future__ import annotations
 
 import errno
+import json
 import os
 import shutil
 import subprocess
@@ -97,14 +98,10 @@ class Faults:
         script = Path(__file__).with_name("python_run.py")
 
         def run(faults: dict[str, str]) -> Ended:
-            done = subprocess.run(
-                [self.programs.python, script, what, str(self.folder)],
-                env=os.environ | faults,
-                capture_output=True,
-                text=True,
-                check=False,
-            )
-            return Ended(done.returncode, done.stderr.splitlines())
+            given = (faults.get(f"ATTACK_{name}", otherwise) for name, otherwise in (("AT", 0), ("HOW", 0)))
+            request = [what, str(self.folder), *map(int, given), faults.get("ATTACK_LOG", "")]
+            print(json.dumps(request), file=runs.stdin, flush=True)
+            return Ended(*json.loads(runs.stdout.readline()))
 
         def whole() -> dict[str, bytes]:
             old.clean()
@@ -113,7 +110,14 @@ class Faults:
                 raise RuntimeError(str(ended))
             return old.contents()
 
-        self.trials(tally, old, whole, old.contents, run, step)
+        # Runs are forks of one process, which has imported what they need.
+        environment = os.environ | {"LD_PRELOAD": str(self.library), "ATTACK_FOLDER": str(self.folder)}
+        command = [self.programs.python, script, "-"]
+        with subprocess.Popen(
+            command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        ) as runs:
+            self.trials(tally, old, whole, old.contents, run, step)
+            runs.stdin.close()
         return tally
 
     def trials(

@@ -3,11 +3,18 @@
     python python_run.py typology|save|pool|dask|mpi FOLDER
 
 It reads FOLDER/new and writes FOLDER/out/study. It has a checkpoint, except for ``save``, which saves another result.
+With ``-`` in the place of both it makes such a run in a fork for each line of standard input, beside the library of
+faults.c: a list in JSON of the two, of the call that fails, of how, and of the path of a log. It answers with the exit
+code and what the run said.
 """
 
 from __future__ import annotations
 
+import ctypes
+import json
+import os
 import sys
+import tempfile
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor
@@ -40,9 +47,8 @@ def executor(what: str) -> Iterator[Executor | None]:
         yield None
 
 
-def main() -> None:
+def run(what: str, folder: Path) -> None:
     """Run, and write."""
-    what, folder = sys.argv[1], Path(sys.argv[2])
     warnings.simplefilter("ignore")
     records = dd.read_catalogue(folder / "new/records.csv")
     people = dd.read_population(folder / "new/walls.csv")
@@ -55,9 +61,27 @@ def main() -> None:
         dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10]).save(folder / "out/curve.npz")
 
 
+def asked() -> tuple[str, Path]:
+    """What to run: of a fork, what is asked of it; this process does not return but when nobody asks any more."""
+    if sys.argv[1] != "-":
+        return sys.argv[1], Path(sys.argv[2])
+    faults = ctypes.CDLL(None)
+    for line in sys.stdin:
+        what, folder, at, how, log = json.loads(line)
+        with tempfile.TemporaryFile() as said:
+            if (child := os.fork()) == 0:
+                os.dup2(said.fileno(), sys.stderr.fileno())
+                faults.attack_begin(ctypes.c_long(at), ctypes.c_long(how), log.encode())
+                return what, Path(folder)
+            code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+            said.seek(0)
+            print(json.dumps([code, said.read().decode(errors="replace").splitlines()]), flush=True)
+    sys.exit()
+
+
 if __name__ == "__main__":
     try:
-        main()
+        run(*asked())
     except dd.DondoloError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         sys.exit(2)

@@ -140,13 +140,14 @@ class Publication:
                 _remove_old(_end(self._prefix, name))
 
     def close(self) -> bool:
-        """Remove what was not published; is everything in its place?"""
+        """Remove what was not published; is there nothing left for the next run to rename or to remove?"""
         parts = [staged(_end(self._prefix, name), self.run) for name in (*TABLES, RUN_FILE)]
         if published_run(self._prefix) == self.run:
             return not any(part.exists() for part in parts)
         for part in parts:
-            part.unlink(missing_ok=True)
-        return True
+            with suppress(OSError):
+                part.unlink(missing_ok=True)
+        return not any(part.exists() for part in parts)
 
 
 @contextmanager
@@ -179,15 +180,19 @@ def publishing(prefix: Path) -> Iterator[Publication]:
         raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
     try:
         publication = Publication(prefix, new_run())
-        _end_publishing(prefix, _said(said, "run"))
-        _sign(descriptor, publication.run)
+        try:
+            _end_publishing(prefix, _said(said, "run"))
+            _sign(descriptor, publication.run)
+        except OSError as error:
+            raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
         try:
             yield publication
         finally:
-            # Removed while it is held: who waits for it sees that the file is gone, and makes another. A table that
-            # could not be renamed stays for the next run to rename.
+            # Removed while it is held: who waits for it sees that the file is gone, and makes another. One that cannot
+            # be removed is no lock any more.
             if publication.close():
-                lock.unlink(missing_ok=True)
+                with suppress(OSError):
+                    lock.unlink(missing_ok=True)
     finally:
         # A process that was forked meanwhile does not keep it.
         with suppress(OSError):
@@ -214,7 +219,8 @@ def _end_publishing(prefix: Path, killed: str) -> None:
             if published:
                 staged(path, published).replace(path)
         if killed and killed != published:
-            staged(path, killed).unlink(missing_ok=True)
+            with suppress(OSError):
+                staged(path, killed).unlink(missing_ok=True)
 
 
 def _end(prefix: Path, name: str) -> Path:

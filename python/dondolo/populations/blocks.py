@@ -90,8 +90,7 @@ def run_walls(
 
     _check(executor, block)
     with Store(checkpoint, request, states) as store:
-        if not store.complete().all():
-            store.claim()
+        store.claim()
         try:
             _run_rest(store, request, histories, states, executor, block, progress)
         except KeyboardInterrupt:

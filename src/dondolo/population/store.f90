@@ -7,7 +7,7 @@ module dondolo_store
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : wp
-   use dondolo_lock, only : lock_type
+   use dondolo_lock, only : holder_type, lock_type, look_at_lock
    use dondolo_memory, only : check_room
    use dondolo_row_result, only : row_result_type
    use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
@@ -188,7 +188,8 @@ contains
       is_complete = self%done == size(self%place)
    end function is_complete
 
-   !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off
+   !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off. Where all rows are
+   !> there nothing is done but to end what a run has left that was killed then
    subroutine claim(self, error)
       class(store_type), intent(inout) :: self
       !> Another run is writing it, or it cannot be written
@@ -196,10 +197,15 @@ contains
 
       character(len=:), allocatable :: head
       type(store_type) :: now
+      type(holder_type) :: holder
       integer(int64) :: size
-      logical :: ok
+      logical :: exists, ok
 
       if (len(self%path) == 0) return
+      if (self%is_complete()) then
+         call look_at_lock(self%path, holder, exists)
+         if (.not. exists .or. holder%is_alive) return
+      end if
       call self%lock%take(self%path, error)
       if (allocated(error)) return
       self%is_writing = .true.
@@ -403,9 +409,7 @@ contains
 
       call self%close()
       if (len(self%path) == 0) return
-      ! Of a run that was killed when all rows were in, nothing is claimed, and what it has left ends here.
       call self%lock%take(self%path, error)
-      if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
       call remove_file(self%path)
       call self%lock%release()
    end subroutine remove

@@ -44,7 +44,7 @@ contains
          if (.not. allocated(error)) call find_start(case, store, error)
          if (allocated(error)) return
          results%resumed = store%done
-         if (.not. store%is_complete()) call begin(case, store, error)
+         call begin(case, store, error)
          if (allocated(error)) return
          call case%make_study(study, team)
          study%floors => floors
