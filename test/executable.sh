@@ -690,6 +690,8 @@ people() {
 head='name,mechanism,height,thickness,weight\n'
 people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
    "walls.csv: column 'heigth': no such column; there are 'name', 'mechanism', 'height'"
+people "unknown column: all that there are" 'name,mechanism,heigth\na,one_sided,3\n' \
+   ", 'building_height', 'refine', 'weight', 'group', 'p_occ'"
 people "no walls" "$head" 'walls.csv: no walls under the header'
 people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
    "walls.csv: line 3: name = 'a': the row before gives this wall the same mechanism"

@@ -142,8 +142,15 @@ contains
       !> Is the table as a whole to be checked? Yes if absent
       logical, intent(in), optional :: is_checked
 
+      ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
+      ! whose length follows from the result of a function.
+      character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
       integer :: i, at, item
 
+      do i = 1, size(shown)
+         shown(i) = wall_properties(i)%name
+         if (is_many(wall_properties(i)%kind)) shown(i) = item_name(trim(wall_properties(i)%name), 1)
+      end do
       self%row = 0
       self%mechanisms = ''
       if (present(gravity)) self%gravity = gravity
@@ -155,9 +162,9 @@ contains
          associate (column => self%table%columns(i)%text)
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
-            if (at > 0 .or. any(lower(column) == shown_names()) .or. any(lower(column) == member_properties%name)) cycle
+            if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == member_properties%name)) cycle
             call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(shown_names())//', '//join(member_properties%name))
+               & join(shown)//', '//join(member_properties%name))
          end associate
          call self%close()
          return
@@ -168,22 +175,6 @@ contains
       call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
          & pack(self%member_columns, member_properties%kind /= is_text), &
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
-
-   contains
-
-      !> Names of the properties of walls as columns: of a list that of its first value
-      function shown_names() result(names)
-         !> Names
-         character(len=len(item_name(wall_properties(1)%name, 1))), allocatable :: names(:)
-
-         integer :: k
-
-         allocate (names(size(wall_properties)))
-         do k = 1, size(names)
-            names(k) = wall_properties(k)%name
-            if (is_many(wall_properties(k)%kind)) names(k) = item_name(trim(wall_properties(k)%name), 1)
-         end do
-      end function shown_names
 
    end subroutine open_population
 
