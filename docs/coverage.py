@@ -346,7 +346,8 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
         " part.\n",
         table([*head, *methods, "without"], sorted(rows, key=lambda row: -int(row[3]))),
         "## Tests of equality\n\nShare of the comparisons (`dd.compare`) that reject equal curves at 5 %,"
-        " in %, in as many draws. On the same records one curve takes a random polarity of each record, and the other curve the other.\n",
+        " in %, in as many draws. On the same records one curve takes a random polarity of each record, and the other"
+        " the other.\n",
         table(
             ["wall", "curves on", *head[2:], "θ", "β", "both", "θ, naive"], sorted(tests, key=lambda row: -int(row[3]))
         ),

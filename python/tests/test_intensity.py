@@ -248,6 +248,13 @@ def test_one_measure_is_a_comparison(wall, records):
     assert dd.compare_intensities(wall, records, "pga", n_levels=5, n_resamples=20, progress=False).ims == ("pga",)
 
 
+def test_two_records_are_compared_and_drawn_without_intervals(wall, few):
+    comparison = dd.compare_intensities(wall, few[:2], ["pga", "pgv"], n_resamples=20, progress=False)
+    assert [curve.errors for curve in comparison.curves] == ["few_clusters"] * 2
+    _, right = comparison.plot()
+    assert not [drawn for drawn in right.containers if drawn.has_xerr]
+
+
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_comparison_draws_events_together(wall, records):
     """Two copies of each record, labelled as one event, give the intervals of one copy."""

@@ -122,7 +122,8 @@ def people(few):
 
 @pytest.fixture(scope="module")
 def hazard():
-    return dd.HazardCurve([0.02, 0.1, 0.5, 2.5], [0.1, 0.01, 3e-4, 2e-6])
+    fractiles = {0.16: [0.05, 5e-3, 1e-4, 5e-7], 0.84: [0.2, 0.02, 6e-4, 6e-6]}
+    return dd.HazardCurve([0.02, 0.1, 0.5, 2.5], [0.1, 0.01, 3e-4, 2e-6], fractiles=fractiles)
 
 
 @pytest.fixture(scope="module")
@@ -252,15 +253,37 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     parts = [value(text) for text in page.table("Deaggregation")["contribution [1/year]"]]
     np.testing.assert_allclose(parts, risk.deaggregate(hazard.levels), rtol=5e-3)
     # A population has no return period; what it loses in some years comes from its walls.
-    assert list(table) == ["curve", "annual frequency [1/year]", "probability in 50 years"]
+    interval = "95 % interval [1/year]"
+    assert list(table) == ["curve", "annual frequency [1/year]", interval, "probability in 50 years"]
+    assert ends(table[interval][1]) == expected(*risk.uncertainty().interval())
     assert ends(table["probability in 50 years"][1]) == expected(*risk.probability_bounds(50.0))
     page = read(pages / "stripes.html")
     table = page.table("Mean annual frequencies")
     one = dd.mean_annual_frequency(stripes.fit(), hazard)
-    assert list(table) == ["curve", "annual frequency [1/year]", "return period [years]", "probability in 50 years"]
-    bounds = (one.bounds, one.return_period_bounds, one.probability_bounds(50.0))
-    assert [ends(table[name][0]) for name in list(table)[1:]] == [expected(*pair) for pair in bounds]
-    assert "not a confidence interval" in page.text
+    bounds = {
+        "annual frequency [1/year]": one.bounds,
+        interval: one.uncertainty().interval(),
+        "return period [years]": one.return_period_bounds,
+        "probability in 50 years": one.probability_bounds(50.0),
+    }
+    assert list(table) == ["curve", *bounds]
+    assert {name: ends(table[name][0]) for name in bounds} == {name: expected(*pair) for name, pair in bounds.items()}
+    assert f"that of the curve's uncertainty ({one.uncertainty().kind})" in page.text
+    fractiles = page.table("Annual frequency of collapse for the mean hazard")
+    uncertain = one.uncertainty().table()
+    assert fractiles["hazard"] == ["mean", "0.16", "0.84"]
+    for row in range(3):
+        assert ends(fractiles[interval][row]) == expected(uncertain["low"][row], uncertain["high"][row])
+
+
+def test_a_curve_without_standard_errors_has_no_interval_of_the_risk(wall, few, hazard, tmp_path):
+    levels = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]
+    curve = dd.multiple_stripe(wall, few[:2], levels, progress=False)
+    assert curve.fit().errors == "few_clusters"
+    dd.report(curve, tmp_path / "report.html", hazard=hazard)
+    page = read(tmp_path / "report.html")
+    assert page.table("Mean annual frequencies")["95 % interval [1/year]"] == [""]
+    assert "the frequency no confidence interval" in page.text
 
 
 def test_bounds_of_the_risk_are_two_numbers_only_where_they_differ(stripes, tmp_path):
@@ -268,7 +291,7 @@ def test_bounds_of_the_risk_are_two_numbers_only_where_they_differ(stripes, tmp_
     for levels in (np.geomspace(0.005, 20.0, 12), [0.05, 0.4]):
         dd.report(stripes, tmp_path / "report.html", hazard=dd.HazardCurve(levels, 1e-4 * np.power(levels, -2.5)))
         table = read(tmp_path / "report.html").table("Mean annual frequencies")
-        shown.append(["to" in table[name][0] for name in list(table)[1:]])
+        shown.append(["to" in table[name][0] for name in table if name not in ("curve", "95 % interval [1/year]")])
     assert shown == [[False] * 3, [True] * 3]
 
 

@@ -42,11 +42,14 @@ def draw_comparison(comparison: IntensityComparison, ax: Iterable[Axes] | None) 
             markersize=3,
             color=color,
         )
-        low, high = (end / power for end in curve.parameter_interval()["beta"])
+        width = None
+        if curve.has_errors:
+            low, high = (end / power for end in curve.parameter_interval()["beta"])
+            width = [[comparison.dispersion[i] - low], [high - comparison.dispersion[i]]]
         right.errorbar(
             [comparison.dispersion[i]],
             [row],
-            xerr=[[comparison.dispersion[i] - low], [high - comparison.dispersion[i]]],
+            xerr=width,
             color=color,
             marker="o",
             markersize=5,

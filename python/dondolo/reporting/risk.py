@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from dondolo._fortran.records import blank_unit
-from dondolo.errors import DondoloWarning
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, figure, level_unit, state_name
 from dondolo.reporting.numerals import number, percent
 from dondolo.reporting.typology import combined
-from dondolo.risk.frequency import between
+from dondolo.risk.frequency import Risk, between
 from dondolo.risk.hazard import HazardCurve
+from dondolo.risk.uncertainty import RiskUncertainty
 
 _YEARS = 50.0
 
@@ -49,6 +50,8 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         "curve": [name for name, _ in cases],
         "annual frequency [1/year]": [_ends(*one.bounds) for one in risks],
     }
+    uncertain = [_uncertainty(one) for one in risks]
+    frequencies["95 % interval [1/year]"] = ["" if one is None else _ends(*one.interval()) for one in uncertain]
     if not population:
         frequencies["return period [years]"] = [_ends(*one.return_period_bounds) for one in risks]
     frequencies[f"probability in {_YEARS:g} years"] = [_ends(*one.probability_bounds(_YEARS)) for one in risks]
@@ -62,6 +65,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         "contribution [1/year]": [number(part, 3) for part in parts],
         "share": [percent(part / risk.annual_frequency if risk.annual_frequency > 0.0 else 0.0) for part in parts],
     }
+    shown = uncertain[main]
     low, high = risk.bounds
     frequency = between(low, high, "a year", 3)
     facts = {
@@ -71,11 +75,35 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         "is_sure": f"{low:.3g}" == f"{high:.3g}",
         "figure": figure(risk.plot, f"Hazard, fragility and the intensities that the risk comes from: {frequency}."),
         "frequencies": Table.of(frequencies),
+        "uncertain_by": shown.kind if shown else "",
+        "fractiles": _fractiles(shown),
         "deaggregation": Table.of(deaggregation),
         "above": [number(bound, 3) for bound in risk.above],
         "below": [number(bound, 3) for bound in risk.below],
     }
     return facts, found
+
+
+def _uncertainty(risk: Risk) -> RiskUncertainty | None:
+    """Distribution of an annual frequency; None for a curve without standard errors."""
+    try:
+        return risk.uncertainty()
+    except DondoloError:
+        return None
+
+
+def _fractiles(uncertain: RiskUncertainty | None) -> Table | None:
+    """Annual frequencies and intervals for the fractiles of the hazard; None if it has none."""
+    if uncertain is None or not uncertain.fractiles:
+        return None
+    table = uncertain.table()
+    return Table.of(
+        {
+            "hazard": list(table["hazard"]),
+            "annual frequency [1/year]": [number(x, 3) for x in table["annual_frequency"]],
+            "95 % interval [1/year]": [_ends(low, high) for low, high in zip(table["low"], table["high"], strict=True)],
+        }
+    )
 
 
 def _ends(low: float, high: float) -> Piece:

@@ -82,8 +82,9 @@ def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
         "fraction": [probability(p) for p in stripes.fraction],
     }
     if curve.has_fit:
-        low, high = curve.interval(stripes.levels)
         levels["fitted curve"] = [probability(p) for p in curve(stripes.levels)]
+    if curve.has_errors:
+        low, high = curve.interval(stripes.levels)
         levels["95 % band from"] = [probability(p) for p in low]
         levels["to"] = [probability(p) for p in high]
     levels["median EDP"] = [number(value, 3) for value in np.median(stripes.edp, axis=1)]
@@ -115,7 +116,7 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
             "meaning": STATUSES[curve.status],
         }
     methods = {}
-    if curve.errors in ("clustered", "naive"):
+    if curve.has_errors:
         methods[f"covariance, {curve._kind()}"] = curve.parameter_interval()
     if curve.sample is not None:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(
