@@ -69,11 +69,33 @@ contains
       floor%metadata = ground%metadata
       floor%dt = ground%dt/real(parts, wp)
       floor%acceleration = input
+      if (allocated(ground%vertical)) call carry_vertical(floor, ground%vertical, parts)
       do k = 1, size(building%period)
          if (abs(building%participation(k)) > 0.0_wp) call add_mode(floor, input, refined, building%period(k), &
             & building%damping(k), building%participation(k))
       end do
    end subroutine filter_record
+
+   !> Carry the vertical component up, at the samples of the floor: a building is rigid vertically
+   pure subroutine carry_vertical(floor, vertical, parts)
+      !> The motion of the floor
+      type(record_type), intent(inout) :: floor
+      !> Vertical acceleration of the ground [m/s2]
+      real(wp), intent(in) :: vertical(:)
+      !> Samples of the floor in one of the ground
+      integer, intent(in) :: parts
+
+      integer :: i, j
+
+      allocate (floor%vertical(size(floor%acceleration)), source=0.0_wp)
+      floor%vertical(1) = vertical(1)
+      do i = 2, size(vertical)
+         do j = 1, parts
+            floor%vertical((i - 2)*parts + 1 + j) = vertical(i - 1) &
+               & + (vertical(i) - vertical(i - 1))*(real(j, wp)/real(parts, wp))
+         end do
+      end do
+   end subroutine carry_vertical
 
    !> Add the motion of a mode
    pure subroutine add_mode(floor, input, refined, period, damping, participation)

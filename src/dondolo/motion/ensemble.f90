@@ -78,7 +78,7 @@ contains
       integer :: number
 
       variant = build_variant()
-      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver)
+      if (solver%engine /= 'rk45' .and. .not. suite%has_vertical()) constants = new_lane_constants(mechanism, solver)
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
       !$omp & shared(variant, constants, mechanism, suite, solver, queue, work)
       own = work_type()

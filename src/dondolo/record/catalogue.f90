@@ -126,6 +126,7 @@ contains
       call move_alloc(from%name, to%name)
       call move_alloc(from%file, to%file)
       call move_alloc(from%acceleration, to%acceleration)
+      if (allocated(from%vertical)) call move_alloc(from%vertical, to%vertical)
       call move_alloc(from%metadata%entries, to%metadata%entries)
       to%dt = from%dt
    end subroutine move_record

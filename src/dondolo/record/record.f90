@@ -20,6 +20,9 @@ module dondolo_record
    !> Shortest and longest time step that are taken for those of a record [s]
    real(wp), parameter :: shortest_step = 1.0e-9_wp, longest_step = 1.0e2_wp
 
+   !> Steps of two components of a motion may differ by this part: files round them
+   real(wp), parameter :: same_step = 1.0e-9_wp
+
    !> An accelerogram
    type :: record_type
       !> Name: the stem of its file, unless given
@@ -30,6 +33,8 @@ module dondolo_record
       real(wp) :: dt = 0.0_wp
       !> Ground acceleration at times 0, dt, 2 dt, ... [m/s2]
       real(wp), allocatable :: acceleration(:)
+      !> Vertical ground acceleration at the same times, positive upwards [m/s2]; not allocated: the record has none
+      real(wp), allocatable :: vertical(:)
       !> What the header of its file says
       type(metadata_type) :: metadata
    contains
@@ -37,6 +42,12 @@ module dondolo_record
       procedure :: pga
       !> Time of the last sample [s]
       procedure :: duration
+      !> Give it a vertical component
+      procedure :: set_vertical
+      !> Vertical ground acceleration at an instant
+      procedure :: vertical_at
+      !> Whether vertical motion takes the wall off its base
+      procedure :: lifts_off
    end type record_type
 
 contains
@@ -102,6 +113,64 @@ contains
 
       duration = real(size(self%acceleration) - 1, wp)*self%dt
    end function duration
+
+   !> Give a record a vertical component
+   subroutine set_vertical(self, vertical, dt, factor, error)
+      class(record_type), intent(inout) :: self
+      !> Vertical ground acceleration at equal steps, positive upwards [m/s2]
+      real(wp), intent(in) :: vertical(:)
+      !> Its time step [s]
+      real(wp), intent(in) :: dt
+      !> Factor on it
+      real(wp), intent(in) :: factor
+      !> Its time step or its number of samples is not that of the record, or a sample is no acceleration
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (abs(dt - self%dt) > same_step*self%dt) then
+         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, must have '//to_text(self%dt)// &
+            & ' s as the record')
+         return
+      else if (size(vertical) /= size(self%acceleration)) then
+         call raise_input(error, 'vertical: has '//to_text(size(vertical))//' samples, must have '// &
+            & to_text(size(self%acceleration))//' as the record')
+         return
+      end if
+      do i = 1, size(vertical)
+         if (abs(factor*vertical(i)) <= largest_acceleration) cycle
+         call raise_input(error, 'vertical: sample '//to_text(i)//' = '//to_text(factor*vertical(i))//' m/s2: '// &
+            & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
+         return
+      end do
+      self%vertical = factor*vertical
+   end subroutine set_vertical
+
+   !> Vertical ground acceleration at an instant, zero after the last sample [m/s2]
+   pure real(wp) function vertical_at(self, interval, time)
+      class(record_type), intent(in) :: self
+      !> Sample interval, from 1, and time since its first sample [s]
+      integer, intent(in) :: interval
+      real(wp), intent(in) :: time
+
+      vertical_at = 0.0_wp
+      if (.not. allocated(self%vertical)) return
+      associate (v => self%vertical)
+         if (interval < size(v)) vertical_at = v(interval) + (v(interval + 1) - v(interval))*(time/self%dt)
+      end associate
+   end function vertical_at
+
+   !> Whether the ground, scaled, falls away from the wall at some instant: the model ends there
+   elemental logical function lifts_off(self, scale, gravity)
+      class(record_type), intent(in) :: self
+      !> Factor on the record; its sign does not matter
+      real(wp), intent(in) :: scale
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
+
+      lifts_off = .false.
+      if (allocated(self%vertical)) lifts_off = abs(scale)*minval(self%vertical) <= -gravity
+   end function lifts_off
 
    !> Smallest and largest sample: several chains at once, since one alone waits for itself
    pure subroutine find_extremes(samples, lowest, highest)

@@ -46,6 +46,8 @@ module dondolo_suite
       procedure :: measure
       !> Values of a measure
       procedure :: values
+      !> Whether a record has a vertical component
+      procedure :: has_vertical
    end type suite_type
 
 contains
@@ -106,6 +108,18 @@ contains
          values = computed(self%records, im, threads)
       end if
    end function values
+
+   !> Whether a record has a vertical component
+   pure logical function has_vertical(self)
+      class(suite_type), intent(in) :: self
+
+      integer :: i
+
+      has_vertical = .false.
+      do i = 1, size(self%records)
+         has_vertical = has_vertical .or. allocated(self%records(i)%vertical)
+      end do
+   end function has_vertical
 
    !> Place of a measure among those that are kept; 0: it is not there
    integer function place_of(suite, im) result(place)

@@ -45,8 +45,6 @@ module dondolo_loaded_block
    !> One block with what it carries
    type, extends(mechanism_type) :: loaded_block_type
       private
-      !> Gravity [m/s2]
-      real(wp) :: gravity = 0.0_wp
       !> Radius of the edge a [m]
       real(wp) :: edge = 0.0_wp
       !> Centroid of the masonry from the hinge [m]

@@ -2,7 +2,7 @@
 !>
 !> Every mechanism has one rotation q >= 0 and a side s = +1 or -1 (docs/theory.md, section 1):
 !>
-!>     J(q) q'' + C(q) q'^2 + G(q) = -s L(q) u_g''(t) + Q(q)
+!>     J(q) q'' + C(q) q'^2 + G(q) (1 + v_g''(t)/g) = -s L(q) u_g''(t) + Q(q)
 !>
 !> All terms are per metre of wall length.
 module dondolo_mechanism
@@ -17,6 +17,8 @@ module dondolo_mechanism
    type, abstract :: mechanism_type
       !> Can it rock to both sides? If so the side changes at every impact
       logical :: two_sided = .false.
+      !> Gravity [m/s2], which vertical ground acceleration adds to
+      real(wp) :: gravity = 0.0_wp
       !> Rotation q_c at which the restoring moment G - Q vanishes [rad]
       real(wp) :: capacity = 0.0_wp
       !> Speed after an impact / speed before it, 0 <= e < 1

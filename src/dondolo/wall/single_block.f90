@@ -39,6 +39,7 @@ contains
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
 
+      self%gravity = gravity
       self%alpha = block%alpha
       self%capacity = block%alpha
       self%inertia = block%corner_inertia

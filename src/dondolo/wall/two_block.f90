@@ -38,8 +38,6 @@ module dondolo_two_block
       type(block_type) :: lower
       !> Upper block
       type(block_type) :: upper
-      !> Gravity [m/s2]
-      real(wp) :: gravity
       !> Vertical load on the top
       type(overburden_type) :: overburden
       !> Lever b - e of that load about the top hinge [m]

@@ -160,7 +160,7 @@ contains
 
       energy = 0.5_wp*rest%inertia*speed**2
       self%tiny_bounces = merge(self%tiny_bounces + 1, 0, energy < rest%tiny_energy)
-      moment = rest%inward_moment(self%side, ground)
+      moment = rest%inward_moment(self%side, ground, abs(self%scale)*record%vertical_at(self%interval, self%time))
       at_rest = speed == 0.0_wp .or. self%tiny_bounces > most_tiny_bounces
       if (at_rest .or. moment <= 0.0_wp) return
       at_rest = 2.0_wp*speed*rest%inertia <= shortest_motion*record%dt*moment

@@ -21,12 +21,16 @@ module dondolo_rest
       real(wp) :: moment
       !> Excitation lever L(0) [kg m]
       real(wp) :: lever
+      !> Lever of vertical ground acceleration, G(0)/g [kg m]
+      real(wp) :: vertical_lever = 0.0_wp
       !> Inertia J(0) [kg m2]
       real(wp) :: inertia
       !> Rotation up to which the bounds of a chain hold [rad]
       real(wp) :: height
       !> Relative change of the terms up to that rotation
       real(wp) :: slack
+      !> Relative change of the vertical lever up to it
+      real(wp) :: vertical_slack = 0.0_wp
       !> Energy of a bounce that is called tiny [J]
       real(wp) :: tiny_energy
       !> Impacts after which a chain of bounces is looked at again: 1, more where e is next to 1
@@ -87,6 +91,9 @@ contains
          if (rest%slack <= largest_slack) exit
          rest%height = 0.5_wp*rest%height
       end do
+      if (.not. mechanism%gravity > 0.0_wp) return
+      rest%vertical_lever = g0/mechanism%gravity
+      rest%vertical_slack = rest%slack + abs(g/g0 - 1.0_wp)
    end function new_rest
 
    !> Ground acceleration beyond which a wall at rest does not stay so, towards the side it can rock to [m/s2]
@@ -96,17 +103,20 @@ contains
       trigger = self%moment/self%lever
    end function trigger
 
-   !> Moment at q = 0 that pushes the wall back to rest: G(0) - Q(0) + s L(0) u_g''
-   elemental function inward_moment(self, side, acceleration) result(moment)
+   !> Moment at q = 0 that pushes the wall back to rest: G(0) (1 + v_g''/g) - Q(0) + s L(0) u_g''
+   elemental function inward_moment(self, side, acceleration, vertical) result(moment)
       class(rest_type), intent(in) :: self
       !> Side, +1 or -1
       real(wp), intent(in) :: side
       !> Ground acceleration [m/s2]
       real(wp), intent(in) :: acceleration
+      !> Vertical ground acceleration, positive upwards; 0 if absent [m/s2]
+      real(wp), intent(in), optional :: vertical
       !> Inward moment; negative: the wall is pushed out [N m]
       real(wp) :: moment
 
       moment = self%moment + side*self%lever*acceleration
+      if (present(vertical)) moment = moment + self%vertical_lever*vertical
    end function inward_moment
 
    !> The instant at which a wall at rest begins to rock: where the inward moment of one of its sides first falls
@@ -128,6 +138,10 @@ contains
 
       real(wp) :: here, next, threshold
 
+      if (allocated(record%vertical)) then
+         call next_start_of_both(self, record, scale, interval, time, side, found)
+         return
+      end if
       threshold = self%trigger()
       associate (a => record%acceleration)
          here = scale*(a(interval) + (a(interval + 1) - a(interval))*(time/record%dt))
@@ -155,6 +169,59 @@ contains
       end function opens
 
    end subroutine next_start
+
+   !> The same under a horizontal and a vertical component: the inward moment of each side is linear between samples
+   pure subroutine next_start_of_both(rest, record, scale, interval, time, side, found)
+      type(rest_type), intent(in) :: rest
+      !> The accelerogram, with its vertical component
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Sample interval and time in it [s], as in next_start
+      integer, intent(inout) :: interval
+      real(wp), intent(inout) :: time
+      !> Side that opens
+      real(wp), intent(out) :: side
+      !> Does rocking begin before the end of the record?
+      logical, intent(out) :: found
+
+      real(wp) :: here(2), next(2), part(2)
+
+      associate (a => record%acceleration, v => record%vertical, dt => record%dt)
+         here = moments(a(interval) + (a(interval + 1) - a(interval))*(time/dt), record%vertical_at(interval, time))
+         do
+            next = moments(a(interval + 1), v(interval + 1))
+            found = any(here < 0.0_wp .or. next < 0.0_wp)
+            if (found .or. interval == size(a) - 1) exit
+            interval = interval + 1
+            time = 0.0_wp
+            here = next
+         end do
+         side = 1.0_wp
+         if (any(here < 0.0_wp)) then
+            if (here(2) < here(1)) side = -1.0_wp
+         else if (found) then
+            part = 2.0_wp
+            where (next < 0.0_wp) part = here/(here - next)
+            if (part(2) < part(1)) side = -1.0_wp
+            time = time + (dt - time)*minval(part)
+         end if
+      end associate
+
+   contains
+
+      !> Inward moments of the sides +1 and -1 under a sample [N m]
+      pure function moments(horizontal, vertical)
+         !> Components of the accelerogram [m/s2]
+         real(wp), intent(in) :: horizontal, vertical
+         real(wp) :: moments(2)
+
+         moments(1) = rest%inward_moment(1.0_wp, scale*horizontal, abs(scale)*vertical)
+         moments(2) = huge(moments)
+         if (rest%two_sided) moments(2) = rest%inward_moment(-1.0_wp, scale*horizontal, abs(scale)*vertical)
+      end function moments
+
+   end subroutine next_start_of_both
 
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>
@@ -185,7 +252,7 @@ contains
       !> True only if it is certain
       logical :: ends
 
-      real(wp) :: push, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
+      real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
       integer :: i
 
       ends = .false.
@@ -196,13 +263,16 @@ contains
          highest = min(self%height, peak)
          push = 0.0_wp
          if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
-         call self%least_moments(push, here, other)
+         weight = self%vertical_lever*abs(scale)*record%vertical_at(interval, time)
+         call self%least_moments(push, weight, here, other)
          least_here = here
          least_other = other
          do i = min(interval, n), n
             push = 0.0_wp
             if (i < n) push = side*scale*self%lever*a(i + 1)
-            call self%least_moments(push, here_next, other_next)
+            weight = 0.0_wp
+            if (i < n .and. allocated(record%vertical)) weight = self%vertical_lever*abs(scale)*record%vertical(i + 1)
+            call self%least_moments(push, weight, here_next, other_next)
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
             if (.not. min(least_here, least_other) > 0.0_wp) return
@@ -221,16 +291,18 @@ contains
    end function chain_ends
 
    !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
-   pure subroutine least_moments(self, push, here, other)
+   pure subroutine least_moments(self, push, weight, here, other)
       class(rest_type), intent(in) :: self
       !> Inward moment of the ground on the side now active [N m]
       real(wp), intent(in) :: push
+      !> Inward moment of vertical ground acceleration on either side [N m]
+      real(wp), intent(in) :: weight
       !> Moment of this side, moment of the other; the same for a one-sided wall [N m]
       real(wp), intent(out) :: here, other
 
       real(wp) :: least
 
-      least = (1.0_wp - self%slack)*self%moment - self%slack*abs(push)
+      least = (1.0_wp - self%slack)*self%moment - self%slack*abs(push) + (weight - self%vertical_slack*abs(weight))
       here = least + push
       other = merge(least - push, here, self%two_sided)
    end subroutine least_moments

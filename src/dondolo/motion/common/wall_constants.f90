@@ -17,6 +17,8 @@ module dondolo_wall_constants
       type(solver_type) :: solver
       !> Capacity q_c and rotation that counts as collapse [rad]
       real(wp) :: capacity, limit
+      !> Gravity [m/s2]
+      real(wp) :: gravity
       !> Velocity p q_c, the unit of the absolute tolerance [rad/s]
       real(wp) :: velocity_unit
    end type wall_constants_type
@@ -34,6 +36,7 @@ contains
       constants%rest = new_rest(mechanism)
       constants%solver = solver
       constants%capacity = mechanism%capacity
+      constants%gravity = mechanism%gravity
       constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
       constants%velocity_unit = mechanism%frequency_parameter()*mechanism%capacity
    end function new_wall_constants

@@ -11,12 +11,15 @@ module dondolo_dormand_prince
    public :: excitation_type, state_type
    public :: angular_acceleration, dormand_prince_step, dense_rotation, is_beyond
 
-   !> Excitation between two samples: u = s u_g'', the ground acceleration seen from side s of the wall, linear in time
+   !> Excitation between two samples: u = s u_g'', the ground acceleration seen from side s of the wall, and v_g''/g, the part
+   !> by which vertical motion makes the wall heavier, linear in time
    type :: excitation_type
       !> u at the first sample [m/s2]
       real(wp) :: start = 0.0_wp
       !> Its rate of change [m/s3]
       real(wp) :: slope = 0.0_wp
+      !> v_g''/g at the first sample, and its rate of change [1/s]
+      real(wp) :: heavier = 0.0_wp, heavier_slope = 0.0_wp
    end type excitation_type
 
    !> State at one instant
@@ -46,7 +49,7 @@ module dondolo_dormand_prince
 contains
 
    !> Angular acceleration of the common form (docs/theory.md, section 1):
-   !> q'' = (Q - G - L u - C q'^2)/J
+   !> q'' = (Q - G (1 + v_g''/g) - L u - C q'^2)/J
    pure function angular_acceleration(mechanism, excitation, time, q, v) result(f)
       class(mechanism_type), intent(in) :: mechanism
       type(excitation_type), intent(in) :: excitation
@@ -62,7 +65,9 @@ contains
       real(wp) :: j, c, g, l, load
 
       call mechanism%terms(q, j, c, g, l, load)
-      f = (load - g - l*(excitation%start + excitation%slope*time) - c*v**2)/j
+      ! Without vertical motion g is multiplied by 1, which changes no bit.
+      f = (load - g*(1.0_wp + (excitation%heavier + excitation%heavier_slope*time)) &
+         & - l*(excitation%start + excitation%slope*time) - c*v**2)/j
    end function angular_acceleration
 
    !> Does a rotation lie where the terms of a mechanism are not defined?

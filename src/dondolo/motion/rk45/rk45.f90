@@ -179,7 +179,7 @@ contains
       integer :: event
       integer(c_int) :: interrupted
 
-      call enter_interval(constants%solver, record, motion)
+      call enter_interval(constants, record, motion)
       motion%f = starting_acceleration(motion%q, motion%v, &
          & angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v))
       ending = 0
@@ -205,7 +205,7 @@ contains
          end select
          if (sample_reached) then
             if (ending == collapsed) return
-            call next_interval(constants%solver, record, motion, trace)
+            call next_interval(constants, record, motion, trace)
          end if
          if (ending /= 0) return
       end do
@@ -247,30 +247,34 @@ contains
    end subroutine cross_edge
 
    !> Go on to the next sample
-   pure subroutine next_interval(solver, record, motion, trace)
-      type(solver_type), intent(in) :: solver
+   pure subroutine next_interval(constants, record, motion, trace)
+      !> Constants of the wall
+      type(wall_constants_type), intent(in) :: constants
       type(record_type), intent(in) :: record
       type(motion_type), intent(inout) :: motion
       type(trace_type), intent(inout), optional :: trace
 
       motion%interval = motion%interval + 1
       motion%time = 0.0_wp
-      call enter_interval(solver, record, motion)
+      call enter_interval(constants, record, motion)
       if (present(trace)) call add_row(motion, record, trace)
    end subroutine next_interval
 
    !> A new sample interval, or a new start in one
-   pure subroutine enter_interval(solver, record, motion)
-      type(solver_type), intent(in) :: solver
+   pure subroutine enter_interval(constants, record, motion)
+      !> Constants of the wall
+      type(wall_constants_type), intent(in) :: constants
       type(record_type), intent(in) :: record
       type(motion_type), intent(inout) :: motion
 
-      motion%longest = longest_step(solver%steps_per_sample, record%dt, motion%time)
-      call aim(record, motion)
+      motion%longest = longest_step(constants%solver%steps_per_sample, record%dt, motion%time)
+      call aim(constants%gravity, record, motion)
    end subroutine enter_interval
 
    !> The excitation in the present interval, seen from the side of the wall
-   pure subroutine aim(record, motion)
+   pure subroutine aim(gravity, record, motion)
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
       type(record_type), intent(in) :: record
       type(motion_type), intent(inout) :: motion
 
@@ -279,6 +283,11 @@ contains
          if (i >= size(a)) return
          motion%excitation%start = motion%side*motion%scale*a(i)
          motion%excitation%slope = motion%side*motion%scale*(a(i + 1) - a(i))/record%dt
+         if (.not. allocated(record%vertical)) return
+         associate (v => record%vertical, unit => abs(motion%scale)/gravity)
+            motion%excitation%heavier = unit*v(i)
+            motion%excitation%heavier_slope = unit*(v(i + 1) - v(i))/record%dt
+         end associate
       end associate
    end subroutine aim
 
@@ -305,7 +314,7 @@ contains
          & 1.0_wp, rests)
       motion%v = v
       ending = merge(at_rest, 0, rests)
-      call aim(record, motion)
+      call aim(constants%gravity, record, motion)
       if (present(trace)) then
          call add_row(motion, record, trace)
          if (.not. trace%lacks_memory) trace%after_impact(trace%rows) = .true.
