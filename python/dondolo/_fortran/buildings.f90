@@ -34,11 +34,12 @@ contains
       call send(parcel, error, sent, stat, message)
    end subroutine describe_building
 
-   !> Motion of the floor under a record. Integers: into how many parts each step is divided; reals: its samples
-   subroutine floor_motion(acceleration, k, dt, numbers, n, given, q, sent, stat, message)
+   !> Motion of the floor under a record, which has a vertical component where m = k. Integers: into how many parts each step
+   !> is divided; reals: its samples, and those of its vertical component
+   subroutine floor_motion(acceleration, k, vertical, m, dt, numbers, n, given, q, sent, stat, message)
       !f2py threadsafe
-      integer(c_int), intent(in) :: k, n, q, given(q)
-      real(c_double), intent(in) :: acceleration(k), dt, numbers(n)
+      integer(c_int), intent(in) :: k, m, n, q, given(q)
+      real(c_double), intent(in) :: acceleration(k), vertical(m), dt, numbers(n)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -49,11 +50,13 @@ contains
 
       call set_building(building, numbers, given, error)
       if (.not. allocated(error)) call new_record(ground, acceleration, dt, '', error)
+      if (.not. allocated(error) .and. m == k) call ground%set_vertical(vertical, dt, 1.0_c_double, error)
       if (.not. allocated(error)) call check_room(error, samples=floor_samples(building, ground))
       if (.not. allocated(error)) call filter_record(building, ground, floor, error)
       if (.not. allocated(error)) then
          parcel%integers = [building%parts(dt)]
          parcel%reals = floor%acceleration
+         if (m == k) parcel%reals = [floor%acceleration, floor%vertical]
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine floor_motion

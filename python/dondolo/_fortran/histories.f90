@@ -2,7 +2,7 @@
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
-   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_ensemble, only : check_engine, check_vertical, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : check_floor, floors_type
    use dondolo_handles, only : find_suite, find_walls
@@ -20,7 +20,7 @@ module histories
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors, warn_of_records
+   use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, warn_of_records
    implicit none
    private
 
@@ -57,6 +57,7 @@ contains
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
       if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error)
+      if (.not. allocated(error)) call check_vertical(solver, records, error)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
@@ -147,6 +148,7 @@ contains
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
       if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error)
+      if (.not. allocated(error)) call check_vertical(solver, records, error)
       do i = 1, k
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)
@@ -163,10 +165,10 @@ contains
    end subroutine run_scaled
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
-   subroutine warn_of_motion(walls, record, pga, sent, stat, message)
+   subroutine warn_of_motion(walls, record, pga, fall, sent, stat, message)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: record
-      real(c_double), intent(in) :: pga
+      real(c_double), intent(in) :: pga, fall
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -183,6 +185,9 @@ contains
          call oddities%warn(warnings)
          records(1)%name = record
          call warn_of_records(records, [pga], people(1)%gravity, warnings)
+         ! As the largest downward acceleration says it, without the record
+         records(1)%vertical = [-fall]
+         call warn_of_fall(records(1), 1.0_c_double, people(1)%gravity, warnings)
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)

@@ -41,8 +41,11 @@ def _default_settings() -> FloatArray:
     return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
 
 
-def warnings_of_motion(wall: Handle, record: str, pga: float) -> list[DondoloWarning]:
-    """What the executable would warn of, of a wall and a record, before it runs one motion."""
+def warnings_of_motion(wall: Handle, record: str, pga: float, fall: float) -> list[DondoloWarning]:
+    """What the executable would warn of, of a wall and a record, before it runs one motion.
+
+    Of the record: its PGA, and the largest downward acceleration of the ground as scaled [m/s2].
+    """
     return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga)).lines)
 
 

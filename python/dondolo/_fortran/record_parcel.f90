@@ -1,4 +1,5 @@
-!> Records across the boundary: one array of samples with their lengths, time steps and names (one a line).
+!> Records across the boundary: one array of samples with their lengths, time steps and names (one a line), and one of the
+!> samples of those vertical components that there are.
 module dondolo_record_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : check_room, next_line
@@ -13,7 +14,7 @@ module dondolo_record_parcel
 contains
 
    !> Make records of what Python has checked when it made its own
-   subroutine set_records(records, names, lengths, dt, acceleration, error)
+   subroutine set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
       !> The records
       type(record_type), allocatable, intent(out) :: records(:)
       !> Their names, one a line
@@ -24,21 +25,30 @@ contains
       real(c_double), intent(in) :: dt(:)
       !> All samples, one record after the other [m/s2]
       real(c_double), intent(in) :: acceleration(:)
+      !> 1 for a record with a vertical component, else 0
+      integer(c_int), intent(in) :: have_vertical(:)
+      !> All samples of these, one after the other [m/s2]
+      real(c_double), intent(in) :: vertical(:)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, from, at
+      integer :: i, from, from_vertical, at
 
-      call check_room(error, records=size(lengths), samples=real(size(acceleration), c_double))
+      call check_room(error, records=size(lengths), samples=real(size(acceleration), c_double) &
+         & + real(size(vertical), c_double))
       if (allocated(error)) return
       allocate (records(size(lengths)))
       from = 0
+      from_vertical = 0
       at = 1
       do i = 1, size(records)
          call next_line(names, at, records(i)%name)
          records(i)%dt = dt(i)
          records(i)%acceleration = acceleration(from + 1:from + lengths(i))
          from = from + lengths(i)
+         if (have_vertical(i) == 0) cycle
+         records(i)%vertical = vertical(from_vertical + 1:from_vertical + lengths(i))
+         from_vertical = from_vertical + lengths(i)
       end do
    end subroutine set_records
 
@@ -46,26 +56,34 @@ contains
    subroutine pack_records(records, parcel, error)
       !> The records
       type(record_type), intent(in) :: records(:)
-      !> Integers: lengths, numbers of metadata; reals: time steps, all samples; text: names, then keys and values
+      !> Integers: lengths, numbers of metadata, numbers of samples of vertical components; reals: time steps, all samples,
+      !> those of vertical components; text: names, then keys and values
       type(parcel_type), intent(inout) :: parcel
       !> Lack of memory to send them
       type(error_type), allocatable, intent(out) :: error
 
       real(c_double), allocatable :: reals(:)
-      integer :: i, k, from, lengths(size(records))
+      integer :: i, k, from, lengths(size(records)), verticals(size(records))
 
       lengths = [(size(records(i)%acceleration), i=1, size(records))]
-      call check_room(error, records=size(records), samples=sum(real(lengths, c_double)))
+      verticals = [(merge(lengths(i), 0, allocated(records(i)%vertical)), i=1, size(records))]
+      call check_room(error, records=size(records), samples=sum(real(lengths + verticals, c_double)))
       if (allocated(error)) return
       call parcel%add(lengths)
       call parcel%add([(records(i)%metadata%count(), i=1, size(records))])
-      allocate (reals(size(records) + sum(lengths)))
+      call parcel%add(verticals)
+      allocate (reals(size(records) + sum(lengths) + sum(verticals)))
       from = size(records)
       do i = 1, size(records)
          call parcel%lines%add(records(i)%name)
          reals(i) = records(i)%dt
          reals(from + 1:from + lengths(i)) = records(i)%acceleration
          from = from + lengths(i)
+      end do
+      do i = 1, size(records)
+         if (verticals(i) == 0) cycle
+         reals(from + 1:from + verticals(i)) = records(i)%vertical
+         from = from + verticals(i)
       end do
       call parcel%add(reals)
       do i = 1, size(records)

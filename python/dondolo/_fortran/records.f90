@@ -31,10 +31,10 @@ module records
 contains
 
    !> Upload records that Python has checked: a suite
-   subroutine new_suite(names, lengths, dt, r, acceleration, n, handle, stat, message)
+   subroutine new_suite(names, lengths, dt, r, acceleration, n, have_vertical, vertical, k, handle, stat, message)
       character(len=*), intent(in) :: names
-      integer(c_int), intent(in) :: r, n, lengths(r)
-      real(c_double), intent(in) :: dt(r), acceleration(n)
+      integer(c_int), intent(in) :: r, n, k, lengths(r), have_vertical(r)
+      real(c_double), intent(in) :: dt(r), acceleration(n), vertical(k)
       integer(c_int64_t), intent(out) :: handle
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -44,7 +44,7 @@ contains
       type(error_type), allocatable :: error
 
       handle = 0
-      call set_records(records, names, lengths, dt, acceleration, error)
+      call set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
       if (.not. allocated(error)) then
          allocate (suite)
          call make_suite(suite, records)
@@ -73,11 +73,11 @@ contains
       call report(error, stat, message)
    end subroutine measure_suite
 
-   !> Check what a record is to be made of
-   subroutine check_record(acceleration, n, dt, pga, stat, message)
+   !> Check what a record is to be made of; with k = 1 it has a vertical component
+   subroutine check_record(acceleration, n, dt, vertical, m, k, pga, stat, message)
       !f2py threadsafe
-      integer(c_int), intent(in) :: n
-      real(c_double), intent(in) :: acceleration(n), dt
+      integer(c_int), intent(in) :: n, m, k
+      real(c_double), intent(in) :: acceleration(n), dt, vertical(m)
       real(c_double), intent(out) :: pga
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -87,6 +87,7 @@ contains
       pga = 0
       call check_room(error, samples=real(n, c_double))
       if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
+      if (.not. allocated(error) .and. k == 1) call record%set_vertical(vertical, dt, 1.0_c_double, error)
       if (.not. allocated(error)) pga = record%pga()
       call report(error, stat, message)
    end subroutine check_record
@@ -231,12 +232,12 @@ contains
    end subroutine significant_times
 
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
-   !> where they are not given. Integers before those of pack_records: number of records, and of a catalogue with levels the
+   !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Integers before those of pack_records: number of records, and of a catalogue with levels the
    !> record of each row; reals before them: level and factor of each row, 0 where it has none
-   subroutine read_records(path, what, dt_given, dt, units, channel, layout, sent, stat, message)
+   subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent, stat, message)
       character(len=*), intent(in) :: path, units, channel, layout
-      integer(c_int), intent(in) :: what, dt_given
-      real(c_double), intent(in) :: dt
+      integer(c_int), intent(in) :: what, dt_given, vertical
+      real(c_double), intent(in) :: dt, vertical_factor
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -244,17 +245,18 @@ contains
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       character(len=:), allocatable :: note
-      real(c_double), allocatable :: step
+      real(c_double), allocatable :: step, factor
       type(record_rows_type) :: rows
 
-      ! A step that is not allocated is an argument that is not present
+      ! A step or a factor that is not allocated is an argument that is not present
       if (dt_given == 1) step = dt
+      if (vertical == 1) factor = vertical_factor
       select case (what)
       case (0)
          allocate (records(1))
          call read_record(path, records(1), error, step, units, channel, layout)
       case (1)
-         call read_catalogue(path, records, error, note, rows)
+         call read_catalogue(path, records, error, note, rows, factor)
       case default
          call read_all(path, records, error, step, units, layout)
       end select

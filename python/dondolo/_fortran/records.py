@@ -22,6 +22,7 @@ class RecordData(NamedTuple):
     dt: float
     acceleration: FloatArray
     metadata: dict[str, str]
+    vertical: FloatArray | None = None
 
 
 class MeasureData(NamedTuple):
@@ -49,7 +50,9 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
     """Records out of a parcel, from given places on."""
     lengths = parcel.integers[integers : integers + count]
     entries = parcel.integers[integers + count : integers + 2 * count]
+    verticals = parcel.integers[integers + 2 * count : integers + 3 * count]
     ends = reals + count + np.cumsum(lengths)
+    vertical_ends = reals + count + lengths.sum() + np.cumsum(verticals)
     ends_of_metadata = lines + count + 2 * np.cumsum(entries)
     records = []
     for i in range(count):
@@ -60,6 +63,7 @@ def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0
                 float(parcel.reals[reals + i]),
                 parcel.reals[ends[i] - lengths[i] : ends[i]],
                 dict(zip(words[::2], words[1::2], strict=True)),
+                parcel.reals[vertical_ends[i] - verticals[i] : vertical_ends[i]] if verticals[i] else None,
             )
         )
     return records
@@ -77,19 +81,21 @@ def records_of_file(
     units: str | None = None,
     channel: str | None = None,
     layout: str | None = None,
+    vertical_factor: float | None = None,
 ) -> tuple[list[RecordData], tuple[NDArray[np.int32], FloatArray, FloatArray]]:
     """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2).
 
-    Of a catalogue with levels also the record (from 1), level and factor of each row, 0 where it has none; else empty.
+    Vertical components are read with a factor on them. Of a catalogue with levels also the record (from 1), level and factor of each row, 0 where it has none; else empty.
     """
     step = 0.0 if dt is None else as_number("dt", dt)
     texts = (
         b"" if text is None else as_text(name, text)
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
-    parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts))
+    vertical = (0, 0.0) if vertical_factor is None else (1, vertical_factor)
+    parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))
     count = int(parcel.integers[0])
-    rows = len(parcel.integers) - 1 - 2 * count
+    rows = len(parcel.integers) - 1 - 3 * count
     warn_of_notes(parcel.lines[records_end(parcel, count, 1 + rows) :])
     level, factor = parcel.reals[: 2 * rows].reshape(2, rows)
     return unpack_records(parcel, count, 2 * rows, 1 + rows), (parcel.integers[1 : 1 + rows], level, factor)

@@ -58,6 +58,9 @@ class Response(Shown, Saved):
         after the end of the record are marked too, so that there may be more of them than `impacts`.
     edp_error : float or None
         Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
+    uplift : bool
+        Whether the ground, scaled, accelerates downwards by g or more at some instant: the wall is without support
+        there, which the model does not describe. No collapse.
     """
 
     wall: Wall
@@ -75,6 +78,11 @@ class Response(Shown, Saved):
     side: np.ndarray[Any, np.dtype[np.int8]] | None = None
     after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
+
+    @property
+    def uplift(self) -> bool:
+        vertical = self.record.vertical
+        return vertical is not None and bool(abs(self.scale) * -vertical.min() >= self.wall.gravity)
 
     @property
     def peak_rotation(self) -> float:
@@ -260,7 +268,8 @@ def simulate(
             int(history),
         )
     check(stat, message)
-    if sentences := _warnings(wall, record.name, record.peak_acceleration):
+    fall = 0.0 if record.vertical is None else -abs(factor) * float(record.vertical.min())
+    if sentences := _warnings(wall, record.name, record.peak_acceleration, fall):
         warn(sentences)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
@@ -287,9 +296,9 @@ def simulate(
 
 
 @functools.lru_cache
-def _warnings(wall: Wall, record: str, pga: float) -> list[DondoloWarning]:
+def _warnings(wall: Wall, record: str, pga: float, fall: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return warnings_of_motion(upload((wall,)), record, pga)
+    return warnings_of_motion(upload((wall,)), record, pga, fall)
 
 
 def history_table(response: Response) -> tables.Table:

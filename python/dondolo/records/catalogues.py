@@ -135,7 +135,7 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
         folder.mkdir(exist_ok=True)
     except OSError as error:
         raise DondoloError(f"{folder}: cannot be written: {error.strerror}") from error
-    files = {}
+    files, verticals = {}, {}
     for i, record in enumerate(each, 1):
         stem = re.sub(r"[^A-Za-z0-9_.-]+", "_", record.name)[:80]
         files[record] = f"{folder.name}/{i:0{len(str(len(each)))}d}_{stem}.txt"
@@ -143,12 +143,18 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
         lines = [f"# {key}: {' '.join(value.split())}" for key, value in about.items()]
         lines += ["# units: m/s2", f"# dt: {record.dt!r}", *map(repr, record.acceleration.tolist())]
         tables.write_lines(target.parent / files[record], lines)
+        if record.vertical is not None:
+            verticals[record] = files[record].removesuffix(".txt") + "_vertical.txt"
+            lines = ["# units: m/s2", f"# dt: {record.dt!r}", *map(repr, record.vertical.tolist())]
+            tables.write_lines(target.parent / verticals[record], lines)
     table: tables.Table = {
         "file": [files[record] for record in records],
         "name": [record.name for record in records],
         "dt_s": [tables.shortest(record.dt) for record in records],
         "units": ["m/s2"] * len(records),
     }
+    if verticals:
+        table["vertical"] = [verticals.get(record, "") for record in records]
     for what in ("level", "factor"):
         values = getattr(records, what)
         if values is not None:

@@ -130,9 +130,8 @@ def resample(record: Motion, dt: float) -> tuple[FloatArray, str, float]:
     return filtered[:inside], text, record.dt * down / up
 
 
-def trim(record: Motion, low: float, high: float, before: float, after: float) -> tuple[FloatArray, str]:
-    """Cut a record to its significant duration."""
-    values = record.acceleration
+def trim(record: Motion, low: float, high: float, before: float, after: float) -> tuple[slice, str]:
+    """Samples of the significant duration of a record."""
     low, high, before, after = (
         as_number(*pair) for pair in (("low", low), ("high", high), ("before", before), ("after", after))
     )
@@ -143,9 +142,9 @@ def trim(record: Motion, low: float, high: float, before: float, after: float) -
             raise InputError(f"{what} = {margin:g} s: must not be negative")
     first, last = significant_times(record, low, high)
     start = max(0, int(np.floor((first - before) / record.dt)))
-    stop = min(len(values) - 1, int(np.ceil((last + after) / record.dt)))
+    stop = min(len(record) - 1, int(np.ceil((last + after) / record.dt)))
     text = (
         f"trimmed to {start * record.dt:.6g}-{stop * record.dt:.6g} s: {100.0 * low:g}-{100.0 * high:g} % of Arias' "
         f"integral, margins {before:g} and {after:g} s"
     )
-    return values[start : stop + 1], text
+    return slice(start, stop + 1), text

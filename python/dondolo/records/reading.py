@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+from typing import Literal
 
 import numpy as np
 
+from dondolo._base.arguments import as_number, one_of
 from dondolo._fortran.records import RecordData, records_of_file
 from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet
@@ -45,7 +47,7 @@ def read_record(
     """
     name = str(channel) if isinstance(channel, int) else channel
     ((data,), _) = records_of_file(path, 0, dt, units, name, format)
-    return _as_record(data)
+    return as_record(data)
 
 
 def read_records(
@@ -72,10 +74,15 @@ def read_records(
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [_as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
+    return [as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
 
 
-def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
+def read_catalogue(
+    path: str | os.PathLike[str],
+    *,
+    vertical: Literal["none", "recorded"] = "none",
+    vertical_factor: float = 1.0,
+) -> RecordSet:
     """Read all records of a catalogue.
 
     Parameters
@@ -84,6 +91,10 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
         A CSV table with the columns file, dt_s, units, channel and format; files are relative to its folder. The
         columns level and factor say which records run at which levels of intensity, and how they are scaled. All other
         columns are metadata of the records.
+    vertical : {'none', 'recorded'}
+        'recorded': each record has the vertical component that the column vertical of the catalogue names.
+    vertical_factor : float
+        Factor on it, beside that of the record in analyses; negative for components that are positive downwards.
 
     Returns
     -------
@@ -94,8 +105,10 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     InputError
         The catalogue or one of its records is wrong.
     """
-    several, (place, level, factor) = records_of_file(path, 1)
-    records = [_as_record(data) for data in several]
+    one_of("vertical", vertical, ("none", "recorded"))
+    on_vertical = as_number("vertical_factor", vertical_factor) if vertical == "recorded" else None
+    several, (place, level, factor) = records_of_file(path, 1, vertical_factor=on_vertical)
+    records = [as_record(data) for data in several]
     if not len(place):
         return RecordSet(records)
     given = factor if factor.any() else None
@@ -103,5 +116,6 @@ def read_catalogue(path: str | os.PathLike[str]) -> RecordSet:
     return RecordSet([records[i - 1] for i in place], level=rows[0], factor=rows[1])
 
 
-def _as_record(data: RecordData) -> Record:
-    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata)
+def as_record(data: RecordData) -> Record:
+    """A record as Fortran has read it."""
+    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata, vertical=data.vertical)

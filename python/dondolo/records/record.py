@@ -45,11 +45,15 @@ class Record:
         What was done to the record since it was read, a sentence a step; the methods that process it add theirs.
     metadata : mapping of str to str, optional
         What is known of the record.
+    vertical : array_like, shape (samples,), optional
+        Vertical ground acceleration at the same times, positive upwards [m/s2].
 
     Attributes
     ----------
     acceleration : ndarray of float64, read-only
         A copy of what was given.
+    vertical : ndarray of float64, read-only, or None
+        A copy of what was given. A wall is moved by both components; measures are those of the horizontal one.
     processing : tuple of str
         Steps of processing, the first first; () for a record as it was read.
     metadata : mapping of str to str, read-only
@@ -62,7 +66,7 @@ class Record:
     Raises
     ------
     InputError
-        A step that is not positive, a sample that is no acceleration, too few samples.
+        A step that is not positive, a sample that is no acceleration, too few samples; more or fewer vertical samples.
     """
 
     acceleration: FloatArray
@@ -70,6 +74,7 @@ class Record:
     name: str = "record"
     processing: tuple[str, ...] = ()
     metadata: Mapping[str, str] = field(default_factory=dict)
+    vertical: FloatArray | None = None
     peak_acceleration: float = field(init=False)
 
     def __init__(
@@ -80,6 +85,7 @@ class Record:
         *,
         processing: Iterable[str] = (),
         metadata: Mapping[str, str] = MappingProxyType({}),
+        vertical: ArrayLike | None = None,
     ) -> None:
         values = as_array("acceleration", acceleration).copy()
         step = as_number("dt", dt)
@@ -87,9 +93,16 @@ class Record:
         steps = (processing,) if isinstance(processing, str) else tuple(processing)
         for text in steps:
             as_text("processing", text)
-        peak, stat, message = _core.records.check_record(values, step)
+        upwards = None if vertical is None else as_array("vertical", vertical).copy()
+        # f2py takes no empty arrays
+        both = (np.zeros(1), 0) if upwards is None or not upwards.size else (upwards, 1)
+        if upwards is not None and not upwards.size:
+            raise InputError("vertical: must have as many samples as the record")
+        peak, stat, message = _core.records.check_record(values, step, *both)
         check(stat, message)
-        values.flags.writeable = False
+        for array in (values, upwards):
+            if array is not None:
+                array.flags.writeable = False
         if not isinstance(metadata, Mapping):
             raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
         known = MappingProxyType({str(key): str(value) for key, value in metadata.items()})
@@ -99,11 +112,52 @@ class Record:
             ("name", name),
             ("processing", steps),
             ("metadata", known),
+            ("vertical", upwards),
             ("peak_acceleration", peak),
         ):
             object.__setattr__(self, what, value)
 
-    def processed(self, acceleration: ArrayLike, step: str, *, dt: float | None = None) -> Record:
+    def with_vertical(self, vertical: Record | None, *, factor: float = 1.0) -> Record:
+        """The record with another record as its vertical component, or without one.
+
+        Parameters
+        ----------
+        vertical : Record or None
+            The vertical component, of the same step and number of samples; None: none.
+        factor : float
+            Factor on it, beside that of the record in analyses; -1 for a component that is positive downwards.
+
+        Returns
+        -------
+        Record
+
+        Raises
+        ------
+        InputError
+            Another step or number of samples; a factor that is not finite.
+
+        Notes
+        -----
+        docs/ground_motions.md, Vertical motion.
+        """
+        samples = None
+        if vertical is not None:
+            step = _as_record(vertical).dt
+            if abs(step - self.dt) > process.SAME_STEP * self.dt:
+                raise InputError(f"vertical: has a time step of {step:g} s, must have {self.dt:g} s as the record")
+            samples = as_number("factor", factor) * vertical.acceleration
+        return Record(
+            self.acceleration,
+            self.dt,
+            self.name,
+            processing=self.processing,
+            metadata=self.metadata,
+            vertical=samples,
+        )
+
+    def processed(
+        self, acceleration: ArrayLike, step: str, *, dt: float | None = None, vertical: ArrayLike | None = None
+    ) -> Record:
         """A record made from this one by a step of processing, one of your own for instance.
 
         Parameters
@@ -114,6 +168,8 @@ class Record:
             What was done, for `processing`.
         dt : float, optional
             The new time step [s], that of this record if left out.
+        vertical : array_like, shape (samples,), optional
+            The new samples of the vertical component [m/s2]. If left out, the new record has none.
 
         Returns
         -------
@@ -122,12 +178,19 @@ class Record:
         """
         steps = (*self.processing, step)
         dt = self.dt if dt is None else dt
-        return Record(acceleration, dt, self.name, processing=steps, metadata=self.metadata)
+        return Record(acceleration, dt, self.name, processing=steps, metadata=self.metadata, vertical=vertical)
+
+    def _filtered(self, filtered: Callable[[Record], tuple[FloatArray, str]]) -> Record:
+        """The record made by a step of processing, which its vertical component takes too: both stay in phase."""
+        values, step = filtered(self)
+        upwards = None if self.vertical is None else filtered(Record(self.vertical, self.dt, self.name))[0]
+        return self.processed(values, step, vertical=upwards)
 
     @cached_property
     def checksum(self) -> str:
         """CRC-32 of the samples and the time step: records with the same are one and the same motion."""
-        return f"{zlib.crc32(np.float64(self.dt).tobytes(), zlib.crc32(self.acceleration.tobytes())):08x}"
+        found = zlib.crc32(np.float64(self.dt).tobytes(), zlib.crc32(self.acceleration.tobytes()))
+        return f"{found if self.vertical is None else zlib.crc32(self.vertical.tobytes(), found):08x}"
 
     @property
     def event(self) -> str:
@@ -236,7 +299,7 @@ class Record:
         shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits a
         straight line).
         """
-        return self.processed(*process.correct_baseline(self, kind, order))
+        return self._filtered(lambda record: process.correct_baseline(record, kind, order))
 
     def band_pass(
         self,
@@ -280,7 +343,7 @@ class Record:
         motion and may drift, which `keep_padding` avoids (Boore 2005). ITACA tapers 2 to 5 % and filters with order 2
         (Paolucci et al. 2011).
         """
-        return self.processed(*process.band_pass(self, low, high, order, taper, keep_padding))
+        return self._filtered(lambda record: process.band_pass(record, low, high, order, taper, keep_padding))
 
     def resample(self, dt: float) -> Record:
         """The record with another time step.
@@ -308,8 +371,11 @@ class Record:
         makes a band-limited signal: frequencies above half the lower of the two sampling rates are taken out, which
         keeps them from coming back as lower ones, and the straight lines between samples are others than before.
         """
-        values, step, dt = process.resample(self, dt)
-        return self.processed(values, step, dt=dt)
+        values, step, new = process.resample(self, dt)
+        upwards = None
+        if self.vertical is not None:
+            upwards = process.resample(Record(self.vertical, self.dt, self.name), dt)[0]
+        return self.processed(values, step, dt=new, vertical=upwards)
 
     def trim(self, *, low: float = 0.05, high: float = 0.95, before: float = 1.0, after: float = 1.0) -> Record:
         """Cut to the significant duration.
@@ -336,7 +402,9 @@ class Record:
         Significant duration: Trifunac and Brady (1975). Ground acceleration is zero before a record begins and after it
         ends, so that a cut is a jump to zero: look at the margins.
         """
-        return self.processed(*process.trim(self, low, high, before, after))
+        kept, step = process.trim(self, low, high, before, after)
+        upwards = None if self.vertical is None else self.vertical[kept]
+        return self.processed(self.acceleration[kept], step, vertical=upwards)
 
     def on_floor(self, building: Building) -> Record:
         """The motion of a floor of a building under the record.
@@ -357,17 +425,17 @@ class Record:
         a record of a floor has measures of its own. docs/floors.md.
         """
         instance_of("building", building, Building, "no building")
-        values, parts = floor_motion(self.acceleration, self.dt, building._values())
-        return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts)
+        values, upwards, parts = floor_motion(self.acceleration, self.vertical, self.dt, building._values())
+        return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts, vertical=upwards)
 
     def reverse(self) -> Record:
-        """The record of the other polarity.
+        """The record of the other polarity; its vertical component stays as it is.
 
         Returns
         -------
         Record
         """
-        return self.processed(-self.acceleration, "reversed polarity")
+        return self.processed(-self.acceleration, "reversed polarity", vertical=self.vertical)
 
     def rotate(self, other: Record, angle: float) -> Record:
         """The component of this and another horizontal component in a direction.
@@ -382,7 +450,8 @@ class Record:
         Returns
         -------
         Record
-            self cos(angle) + other sin(angle), with the metadata that both share.
+            self cos(angle) + other sin(angle), with the metadata that both share, and with their vertical component if
+            both have the same.
 
         Raises
         ------
@@ -402,7 +471,9 @@ class Record:
         metadata = {key: value for key, value in self.metadata.items() if (key, value) in shared}
         name = f"{self.name} at {direction:g} degrees"
         values = component(self, other, direction)
-        return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata)
+        share = self.vertical is not None and other.vertical is not None and np.array_equal(self.vertical, other.vertical)
+        vertical = self.vertical if share else None
+        return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata, vertical=vertical)
 
     def rotd(self, other: Record, measure: str | Callable[[Record], float] = "pga", *, n_angles: int = 180) -> RotD:
         """Median and largest value of a measure over all directions of this and another horizontal component.
@@ -456,6 +527,7 @@ class Record:
             ("dt", f"{self.dt:.6g} s"),
             ("duration", f"{self.duration:.6g} s"),
             ("PGA", f"{self.peak_acceleration:.6g} m/s2"),
+            *(() if self.vertical is None else (("vertical PGA", f"{np.abs(self.vertical).max():.6g} m/s2"),)),
             *((key, self.metadata[key]) for key in ("event", "date", "station", "component") if key in self.metadata),
             *(("processing", step) for step in self.processing),
         ]
@@ -476,6 +548,8 @@ class Record:
         self.__dict__.update(state)
         self.__dict__["metadata"] = MappingProxyType(self.metadata)
         self.acceleration.flags.writeable = False
+        if self.__dict__.setdefault("vertical", None) is not None:
+            self.vertical.flags.writeable = False  # type: ignore[union-attr]
 
 
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:

@@ -96,8 +96,16 @@ class RecordSet(Shown, Saved):
         several = as_records(records)
         if len({record.name for record in several}) < len(several):
             # A record with several rows is one object, also where it comes from a file.
-            known: dict[tuple[str, float, bytes], Record] = {}
-            keys = ((record.name, record.dt, record.acceleration.tobytes()) for record in several)
+            known: dict[tuple[str, float, bytes, bytes], Record] = {}
+            keys = (
+                (
+                    record.name,
+                    record.dt,
+                    record.acceleration.tobytes(),
+                    b"" if record.vertical is None else record.vertical.tobytes(),
+                )
+                for record in several
+            )
             several = tuple(known.setdefault(key, record) for key, record in zip(keys, several, strict=True))
         object.__setattr__(self, "records", several)
         for what, given in (("level", level), ("factor", factor)):

@@ -21,6 +21,9 @@ class Motion(Protocol):
     def acceleration(self) -> FloatArray: ...
 
     @property
+    def vertical(self) -> FloatArray | None: ...
+
+    @property
     def dt(self) -> float: ...
 
     @property
@@ -45,11 +48,15 @@ def upload(records: tuple[Motion, ...]) -> Handle:
     suite: Handle | None = homes[0][0]
     if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
         return suite
+    verticals = [record.vertical for record in records if record.vertical is not None]
     handle, stat, message = _core.records.new_suite(
         "\n".join(record.name for record in records).encode(),
         np.array([len(record) for record in records], dtype=np.int32),
         np.array([record.dt for record in records]),
         np.concatenate([record.acceleration for record in records]),
+        np.array([record.vertical is not None for record in records], dtype=np.int32),
+        # f2py takes no empty arrays
+        np.concatenate(verticals or [np.zeros(1)]),
     )
     check(stat, message)
     suite = Handle(handle)

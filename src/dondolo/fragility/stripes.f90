@@ -9,6 +9,7 @@ module dondolo_stripes
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
+   use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_study, only : study_type
@@ -126,6 +127,11 @@ contains
             associate (record => stripes%record(i), set => motions%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
+               if (allocated(motions%records(record)%vertical)) then
+                  if (.not. starts(rest, motions%records(record), stripes%polarity(i)*stripes%scale(i, j))) &
+                     & work%still = work%still + 1
+                  cycle
+               end if
                ! The wall moves as soon as a sample lies outside what it can bear at rest.
                if (set%next_outside(record, 1, real(stripes%polarity(i), wp)*stripes%scale(i, j), -trigger, high) &
                   & > set%length(record)) work%still = work%still + 1
@@ -134,6 +140,21 @@ contains
       end do
       if (place > 0) call floors%give_back(place)
    end function planned_work
+
+   !> Does a record with a vertical component move a wall?
+   pure logical function starts(rest, record, scale)
+      type(rest_type), intent(in) :: rest
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+
+      real(wp) :: time, side
+      integer :: interval
+
+      interval = 1
+      time = 0.0_wp
+      call rest%next_start(record, scale, interval, time, side, starts)
+   end function starts
 
    !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
    subroutine run_histories(stripes, wall, study, threads, first, last, progress)

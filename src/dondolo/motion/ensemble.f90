@@ -18,7 +18,7 @@ module dondolo_ensemble
    implicit none
    private
 
-   public :: ensemble_type, run_ensemble, check_engine, name_engines
+   public :: ensemble_type, run_ensemble, check_engine, check_vertical, name_engines
 
    !> Histories of one wall
    type :: ensemble_type
@@ -122,6 +122,17 @@ contains
          text = 'lanes ('//trim(build_variant())//')'//text
       end if
    end subroutine name_engines
+
+   !> Check that an engine can follow the vertical components of records
+   subroutine check_vertical(solver, suite, error)
+      type(solver_type), intent(in) :: solver
+      type(suite_type), intent(in) :: suite
+      !> The engine lanes was asked for, and cannot
+      type(error_type), allocatable, intent(out) :: error
+
+      if (solver%engine == 'lanes' .and. suite%has_vertical()) call raise_input(error, 'engine = ''lanes'': '// &
+         & 'does not follow vertical motion; must be ''auto'' or ''rk45''')
+   end subroutine check_vertical
 
    !> Check that an engine can compute a mechanism
    subroutine check_engine(solver, mechanism, error)

@@ -101,6 +101,7 @@ contains
          call fingerprint%add_text(suite%records(i)%name)
          call fingerprint%add_reals([suite%records(i)%dt])
          call fingerprint%add_reals(suite%records(i)%acceleration)
+         if (allocated(suite%records(i)%vertical)) call fingerprint%add_reals(suite%records(i)%vertical)
       end do
       text = fingerprint%text()
    end function records_fingerprint

@@ -3,7 +3,7 @@
 !>
 !> With a column level a row is a record at a level of intensity, and a record may have several rows; where the cell is
 !> empty it runs at every level. With a column factor a cell is the factor on the record there, instead of one computed
-!> from the intensity measure.
+!> from the intensity measure. A column vertical names the vertical component of a record.
 !>
 !> Each record has a name of its own. Where the catalogue gives none and stems of files are the same, the names get the
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
@@ -29,8 +29,11 @@ module dondolo_catalogue
    real(wp), parameter :: bytes_of_row = 1000.0_wp
 
    !> Columns that say how a record is read and run; all others are metadata
-   character(len=7), parameter :: own_columns(8) = [character(len=7) :: 'file', 'dt_s', 'units', 'channel', 'format', &
-      & 'name', 'level', 'factor']
+   character(len=8), parameter :: own_columns(9) = [character(len=8) :: 'file', 'dt_s', 'units', 'channel', 'format', &
+      & 'name', 'vertical', 'level', 'factor']
+
+   !> How many of them say which record a row is of
+   integer, parameter :: columns_of_record = 7
 
    !> Rows of a catalogue
    type :: record_rows_type
@@ -49,7 +52,7 @@ module dondolo_catalogue
 contains
 
    !> Read all records of a catalogue
-   subroutine read_catalogue(file, records, error, note, rows)
+   subroutine read_catalogue(file, records, error, note, rows, vertical_factor)
       !> Path of the catalogue; files in it are relative to its folder
       character(len=*), intent(in) :: file
       !> The records, each once
@@ -60,6 +63,8 @@ contains
       character(len=:), allocatable, intent(out), optional :: note
       !> Its rows: which records run at which levels
       type(record_rows_type), intent(out), optional :: rows
+      !> Factor on the vertical components; absent: they are not read
+      real(wp), intent(in), optional :: vertical_factor
 
       type(csv_reader_type) :: table
       type(lines_type) :: paths, places, names
@@ -75,6 +80,8 @@ contains
       if (.not. allocated(error)) call table%open(file, error)
       if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s'), table%column('level'), &
          & table%column('factor')], error)
+      if (.not. allocated(error) .and. present(vertical_factor) .and. table%column('vertical') == 0) call raise_input( &
+         & error, file//': no column ''vertical'': must name the vertical component of each record')
       if (allocated(error)) return
       if (present(note)) note = table%note()
       runs%have_levels = table%column('level') > 0
@@ -96,6 +103,9 @@ contains
             count = count + 1
             earlier = count
             call read_row(table, several(count), error)
+            if (.not. allocated(error) .and. present(vertical_factor)) then
+               call read_vertical(table, several(count), vertical_factor, error)
+            end if
             if (allocated(error)) exit
             call paths%add(table%get_text(table%column('file')))
             call places%add(table%place())
@@ -127,6 +137,7 @@ contains
       call move_alloc(from%file, to%file)
       call move_alloc(from%acceleration, to%acceleration)
       if (allocated(from%vertical)) call move_alloc(from%vertical, to%vertical)
+      if (allocated(from%vertical_file)) call move_alloc(from%vertical_file, to%vertical_file)
       call move_alloc(from%metadata%entries, to%metadata%entries)
       to%dt = from%dt
    end subroutine move_record
@@ -141,7 +152,7 @@ contains
       integer :: i
 
       text = ''
-      do i = 1, 6
+      do i = 1, columns_of_record
          text = text//table%get_text(table%column(trim(own_columns(i))))//achar(0)
       end do
    end subroutine describe_source
@@ -291,41 +302,99 @@ contains
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: path, units
-      real(wp), allocatable :: dt
+      character(len=:), allocatable :: path
       integer :: i
-      logical :: exists
 
-      path = table%get_text(table%column('file'))
-      if (len_trim(path) == 0) then
-         call raise_input(error, table%place()//': file is empty: must name a file')
-         return
-      end if
-      associate (file => table%lines%file)
-         if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
-      end associate
-      inquire (file=path, exist=exists)
-      if (index(path, '\') > 0 .and. .not. exists) then
-         call raise_input(error, table%place()//': '//path//': no such file: folders must be separated by /, not \')
-         return
-      end if
-      units = table%get_text(table%column('units'))
-      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
-         allocate (dt)
-         call table%get_real(table%column('dt_s'), dt, error)
-      end if
-      ! A dt that is not allocated is an argument that is not present
-      if (.not. allocated(error)) call read_record(path, record, error, dt, units, &
-         & table%get_text(table%column('channel')), table%get_text(table%column('format')))
-      record%file = path
-      call add_place(error, table%place())
+      call find_path(table, 'file', path, error)
+      if (.not. allocated(error)) call read_component(table, path, table%get_text(table%column('channel')), record, error)
       if (allocated(error)) return
+      record%file = path
       do i = 1, size(table%columns)
          associate (title => table%columns(i)%text)
             if (.not. any(own_columns == lower(title))) call record%metadata%set(title, table%get_text(i))
          end associate
       end do
    end subroutine read_row
+
+   !> Read the vertical component of the record of a row: a channel of the same file where the record is one, else a file
+   subroutine read_vertical(table, record, factor, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> The record, which gets it
+      type(record_type), intent(inout) :: record
+      !> Factor on it
+      real(wp), intent(in) :: factor
+      !> It is not given, cannot be read, or does not belong to the record
+      type(error_type), allocatable, intent(out) :: error
+
+      type(record_type) :: vertical
+      character(len=:), allocatable :: path
+
+      if (len_trim(table%get_text(table%column('vertical'))) == 0) then
+         call raise_input(error, table%place()//': vertical is empty: must name the vertical component')
+      else if (len_trim(table%get_text(table%column('channel'))) > 0) then
+         call read_component(table, record%file, table%get_text(table%column('vertical')), vertical, error)
+      else
+         call find_path(table, 'vertical', path, error)
+         if (.not. allocated(error)) call read_component(table, path, '', vertical, error)
+         if (.not. allocated(error)) record%vertical_file = path
+      end if
+      if (allocated(error)) return
+      call record%set_vertical(vertical%acceleration, vertical%dt, factor, error)
+      call add_place(error, table%place())
+   end subroutine read_vertical
+
+   !> Path in a cell of a row, relative to the folder of the catalogue
+   subroutine find_path(table, name, path, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Path from the current folder
+      character(len=:), allocatable, intent(out) :: path
+      !> It is not given, or the folders in it are separated by a backslash
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: exists
+
+      path = table%get_text(table%column(name))
+      if (len_trim(path) == 0) then
+         call raise_input(error, table%place()//': '//name//' is empty: must name a file')
+         return
+      end if
+      associate (file => table%lines%file)
+         if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
+      end associate
+      inquire (file=path, exist=exists)
+      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place()//': '//path// &
+         & ': no such file: folders must be separated by /, not \')
+   end subroutine find_path
+
+   !> Read a component of the motion of a row, with the step, the units and the format that the row gives
+   subroutine read_component(table, path, channel, record, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Name or number of the channel; empty: the only one
+      character(len=*), intent(in) :: channel
+      type(record_type), intent(out) :: record
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: units
+      real(wp), allocatable :: dt
+
+      units = table%get_text(table%column('units'))
+      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
+         allocate (dt)
+         call table%get_real(table%column('dt_s'), dt, error)
+      end if
+      ! A dt that is not allocated is an argument that is not present
+      if (.not. allocated(error)) call read_record(path, record, error, dt, units, channel, &
+         & table%get_text(table%column('format')))
+      call add_place(error, table%place())
+   end subroutine read_component
 
    !> Does a path begin at the root?
    pure function is_absolute(path)

@@ -29,6 +29,8 @@ module dondolo_record
       character(len=:), allocatable :: name
       !> Path of its file; not allocated: it is of none
       character(len=:), allocatable :: file
+      !> Path of the file of its vertical component; not allocated: it is of none, or of the same file
+      character(len=:), allocatable :: vertical_file
       !> Time between two samples [s]
       real(wp) :: dt = 0.0_wp
       !> Ground acceleration at times 0, dt, 2 dt, ... [m/s2]
@@ -46,8 +48,8 @@ module dondolo_record
       procedure :: set_vertical
       !> Vertical ground acceleration at an instant
       procedure :: vertical_at
-      !> Whether vertical motion takes the wall off its base
-      procedure :: lifts_off
+      !> Largest downward acceleration of the ground
+      procedure :: largest_fall
    end type record_type
 
 contains
@@ -160,17 +162,14 @@ contains
       end associate
    end function vertical_at
 
-   !> Whether the ground, scaled, falls away from the wall at some instant: the model ends there
-   elemental logical function lifts_off(self, scale, gravity)
+   !> Largest downward acceleration of the ground, 0 without a vertical component [m/s2]. Where it reaches g the ground falls
+   !> away from a wall, and the model ends
+   elemental real(wp) function largest_fall(self)
       class(record_type), intent(in) :: self
-      !> Factor on the record; its sign does not matter
-      real(wp), intent(in) :: scale
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
 
-      lifts_off = .false.
-      if (allocated(self%vertical)) lifts_off = abs(scale)*minval(self%vertical) <= -gravity
-   end function lifts_off
+      largest_fall = 0.0_wp
+      if (allocated(self%vertical)) largest_fall = max(0.0_wp, -minval(self%vertical))
+   end function largest_fall
 
    !> Smallest and largest sample: several chains at once, since one alone waits for itself
    pure subroutine find_extremes(samples, lowest, highest)

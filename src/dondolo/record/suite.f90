@@ -36,6 +36,8 @@ module dondolo_suite
       type(record_set_type) :: set
       !> Their PGA [m/s2]
       real(wp), allocatable :: peaks(:)
+      !> Largest downward acceleration of the ground under each [m/s2]
+      real(wp), allocatable :: falls(:)
       !> Number of the cluster of each: histories of one cluster are no independent evidence
       integer, allocatable :: clusters(:)
       !> Measures that were asked for, and how many places are taken
@@ -61,6 +63,7 @@ contains
       call move_alloc(records, suite%records)
       call new_record_set(suite%set, suite%records)
       suite%peaks = suite%records%pga()
+      suite%falls = suite%records%largest_fall()
       allocate (suite%clusters(size(suite%records)))
       call cluster_records(suite%records, suite%clusters)
    end subroutine new_suite

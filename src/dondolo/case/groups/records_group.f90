@@ -2,6 +2,7 @@
 module dondolo_records_group
    use dondolo_error, only : error_type
    use dondolo_namelist_group, only : group_type
+   use dondolo_kinds, only : wp
    use dondolo_property, only : blank, choices_length, is_text, most_choices, property_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
@@ -12,13 +13,24 @@ module dondolo_records_group
    public :: records_input_type, read_records_group
    public :: records_properties
 
+   !> What is done with vertical components
+   character(len=choices_length), parameter :: vertical_names(2) = [character(len=choices_length) :: 'none', 'recorded']
+
+   !> Largest factor on vertical components
+   real(wp), parameter :: largest_factor = 100.0_wp
+
    !> Variables of the group
-   type(property_type), target, protected :: records_properties(2) = [ &
+   type(property_type), target, protected :: records_properties(4) = [ &
       & property_type('catalogue', is_text, required=.true., names='a CSV table with one row a record', &
       &   changes_results=.false., example='data/records/synthetic44.csv', meaning='table with one row a record, from '// &
-      &   'the folder of this file; its columns: file, dt_s, units, channel, format, and any others'), &
+      &   'the folder of this file; its columns: file, dt_s, units, channel, format, vertical, and any others'), &
       & property_type('polarity', is_text, word='as_recorded', meaning='polarity of the records; ''both'' not for a '// &
-      &   'time history', choices=reshape([character(len=choices_length) :: polarity_names], [most_choices], pad=blank))]
+      &   'time history', choices=reshape([character(len=choices_length) :: polarity_names], [most_choices], pad=blank)), &
+      & property_type('vertical', is_text, word='none', meaning='vertical ground motion: ''recorded'' takes the '// &
+      &   'components that the column vertical of the catalogue names', choices=reshape(vertical_names, [most_choices], &
+      &   pad=blank)), &
+      & property_type('vertical_factor', default=1.0_wp, smallest=-largest_factor, largest=largest_factor, &
+      &   meaning='factor on the vertical components beside that of their record; negative: they are positive downwards')]
 
    !> What is said of the accelerograms
    type :: records_input_type
@@ -26,6 +38,10 @@ module dondolo_records_group
       character(len=:), allocatable :: catalogue
       !> Polarity, one of polarity_names
       character(len=:), allocatable :: polarity
+      !> What is done with vertical components, one of vertical_names
+      character(len=:), allocatable :: vertical
+      !> Factor on them; not allocated: they are left out
+      real(wp), allocatable :: vertical_factor
    contains
       !> The same as settings
       procedure :: put
@@ -48,6 +64,12 @@ contains
       call read_settings(group, settings, error)
       records%catalogue = settings%word('catalogue')
       records%polarity = settings%word('polarity')
+      records%vertical = settings%word('vertical')
+      if (records%vertical == 'recorded') then
+         records%vertical_factor = settings%number('vertical_factor')
+      else if (group%has('vertical_factor') .and. .not. allocated(error)) then
+         call group%refuse('vertical_factor', 'only with vertical = ''recorded''', error)
+      end if
    end subroutine read_records_group
 
    !> What is said of the accelerograms, as settings
@@ -60,6 +82,8 @@ contains
       call new_settings(settings, records_properties)
       if (allocated(self%catalogue)) call settings%set('catalogue', self%catalogue)
       call settings%set('polarity', self%polarity)
+      call settings%set('vertical', self%vertical)
+      if (allocated(self%vertical_factor)) call settings%set('vertical_factor', self%vertical_factor)
    end subroutine put
 
 end module dondolo_records_group

@@ -259,7 +259,9 @@ contains
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
-      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows)
+      ! A factor that is not allocated is an argument that is not present
+      call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows, &
+         & case%records_input%vertical_factor)
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return

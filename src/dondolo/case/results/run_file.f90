@@ -79,6 +79,8 @@ contains
       call put_input('catalogue', beside(case%records_input%catalogue, case%file))
       do i = 1, size(case%suite%records)
          if (allocated(case%suite%records(i)%file)) call put_input('record', case%suite%records(i)%file)
+         if (allocated(case%suite%records(i)%vertical_file)) call put_input('vertical', &
+            & case%suite%records(i)%vertical_file)
       end do
       if (allocated(case%population_file)) call put_input('population', case%population_path())
       call json%close_array()
@@ -125,7 +127,11 @@ contains
             call json%open_object()
             call json%put('name', record%name)
             call json%put('event', label)
-            call json%put('checksum', crc32_of_reals([record%acceleration, record%dt]))
+            if (allocated(record%vertical)) then
+               call json%put('checksum', crc32_of_reals([record%acceleration, record%dt, record%vertical]))
+            else
+               call json%put('checksum', crc32_of_reals([record%acceleration, record%dt]))
+            end if
             call json%close_object()
          end associate
       end do

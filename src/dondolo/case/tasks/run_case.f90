@@ -21,7 +21,7 @@ module dondolo_run_case
    use dondolo_survey, only : check_size
    use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fit, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fall, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -61,6 +61,7 @@ contains
                & results%warnings)
          end associate
          associate (record => case%suite%records(case%history%record))
+            call warn_of_fall(record, case%history_scale(), case%wall%gravity, results%warnings)
             if (allocated(case%wall%building)) then
                call filter_record(case%wall%building, record, floor, error)
                if (allocated(error)) return
@@ -131,7 +132,7 @@ contains
          call plan_stripes(stripes, wall, study, error)
          if (allocated(error)) return
          call work%add(planned_work(stripes, wall, study))
-         call scales%look(stripes, case%suite%records)
+         call scales%look(stripes, case%suite%records, case%suite%falls, wall%gravity)
       end subroutine plan_wall
 
    end subroutine plan_case
@@ -159,7 +160,7 @@ contains
       if (allocated(error)) return
       results%work = stripes%work
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
-      call scales%look(stripes, case%suite%records)
+      call scales%look(stripes, case%suite%records, case%suite%falls, case%wall%gravity)
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
       call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)

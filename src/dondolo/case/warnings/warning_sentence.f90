@@ -44,6 +44,16 @@ contains
          text = 'record '''//record//''': '//text
          if (warning%value('records') > 1.0_wp) text = text//' ('//to_text(warning%value('records_beyond'))//' of '// &
             & to_text(warning%value('records'))//' records)'
+      case ('vertical_beyond_g')
+         text = 'the ground accelerates downwards by more than g'
+         if (warning%value('histories') > 0.0_wp) then
+            text = text//' in '//to_text(warning%value('histories_beyond'))//' of '// &
+               & to_text(warning%value('histories'))//' histories (record '''//record//''' from level '// &
+               & rounded(warning%value('level'))//' on)'
+         else
+            text = text//' (record '''//record//''')'
+         end if
+         text = text//': it leaves the wall without support, which the model does not describe'
       case ('scale_factors_large')
          text = 'scale factors above '//to_text(warning%value('limit'))//' in '// &
             & to_text(warning%value('histories_beyond'))//' of '//to_text(warning%value('histories'))// &

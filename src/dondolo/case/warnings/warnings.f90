@@ -14,7 +14,7 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, fit_warning_type, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors
+   public :: scale_warning_type, fit_warning_type, warn_of_fall, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -37,6 +37,10 @@ module dondolo_warnings
       real(wp) :: level = 0.0_wp
       !> Its record
       character(len=:), allocatable :: record
+      !> Histories in which the ground falls away from the wall, and level and record of the first
+      integer(int64) :: lifting = 0
+      real(wp) :: lifting_level = 0.0_wp
+      character(len=:), allocatable :: lifting_record
    contains
       !> Look at the factors of a wall
       procedure :: look
@@ -70,14 +74,19 @@ module dondolo_warnings
 contains
 
    !> Look at the factors of a wall
-   subroutine look(self, stripes, records)
+   subroutine look(self, stripes, records, falls, gravity)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
       type(record_type), intent(in) :: records(:)
+      !> Largest downward acceleration of the ground under each [m/s2]
+      real(wp), intent(in) :: falls(:)
+      !> What g is for the wall [m/s2]
+      real(wp), intent(in) :: gravity
 
-      integer :: at(2)
+      logical :: lifts(size(stripes%record))
+      integer :: at(2), j
 
       self%histories = self%histories + count(stripes%ran, kind=int64)
       self%large = self%large + count(stripes%scale > large_scale, kind=int64)
@@ -87,6 +96,15 @@ contains
          if (stripes%im == 'pga') self%usual = largest_pga
          if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
       end if
+      do j = 1, size(stripes%levels)
+         if (.not. any(falls > 0.0_wp)) exit
+         lifts = stripes%scale(:, j)*falls(stripes%record) >= gravity
+         if (self%lifting == 0 .and. any(lifts)) then
+            self%lifting_level = stripes%levels(j)
+            self%lifting_record = records(stripes%record(findloc(lifts, .true., dim=1)))%name
+         end if
+         self%lifting = self%lifting + count(lifts, kind=int64)
+      end do
       at = maxloc(stripes%scale)
       if (.not. stripes%scale(at(1), at(2)) > self%largest) return
       self%largest = stripes%scale(at(1), at(2))
@@ -110,6 +128,14 @@ contains
          call warning%with('limit', self%usual)
          call warnings%add(warning)
       end if
+      if (self%lifting > 0) then
+         warning = warning_type('vertical_beyond_g')
+         call warning%about('record', self%lifting_record)
+         call warning%with('histories_beyond', self%lifting)
+         call warning%with('histories', self%histories)
+         call warning%with('level', self%lifting_level)
+         call warnings%add(warning)
+      end if
       if (self%large == 0) return
       warning = warning_type('scale_factors_large')
       call warning%about('record', self%record)
@@ -120,6 +146,24 @@ contains
       call warning%with('level', self%level)
       call warnings%add(warning)
    end subroutine warn
+
+   !> Warn of a motion in which the ground falls away from the wall
+   subroutine warn_of_fall(record, scale, gravity, warnings)
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+
+      if (.not. abs(scale)*record%largest_fall() >= gravity) return
+      warning%code = 'vertical_beyond_g'
+      call warning%about('record', record%name)
+      call warnings%add(warning)
+   end subroutine warn_of_fall
 
    !> Warn of records without motion, and of those whose PGA no accelerograph has measured
    subroutine warn_of_records(records, peaks, gravity, warnings)
