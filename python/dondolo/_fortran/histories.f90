@@ -2,7 +2,7 @@
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
-   use dondolo_ensemble, only : check_engine, check_vertical, ensemble_type, run_ensemble
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : check_floor, floors_type
    use dondolo_handles, only : find_suite, find_walls
@@ -56,8 +56,8 @@ contains
       solver = as_solver(engine, settings)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error)
-      if (.not. allocated(error)) call check_vertical(solver, records, error)
+      if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error, &
+         & records%has_vertical())
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
@@ -147,8 +147,7 @@ contains
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_vertical(solver, records, error)
+      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical())
       do i = 1, k
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)

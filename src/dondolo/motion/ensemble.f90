@@ -18,7 +18,7 @@ module dondolo_ensemble
    implicit none
    private
 
-   public :: ensemble_type, run_ensemble, check_engine, check_vertical, name_engines
+   public :: ensemble_type, run_ensemble, check_engine, name_engines
 
    !> Histories of one wall
    type :: ensemble_type
@@ -78,7 +78,7 @@ contains
       integer :: number
 
       variant = build_variant()
-      if (solver%engine /= 'rk45' .and. .not. suite%has_vertical()) constants = new_lane_constants(mechanism, solver)
+      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
       !$omp & shared(variant, constants, mechanism, suite, solver, queue, work)
       own = work_type()
@@ -123,30 +123,21 @@ contains
       end if
    end subroutine name_engines
 
-   !> Check that an engine can follow the vertical components of records
-   subroutine check_vertical(solver, suite, error)
-      type(solver_type), intent(in) :: solver
-      type(suite_type), intent(in) :: suite
-      !> The engine lanes was asked for, and cannot
-      type(error_type), allocatable, intent(out) :: error
-
-      if (solver%engine == 'lanes' .and. suite%has_vertical()) call raise_input(error, 'engine = ''lanes'': '// &
-         & 'does not follow vertical motion; must be ''auto'' or ''rk45''')
-   end subroutine check_vertical
-
    !> Check that an engine can compute a mechanism
-   subroutine check_engine(solver, mechanism, error)
+   subroutine check_engine(solver, mechanism, error, is_shaken)
       type(solver_type), intent(in) :: solver
       class(mechanism_type), intent(in) :: mechanism
       !> The engine lanes was asked for, and cannot; or a build variant that there is not
       type(error_type), allocatable, intent(out) :: error
+      !> Is there vertical motion? No, if absent
+      logical, intent(in), optional :: is_shaken
 
       type(lane_constants_type) :: constants
 
       call check_variant(error)
       if (allocated(error)) return
       if (solver%engine /= 'lanes') return
-      constants = new_lane_constants(mechanism, solver)
+      constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
          & 'must be ''auto'' or ''rk45'', or another edp_limit')

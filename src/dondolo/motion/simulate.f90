@@ -57,15 +57,17 @@ contains
    end subroutine simulate
 
    !> Check that an engine can compute one history
-   subroutine check_history(solver, mechanism, with_trace, error)
+   subroutine check_history(solver, mechanism, with_trace, error, is_shaken)
       type(solver_type), intent(in) :: solver
       class(mechanism_type), intent(in) :: mechanism
       !> Is its time history wanted?
       logical, intent(in) :: with_trace
       !> The engine lanes was asked for, and cannot
       type(error_type), allocatable, intent(out) :: error
+      !> Is there vertical motion? No, if absent
+      logical, intent(in), optional :: is_shaken
 
-      call check_engine(solver, mechanism, error)
+      call check_engine(solver, mechanism, error, is_shaken)
       if (allocated(error) .or. .not. (with_trace .and. solver%engine == 'lanes')) return
       call raise_input(error, 'engine = ''lanes'': gives no time history; must be ''auto'' or ''rk45''')
    end subroutine check_history

@@ -14,6 +14,8 @@ module dondolo_record_set
    type :: record_set_type
       !> Samples of all records one after another, with two zeros after each: the ground after the record [m/s2]
       real(wp), allocatable :: samples(:)
+      !> Their vertical components at the same places, zero for a record without one [m/s2]; not allocated: none has one
+      real(wp), allocatable :: verticals(:)
       !> Samples before the first of each record
       integer, allocatable :: offset(:)
       !> Number of samples of each record
@@ -22,11 +24,15 @@ module dondolo_record_set
       real(wp), allocatable, private :: lowest(:), highest(:)
       !> The same from each block to the end of its record [m/s2]
       real(wp), allocatable, private :: lowest_left(:), highest_left(:)
+      !> Smallest vertical sample of each block, and from each block to the end of its record [m/s2]
+      real(wp), allocatable, private :: lowest_vertical(:), lowest_vertical_left(:)
       !> Blocks before the first of each record
       integer, allocatable, private :: first_block(:)
    contains
       !> The next sample outside a range
       procedure :: next_outside
+      !> The next sample that may lie outside a range that varies with the vertical component
+      procedure :: next_outside_of_both
    end type record_set_type
 
 contains
@@ -69,7 +75,38 @@ contains
             end do
          end associate
       end do
+      do i = 1, size(records)
+         if (.not. allocated(records(i)%vertical)) cycle
+         call add_verticals(set, records)
+         return
+      end do
    end subroutine new_record_set
+
+   !> Join the vertical components of records
+   pure subroutine add_verticals(set, records)
+      !> Samples of the records together
+      type(record_set_type), intent(inout) :: set
+      type(record_type), intent(in) :: records(:)
+
+      real(wp) :: ignored
+      integer :: i, j, k
+
+      allocate (set%verticals(size(set%samples)), set%lowest_vertical(size(set%lowest)), source=0.0_wp)
+      allocate (set%lowest_vertical_left(size(set%lowest)))
+      do i = 1, size(records)
+         associate (before => set%offset(i), n => set%length(i), first => set%first_block(i))
+            if (allocated(records(i)%vertical)) set%verticals(before + 1:before + n) = records(i)%vertical
+            do k = (n - 1)/block_size, 0, -1
+               j = first + k + 1
+               call find_extremes(set%verticals(before + k*block_size + 1:before + min((k + 1)*block_size, n)), &
+                  & set%lowest_vertical(j), ignored)
+               set%lowest_vertical_left(j) = set%lowest_vertical(j)
+               if (k < (n - 1)/block_size) set%lowest_vertical_left(j) = min(set%lowest_vertical(j), &
+                  & set%lowest_vertical_left(j + 1))
+            end do
+         end associate
+      end do
+   end subroutine add_verticals
 
    !> The next sample that, scaled, lies outside a range
    pure integer function next_outside(self, record, first, scale, low, high) result(sample)
@@ -111,5 +148,61 @@ contains
       end function is_outside
 
    end function next_outside
+
+   !> The next sample that, scaled, may lie outside a range that widens with the vertical component: none before it does. Whoever
+   !> asks looks closer
+   pure integer function next_outside_of_both(self, record, first, scale, trigger, widening, both_sides) result(sample)
+      class(record_set_type), intent(in) :: self
+      !> Number of the record, which has a vertical component
+      integer, intent(in) :: record
+      !> Sample to begin with, from 1
+      integer, intent(in) :: first
+      !> Factor on the samples; its sign is for the horizontal ones
+      real(wp), intent(in) :: scale
+      !> The range without vertical motion: it begins at minus this [m/s2]
+      real(wp), intent(in) :: trigger
+      !> What its ends move outwards by for a unit of vertical acceleration
+      real(wp), intent(in) :: widening
+      !> Does it end at the trigger? Otherwise it has no upper end
+      logical, intent(in) :: both_sides
+
+      ! Rounding must not hide a sample.
+      real(wp), parameter :: margin = 1.0e-9_wp
+      integer :: block
+
+      sample = first
+      do while (sample <= self%length(record))
+         block = self%first_block(record) + (sample - 1)/block_size + 1
+         if (may_be_outside(self%lowest(block), self%highest(block), self%lowest_vertical(block))) then
+            do sample = sample, min(((sample - 1)/block_size + 1)*block_size, self%length(record))
+               associate (a => self%samples(self%offset(record) + sample), v => self%verticals(self%offset(record) + sample))
+                  if (may_be_outside(a, a, v)) return
+               end associate
+            end do
+         else if (.not. may_be_outside(self%lowest_left(block), self%highest_left(block), &
+            & self%lowest_vertical_left(block))) then
+            exit
+         else
+            sample = ((sample - 1)/block_size + 1)*block_size + 1
+         end if
+      end do
+      sample = self%length(record) + 1
+
+   contains
+
+      !> May samples lie outside?
+      pure logical function may_be_outside(lowest, highest, vertical)
+         !> The smallest and the largest of them, and the smallest vertical sample [m/s2]
+         real(wp), intent(in) :: lowest, highest, vertical
+
+         real(wp) :: limit
+
+         limit = trigger + widening*abs(scale)*vertical
+         limit = limit - margin*(trigger + abs(limit))
+         may_be_outside = min(scale*lowest, scale*highest) < -limit &
+            & .or. (both_sides .and. max(scale*lowest, scale*highest) > limit)
+      end function may_be_outside
+
+   end function next_outside_of_both
 
 end module dondolo_record_set

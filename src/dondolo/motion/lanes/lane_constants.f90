@@ -23,15 +23,17 @@ module dondolo_lane_constants
 contains
 
    !> Constants of a mechanism
-   pure function new_lane_constants(mechanism, solver) result(constants)
+   pure function new_lane_constants(mechanism, solver, is_shaken) result(constants)
       class(mechanism_type), intent(in) :: mechanism
       !> Tolerances and limit
       type(solver_type), intent(in) :: solver
+      !> Is there vertical motion? No, if absent
+      logical, intent(in), optional :: is_shaken
       !> Its constants
       type(lane_constants_type) :: constants
 
       constants%wall_constants_type = new_wall_constants(mechanism, solver)
-      constants%form = new_normal_form(mechanism, constants%limit)
+      constants%form = new_normal_form(mechanism, constants%limit, is_shaken)
       if (constants%form%exists) then
          constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
       end if

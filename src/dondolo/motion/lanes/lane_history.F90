@@ -88,7 +88,7 @@ contains
             d(2) = starting_acceleration(d(0), d(1), d(2))
             h = lanes%step(i)
             if (lanes%flag(i) == step_too_long) then
-               h = allowed_step(d, h, smallest_step*lanes%dt(i), constants%form%fifth(lanes%u(i)), &
+               h = allowed_step(d, h, smallest_step*lanes%dt(i), constants%form%fifth(lanes%u(i), lanes%heavier(i)), &
                   & constants%solver%rtol, constants%atol)
                if (h < lanes%step(i)) then
                   lanes%next_span(i) = h
@@ -102,9 +102,9 @@ contains
             lanes%y(i) = y
             lanes%v(i) = v
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
-               call next_sample(lanes, i, batch%set%samples)
+               call next_sample(lanes, i, batch%set)
             else
-               call stop_between(lanes, i, batch%set%samples, h)
+               call stop_between(lanes, i, batch%set, h)
                if (event /= no_event) call limit_span(lanes, i, constants%solver%steps_per_sample)
             end if
             select case (event)
@@ -129,35 +129,42 @@ contains
    end subroutine resolve
 
    !> The lane reaches its next sample
-   pure subroutine next_sample(lanes, i, samples)
+   pure subroutine next_sample(lanes, i, set)
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
-      !> Samples of all records [m/s2]
-      real(wp), intent(in) :: samples(:)
+      !> Accelerograms
+      type(record_set_type), intent(in) :: set
 
       lanes%time(i) = 0.0_wp
       lanes%next(i) = lanes%next(i) + 1
       lanes%u(i) = lanes%u_next(i)
-      lanes%u_next(i) = lanes%factor(i)*samples(lanes%next(i))
+      lanes%u_next(i) = lanes%factor(i)*set%samples(lanes%next(i))
       lanes%slope(i) = (lanes%u_next(i) - lanes%u(i))*lanes%rate(i)
+      if (allocated(set%verticals)) then
+         lanes%heavier(i) = lanes%heavier_next(i)
+         lanes%heavier_next(i) = lanes%vertical_factor(i)*set%verticals(lanes%next(i))
+         lanes%heavier_slope(i) = (lanes%heavier_next(i) - lanes%heavier(i))*lanes%rate(i)
+      end if
       lanes%span(i) = lanes%next_span(i)
    end subroutine next_sample
 
    !> The lane stops between two samples
-   pure subroutine stop_between(lanes, i, samples, h)
+   pure subroutine stop_between(lanes, i, set, h)
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
-      !> Samples of all records [m/s2]
-      real(wp), intent(in) :: samples(:)
+      !> Accelerograms
+      type(record_set_type), intent(in) :: set
       !> Time since the last stop [s]
       real(wp), intent(in) :: h
 
       lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
       ! Of the time in the interval, not of the step: a sum of steps below the rounding of u would never move it, and a
       ! wall on the edge of its trigger would turn forever.
-      lanes%u(i) = lanes%factor(i)*samples(lanes%next(i) - 1) + lanes%slope(i)*lanes%time(i)
+      lanes%u(i) = lanes%factor(i)*set%samples(lanes%next(i) - 1) + lanes%slope(i)*lanes%time(i)
+      if (allocated(set%verticals)) lanes%heavier(i) = lanes%vertical_factor(i)*set%verticals(lanes%next(i) - 1) &
+         & + lanes%heavier_slope(i)*lanes%time(i)
    end subroutine stop_between
 
    !> Limit the steps from an event to the next sample
@@ -172,20 +179,29 @@ contains
    end subroutine limit_span
 
    !> The ground seen from the side of the wall, at the lane's time
-   pure subroutine aim(lanes, i, samples, factor)
+   pure subroutine aim(lanes, i, set, factor, gravity)
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
-      !> Samples of all records [m/s2]
-      real(wp), intent(in) :: samples(:)
+      !> Accelerograms
+      type(record_set_type), intent(in) :: set
       !> Factor on them: side * scale
       real(wp), intent(in) :: factor
+      !> Gravity [m/s2]
+      real(wp), intent(in) :: gravity
 
-      associate (here => samples(lanes%next(i) - 1), next => samples(lanes%next(i)))
+      associate (here => set%samples(lanes%next(i) - 1), next => set%samples(lanes%next(i)))
          lanes%factor(i) = factor
          lanes%u_next(i) = lanes%factor(i)*next
          lanes%slope(i) = (lanes%u_next(i) - lanes%factor(i)*here)*lanes%rate(i)
          lanes%u(i) = lanes%factor(i)*here + lanes%slope(i)*lanes%time(i)
+      end associate
+      if (.not. allocated(set%verticals)) return
+      associate (here => set%verticals(lanes%next(i) - 1), next => set%verticals(lanes%next(i)))
+         lanes%vertical_factor(i) = abs(factor)/gravity
+         lanes%heavier_next(i) = lanes%vertical_factor(i)*next
+         lanes%heavier_slope(i) = (lanes%heavier_next(i) - lanes%vertical_factor(i)*here)*lanes%rate(i)
+         lanes%heavier(i) = lanes%vertical_factor(i)*here + lanes%heavier_slope(i)*lanes%time(i)
       end associate
    end subroutine aim
 
@@ -208,7 +224,7 @@ contains
          lanes%y(i) = 0.0_wp
          call history%strike(constants%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
          if (.not. at_rest) then
-            call aim(lanes, i, batch%set%samples, history%side*history%scale)
+            call aim(lanes, i, batch%set, history%side*history%scale, constants%gravity)
             return
          end if
          lanes%v(i) = 0.0_wp
@@ -225,7 +241,7 @@ contains
       integer, intent(in) :: i
 
       integer :: sample
-      real(wp) :: trigger, acceleration
+      real(wp) :: trigger, high, acceleration, widening
       logical :: found
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
@@ -235,23 +251,37 @@ contains
             if (history%over) return
             ! Records are long: jump over the intervals in which nothing can start.
             trigger = constants%rest%trigger()
+            high = merge(trigger, huge(trigger), constants%rest%two_sided)
             acceleration = history%scale*(a(interval) + (a(interval + 1) - a(interval))*(history%time/record%dt))
+            sample = interval + 1
+            if (allocated(record%vertical)) then
+               widening = constants%rest%vertical_lever/constants%rest%lever
+               trigger = trigger + widening*abs(history%scale)*record%vertical_at(interval, history%time)
+            end if
             if (.not. (acceleration < -trigger .or. (constants%rest%two_sided .and. acceleration > trigger))) then
-               sample = set%next_outside(history%record, interval + 1, history%scale, -trigger, &
-                  & merge(trigger, huge(trigger), constants%rest%two_sided))
-               history%over = sample > n
-               if (history%over) return
-               if (sample - 1 > interval) history%time = 0.0_wp
+               if (allocated(record%vertical)) then
+                  sample = set%next_outside_of_both(history%record, sample, history%scale, constants%rest%trigger(), &
+                     & widening, constants%rest%two_sided)
+               else
+                  sample = set%next_outside(history%record, sample, history%scale, -trigger, high)
+               end if
+            end if
+            history%over = sample > n
+            if (history%over) return
+            if (sample - 1 > interval) then
+               history%time = 0.0_wp
                interval = sample - 1
             end if
          end associate
          call constants%rest%next_start(record, history%scale, history%interval, history%time, history%side, found)
+         history%over = .not. found
+         if (history%over) return
          call history%begin_rocking()
          lanes%next(i) = set%offset(history%record) + history%interval + 1
          lanes%time(i) = history%time
          lanes%next_span(i) = longest_step(constants%solver%steps_per_sample, record%dt, 0.0_wp)
          call limit_span(lanes, i, constants%solver%steps_per_sample)
-         call aim(lanes, i, set%samples, history%side*history%scale)
+         call aim(lanes, i, set, history%side*history%scale, constants%gravity)
       end associate
    end subroutine wait
 

@@ -17,7 +17,7 @@ module dondolo_lane_kernel
 contains
 
    !> One step of the first lanes
-   pure subroutine step_lanes(lanes, active, form, samples, rtol, atol)
+   pure subroutine step_lanes(lanes, active, form, samples, rtol, atol, verticals)
       type(lanes_type), intent(inout) :: lanes
       !> Lanes to step
       integer, intent(in) :: active
@@ -26,12 +26,24 @@ contains
       real(wp), intent(in) :: samples(*)
       !> Tolerances of the velocity: relative, and absolute [1/s]
       real(wp), intent(in) :: rtol, atol
+      !> Vertical components of the samples, for a form with vertical motion [m/s2]
+      real(wp), intent(in), optional :: verticals(*)
 
       integer :: rounded
 
       ! Whole vectors, so that a lane's arithmetic does not depend on its place
       rounded = min(lane_width, (active + 7)/8*8)
-      if (form%degree == degrees(1)) then
+      if (form%is_shaken) then
+         if (form%degree == degrees(1)) then
+            call step_shaken_8(lanes, rounded, form, samples, verticals, rtol, atol)
+         else if (form%degree == degrees(2)) then
+            call step_shaken_14(lanes, rounded, form, samples, verticals, rtol, atol)
+         else if (form%degree == degrees(3)) then
+            call step_shaken_22(lanes, rounded, form, samples, verticals, rtol, atol)
+         else
+            call step_shaken_32(lanes, rounded, form, samples, verticals, rtol, atol)
+         end if
+      else if (form%degree == degrees(1)) then
          call step_8(lanes, rounded, form, samples, rtol, atol)
       else if (form%degree == degrees(2)) then
          call step_14(lanes, rounded, form, samples, rtol, atol)
@@ -58,6 +70,27 @@ contains
 #undef LANE_STEP
 #undef LANE_DEGREE
 #define LANE_STEP step_32
+#define LANE_DEGREE 32
+#include "lane_step.inc"
+#define LANE_SHAKEN
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_8
+#define LANE_DEGREE 8
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_14
+#define LANE_DEGREE 14
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_22
+#define LANE_DEGREE 22
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
 

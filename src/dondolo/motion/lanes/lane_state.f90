@@ -24,6 +24,9 @@ module dondolo_lane_state
       real(wp) :: time(lane_width) = 0.0_wp, dt(lane_width) = 1.0_wp, rate(lane_width) = 1.0_wp
       !> u now and at the next sample [m/s2], and its slope [m/s3]
       real(wp) :: u(lane_width) = 0.0_wp, u_next(lane_width) = 0.0_wp, slope(lane_width) = 0.0_wp
+      !> v_g''/g now and at the next sample, its slope [1/s], and the factor from a vertical sample to it: |scale|/g
+      real(wp) :: heavier(lane_width) = 0.0_wp, heavier_next(lane_width) = 0.0_wp, heavier_slope(lane_width) = 0.0_wp
+      real(wp) :: vertical_factor(lane_width) = 0.0_wp
       !> Factor from a sample of the record to u: side * scale
       real(wp) :: factor(lane_width) = 0.0_wp
       !> Longest step from here to the next sample, and from that sample on [s]

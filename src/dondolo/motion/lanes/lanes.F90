@@ -47,7 +47,12 @@ contains
          active = active + 1
       end do
       do while (active > 0)
-         call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol)
+         if (constants%form%is_shaken) then
+            call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol, &
+               & set%verticals)
+         else
+            call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol)
+         end if
          batch%work%steps = batch%work%steps + active
          i = 1
          do while (i <= active)
@@ -112,6 +117,10 @@ contains
          lanes%u_next(to) = lanes%u_next(from)
          lanes%slope(to) = lanes%slope(from)
          lanes%factor(to) = lanes%factor(from)
+         lanes%heavier(to) = lanes%heavier(from)
+         lanes%heavier_next(to) = lanes%heavier_next(from)
+         lanes%heavier_slope(to) = lanes%heavier_slope(from)
+         lanes%vertical_factor(to) = lanes%vertical_factor(from)
          lanes%span(to) = lanes%span(from)
          lanes%next_span(to) = lanes%next_span(from)
          lanes%peak(to) = lanes%peak(from)

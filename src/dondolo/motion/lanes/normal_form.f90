@@ -5,7 +5,10 @@
 !>
 !>     A = -(G - Q)/sqrt(J J(0))        B = -L/sqrt(J J(0))        u = s u_g''
 !>
-!> A and B are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
+!> Under vertical ground motion the part of gravity in A varies too: x'' = A(x) + B(x) u + D(x) v_g''/g with
+!> D = -G/sqrt(J J(0)).
+!>
+!> A, B and D are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
 module dondolo_normal_form
    use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
@@ -43,6 +46,9 @@ module dondolo_normal_form
       real(wp) :: a(0:highest_degree) = 0.0_wp, b(0:highest_degree) = 0.0_wp
       !> Bounds of the fifth derivatives of a and b, divided by 5!
       real(wp) :: fifth_a = 0.0_wp, fifth_b = 0.0_wp
+      !> Is there vertical motion? Then y'' has a term d(z) v_g''/g more, with the same bound [1/s2]
+      logical :: is_shaken = .false.
+      real(wp) :: d(0:highest_degree) = 0.0_wp, fifth_d = 0.0_wp
       !> x at y = 1 [rad]
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
@@ -62,21 +68,24 @@ module dondolo_normal_form
 contains
 
    !> The normal form of a mechanism up to a rotation
-   pure function new_normal_form(mechanism, limit) result(form)
+   pure function new_normal_form(mechanism, limit, is_shaken) result(form)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation up to which it is wanted [rad]
       real(wp), intent(in) :: limit
+      !> Is it for vertical motion too? No, if absent
+      logical, intent(in), optional :: is_shaken
       !> The normal form
       type(normal_form_type) :: form
 
-      real(wp), dimension(nodes) :: z, q, stretch, a, b
+      real(wp), dimension(nodes) :: z, q, stretch, a, b, d
       real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
       integer :: i, iteration, needed, kept
 
       if (limit < least_limit*mechanism%capacity .or. allocated(mechanism%restraints)) return
+      if (present(is_shaken)) form%is_shaken = is_shaken
       z = chebyshev_nodes(nodes)
       q = 0.5_wp*limit*(1.0_wp + z)
-      call sample(mechanism, q, inertia, stretch, a, b)
+      call sample(mechanism, q, inertia, stretch, a, b, d)
       form%is_identity = all(stretch == 1.0_wp)
       if (form%is_identity) then
          form%unit = 0.5_wp*limit
@@ -95,11 +104,13 @@ contains
             end do
          end do
          form%q(:nodes - 1) = chebyshev_series(q)
-         call sample(mechanism, q, inertia, stretch, a, b)
+         call sample(mechanism, q, inertia, stretch, a, b, d)
       end if
       a = a/form%unit
       b = b/form%unit
+      d = d/form%unit
       needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
+      if (form%is_shaken) needed = max(needed, degree_of(chebyshev_series(d)))
       form%exists = needed <= highest_degree
       if (.not. form%exists) return
       form%degree = minval(degrees, degrees >= needed)
@@ -108,17 +119,18 @@ contains
       if (kept > highest_full) kept = needed
       call expand(a, kept, form%a, form%fifth_a)
       call expand(b, kept, form%b, form%fifth_b)
+      if (form%is_shaken) call expand(d, kept, form%d, form%fifth_d)
    end function new_normal_form
 
    !> Values at rotations
-   pure subroutine sample(mechanism, q, inertia, stretch, a, b)
+   pure subroutine sample(mechanism, q, inertia, stretch, a, b, d)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotations [rad]
       real(wp), intent(in) :: q(:)
       !> Inertia J(0) [kg m2]
       real(wp), intent(out) :: inertia
-      !> dx/dq, A [rad/s2] and B [rad/m] there
-      real(wp), intent(out) :: stretch(:), a(:), b(:)
+      !> dx/dq, A [rad/s2], B [rad/m] and D [rad/s2] there
+      real(wp), intent(out) :: stretch(:), a(:), b(:), d(:)
 
       real(wp) :: j, c, g, l, load
       integer :: i
@@ -129,6 +141,7 @@ contains
          stretch(i) = sqrt(j/inertia)
          a(i) = -(g - load)/(stretch(i)*inertia)
          b(i) = -l/(stretch(i)*inertia)
+         d(i) = -g/(stretch(i)*inertia)
       end do
    end subroutine sample
 
@@ -164,12 +177,14 @@ contains
    end subroutine expand
 
    !> Bound of the fifth derivative of y''/5! by y [1/s2]
-   elemental real(wp) function fifth(self, u)
+   elemental real(wp) function fifth(self, u, heavier)
       class(normal_form_type), intent(in) :: self
       !> Ground acceleration [m/s2]
       real(wp), intent(in) :: u
+      !> Vertical ground acceleration / g
+      real(wp), intent(in) :: heavier
 
-      fifth = self%fifth_a + self%fifth_b*abs(u)
+      fifth = self%fifth_a + self%fifth_b*abs(u) + self%fifth_d*abs(heavier)
    end function fifth
 
    !> Rotation q [rad]
