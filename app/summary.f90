@@ -62,6 +62,8 @@ contains
                & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
          end if
       end select
+      if (case%suite%has_vertical()) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
+         & 'components, scaled as their records'//trim(factor_note(case))
       if (allocated(case%wall%building)) then
          write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
@@ -74,6 +76,18 @@ contains
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
    end subroutine print_summary
+
+   !> The factor on vertical components, where it is not 1
+   function factor_note(case) result(text)
+      type(case_type), intent(in) :: case
+      !> What follows the note
+      character(len=40) :: text
+
+      text = ''
+      associate (factor => case%records_input%vertical_factor)
+         if (factor < 1.0_wp .or. factor > 1.0_wp) text = ', times '//to_text(factor)
+      end associate
+   end function factor_note
 
    !> Print how much was computed, how fast, and how much of it took no work
    subroutine print_work(case, results, seconds, threads)

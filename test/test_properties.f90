@@ -171,6 +171,8 @@ contains
          if (property%name /= 'count') write (unit, '(a)') 'count = 3'
       else if (name == 'stripes' .and. property%name /= 'levels') then
          write (unit, '(a)') 'levels = 0.1, 0.2'
+      else if (property%name == 'vertical_factor') then
+         write (unit, '(a)') 'vertical = ''recorded'''
       end if
       write (unit, '(a)') '/'
       close (unit)

@@ -46,7 +46,7 @@ def warnings_of_motion(wall: Handle, record: str, pga: float, fall: float) -> li
 
     Of the record: its PGA, and the largest downward acceleration of the ground as scaled [m/s2].
     """
-    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga)).lines)
+    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga, fall)).lines)
 
 
 def warnings_of_errors(

@@ -81,8 +81,7 @@ class Response(Shown, Saved):
 
     @property
     def uplift(self) -> bool:
-        vertical = self.record.vertical
-        return vertical is not None and bool(abs(self.scale) * -vertical.min() >= self.wall.gravity)
+        return bool(abs(self.scale) * self.record.largest_fall >= self.wall.gravity)
 
     @property
     def peak_rotation(self) -> float:
@@ -268,8 +267,7 @@ def simulate(
             int(history),
         )
     check(stat, message)
-    fall = 0.0 if record.vertical is None else -abs(factor) * float(record.vertical.min())
-    if sentences := _warnings(wall, record.name, record.peak_acceleration, fall):
+    if sentences := _warnings(wall, record.name, record.peak_acceleration, abs(factor) * record.largest_fall):
         warn(sentences)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}

@@ -176,6 +176,10 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     levels, ran = request.levels[:complete], plan.ran[:complete]
     rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
+    uplift = None
+    if any(record.vertical is not None for record in request.records):
+        falls = np.array([request.records[i].largest_fall for i in plan.record])
+        uplift = ran & (plan.scale[:complete] * falls >= request.walls[0].gravity)
     return Stripes(
         wall=request.walls[0],
         im=request.im,
@@ -189,6 +193,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         atol=atol,
         edp_limit=edp_limit,
         work=outcome.work,
+        uplift=uplift,
         events=tuple(record.event for record in request.records),
         checksums=tuple(record.checksum for record in request.records),
         **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},

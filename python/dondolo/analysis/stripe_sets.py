@@ -23,6 +23,7 @@ _MATRICES = {
     "time_of_peak": np.nan,
     "scale": np.nan,
     "edp_error": np.nan,
+    "uplift": False,
     "ran": False,
 }
 # Fields with a text for each record, or with none
@@ -74,6 +75,8 @@ def join(one: Stripes, other: Stripes) -> Stripes:
         raise InputError("stripes: were run with other polarities: must be the same")
     if (one.edp_error is None) != (other.edp_error is None):
         raise InputError("stripes: only one has estimated errors")
+    if (one.uplift is None) != (other.uplift is None):
+        raise InputError("stripes: only one has vertical motion")
     names = [part.record_names[: part.n_records] for part in (one, other)]
     for own in names:
         if len(set(own)) < len(own):

@@ -77,6 +77,9 @@ class Stripes(Shown, Saved):
         What was computed, and what was not, by the runs that the stripes come from.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
+    uplift : ndarray of bool, shape (levels, histories), or None
+        Whether the ground accelerates downwards by g or more at some instant of the scaled record, as `Response.uplift`;
+        None without vertical motion.
     events : tuple of str, length records
         `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
     checksums : tuple of str, length records
@@ -100,6 +103,7 @@ class Stripes(Shown, Saved):
     edp_limit: float
     work: Work
     edp_error: FloatArray | None = None
+    uplift: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
 

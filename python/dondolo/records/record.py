@@ -193,6 +193,14 @@ class Record:
         return f"{found if self.vertical is None else zlib.crc32(self.vertical.tobytes(), found):08x}"
 
     @property
+    def largest_fall(self) -> float:
+        """Largest downward acceleration of the ground [m/s2], 0 without a vertical component.
+
+        Where a factor makes it reach g the ground falls away from a wall.
+        """
+        return 0.0 if self.vertical is None else max(0.0, -float(self.vertical.min()))
+
+    @property
     def event(self) -> str:
         """Earthquake of the record, else station and date of the recording, else '': see `Fragility.clusters`."""
         # As in dondolo_clusters

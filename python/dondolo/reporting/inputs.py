@@ -163,6 +163,13 @@ def _walls_table(run: Run) -> Table:
     return Table.of(columns, ("group", "mechanism", "status"))
 
 
+def has_vertical(run: Run) -> bool:
+    """Whether vertical ground motion was applied."""
+    if run.file is not None and run.file.setting("records", "vertical", "none") == "recorded":
+        return True
+    return any(record.vertical is not None for record in run.records)
+
+
 def records(run: Run) -> dict[str, Any]:
     """The records, and what is known of them."""
     results = run.results
@@ -171,6 +178,10 @@ def records(run: Run) -> dict[str, Any]:
         catalogue = run.file.setting("records", "catalogue", "")
         polarity = run.file.setting("records", "polarity", "").replace("_", " ")
         pairs += [(name, text) for name, text in (("catalogue", catalogue), ("polarity", polarity)) if text]
+    if has_vertical(run):
+        factor = 1.0 if run.file is None else run.file.setting("records", "vertical_factor", 1.0)
+        scaled = "" if factor == 1.0 else f", times {factor:g}"
+        pairs.append(("vertical motion", f"applied: recorded components, scaled as their records{scaled}"))
     if isinstance(results, Typology):
         few, many = int(results.histories.min()), int(results.histories.max())
         pairs.append(("histories of a stripe", f"{few} to {many}, by mechanism" if few < many else str(few)))

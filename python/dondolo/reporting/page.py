@@ -181,7 +181,12 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         Chapter("walls", "Walls" if len(run.population) > 1 else "The wall", "walls", inputs.walls(run)),
         Chapter("records", "Records", "records", inputs.records(run)),
         Chapter("checks", "Checks", "checks", inputs.checks(run)),
-        Chapter("limits", "Limits of the models", "limits", {"is_population": isinstance(results, Typology)}),
+        Chapter(
+            "limits",
+            "Limits of the models",
+            "limits",
+            {"is_population": isinstance(results, Typology), "is_shaken": inputs.has_vertical(run)},
+        ),
         Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure}),
         Chapter("software", "Software", "facts", inputs.software(run)),
     ]

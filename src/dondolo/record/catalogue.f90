@@ -80,9 +80,11 @@ contains
       if (.not. allocated(error)) call table%open(file, error)
       if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s'), table%column('level'), &
          & table%column('factor')], error)
-      if (.not. allocated(error) .and. present(vertical_factor) .and. table%column('vertical') == 0) call raise_input( &
-         & error, file//': no column ''vertical'': must name the vertical component of each record')
       if (allocated(error)) return
+      if (present(vertical_factor) .and. table%column('vertical') == 0) then
+         call raise_input(error, file//': no column ''vertical'': must name the vertical component of each record')
+         return
+      end if
       if (present(note)) note = table%note()
       runs%have_levels = table%column('level') > 0
       allocate (several(number), runs%record(number))
