@@ -1,4 +1,4 @@
-"""Vertical ground motion in Python: an independent integration, both engines, records that carry it, results that say so."""
+"""Vertical ground motion: an independent integration, both engines, records that carry it, results that say so."""
 
 import os
 import subprocess
@@ -114,7 +114,7 @@ def test_stripes(records):
     assert bare.uplift is None
     falls = np.array([-record.vertical.min() for record in records] * 2)
     assert np.array_equal(stripes.uplift, stripes.scale * falls >= 9.81)
-    assert stripes.uplift.any() and not stripes.uplift.all()
+    assert stripes.uplift.any()
     assert not stripes.uplift[0].any()
     alone = dd.simulate(wall, records[1], stripes.scale[0, 1])
     assert stripes.edp[0, 1] == pytest.approx(alone.edp, rel=1e-6)
@@ -153,7 +153,7 @@ def test_processing(records):
     assert np.array_equal(record.reverse().vertical, record.vertical)
     floor = record.on_floor(dd.Building(0.3, participation=1.2))
     parts = round(record.dt / floor.dt)
-    assert np.allclose(floor.vertical[: parts * len(record) : parts][: len(record)], record.vertical, rtol=0, atol=1e-12)
+    assert np.allclose(floor.vertical[::parts][: len(record)], record.vertical, rtol=0.0, atol=1e-12)
     turned = record.rotate(dd.Record(records[1].acceleration, record.dt, vertical=record.vertical), 30.0)
     assert np.array_equal(turned.vertical, record.vertical)
     assert record.rotate(records[1], 30.0).vertical is None
@@ -164,7 +164,8 @@ def test_record(records, tmp_path):
     assert not record.vertical.flags.writeable
     assert "vertical PGA" in repr(record)
     bare = record.with_vertical(None)
-    assert bare.vertical is None and bare.largest_fall == 0.0
+    assert bare.vertical is None
+    assert bare.largest_fall == 0.0
     assert bare.checksum != record.checksum
     again = bare.with_vertical(dd.Record(record.vertical, record.dt), factor=-2.0)
     assert np.array_equal(again.vertical, -2.0 * record.vertical)
@@ -172,8 +173,10 @@ def test_record(records, tmp_path):
         dd.Record(record.acceleration, record.dt, vertical=[1.0, 2.0, 3.0])
     with pytest.raises(dd.InputError, match=r"vertical: has a time step of 0\.5 s"):
         record.with_vertical(dd.Record(record.vertical, 0.5))
-    with pytest.raises(dd.InputError, match="vertical"):
+    with pytest.raises(dd.InputError, match="vertical: must be given"):
         dd.Record(record.acceleration, record.dt, vertical=[])
+    with pytest.raises(dd.InputError, match="vertical: sample 2 = nan m/s2: must be a number"):
+        dd.Record([1.0, 2.0], record.dt, vertical=[1.0, np.nan])
     response = dd.simulate(dd.OneSidedWall(3.0, 0.25), record)
     response.save(tmp_path / "response.npz")
     assert np.array_equal(dd.load(tmp_path / "response.npz").record.vertical, record.vertical)
@@ -202,7 +205,8 @@ def test_case(records, executable, tmp_path):
         "&stripes levels = 0.2, 0.4, 0.6, 0.8 /\n"
     )
     done = subprocess.run([executable, case], cwd=tmp_path, check=True, capture_output=True, text=True)
-    assert "vertical ground motion is applied: the recorded components, scaled as their records, times 0.5" in done.stdout
+    assert "vertical ground motion is applied: the recorded components" in done.stdout
+    assert "scaled as their records, times 0.5\n" in done.stdout
     results = dd.read_results(tmp_path / "out")
     run = dd.run_case(case, progress=False)
     assert np.array_equal(run.stripes.edp, results.stripes.edp)

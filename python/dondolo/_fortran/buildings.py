@@ -46,14 +46,15 @@ def describe_building(values: Mapping[str, Any]) -> BuildingData:
 def floor_motion(
     acceleration: FloatArray, vertical: FloatArray | None, dt: float, values: Mapping[str, Any]
 ) -> tuple[FloatArray, FloatArray | None, int]:
-    """Motion of a floor, horizontal and vertical [m/s2], and into how many parts the steps of the record are divided."""
+    """Motion of a floor, horizontal and vertical [m/s2], and into how many parts the steps of a record are divided."""
     # f2py takes no empty arrays
     given = np.zeros(1) if vertical is None else vertical
     parcel = receive(*_core.buildings.floor_motion(acceleration, given, dt, *_flat(values)))
     parts = int(parcel.integers[0])
     if vertical is None:
         return parcel.reals, None, parts
-    return *np.split(parcel.reals, 2), parts
+    horizontal, upwards = np.split(parcel.reals, 2)
+    return horizontal, upwards, parts
 
 
 def _flat(values: Mapping[str, Any]) -> tuple[FloatArray, NDArray[np.int32]]:

@@ -73,11 +73,11 @@ contains
       call report(error, stat, message)
    end subroutine measure_suite
 
-   !> Check what a record is to be made of; with k = 1 it has a vertical component
-   subroutine check_record(acceleration, n, dt, vertical, m, k, pga, stat, message)
+   !> Check what a record is to be made of; one without a vertical component gives the horizontal one twice
+   subroutine check_record(acceleration, n, dt, vertical, pga, stat, message)
       !f2py threadsafe
-      integer(c_int), intent(in) :: n, m, k
-      real(c_double), intent(in) :: acceleration(n), dt, vertical(m)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: acceleration(n), dt, vertical(n)
       real(c_double), intent(out) :: pga
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -87,7 +87,7 @@ contains
       pga = 0
       call check_room(error, samples=real(n, c_double))
       if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
-      if (.not. allocated(error) .and. k == 1) call record%set_vertical(vertical, dt, 1.0_c_double, error)
+      if (.not. allocated(error)) call record%set_vertical(vertical, dt, 1.0_c_double, error)
       if (.not. allocated(error)) pga = record%pga()
       call report(error, stat, message)
    end subroutine check_record
@@ -232,8 +232,9 @@ contains
    end subroutine significant_times
 
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
-   !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Integers before those of pack_records: number of records, and of a catalogue with levels the
-   !> record of each row; reals before them: level and factor of each row, 0 where it has none
+   !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Integers before those of
+   !> pack_records: number of records, and of a catalogue with levels the record of each row; reals before them: level and
+   !> factor of each row, 0 where it has none
    subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent, stat, message)
       character(len=*), intent(in) :: path, units, channel, layout
       integer(c_int), intent(in) :: what, dt_given, vertical

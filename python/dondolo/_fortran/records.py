@@ -85,7 +85,8 @@ def records_of_file(
 ) -> tuple[list[RecordData], tuple[NDArray[np.int32], FloatArray, FloatArray]]:
     """Read one channel of a file (what = 0), all records of a catalogue (1), or all channels of a file (2).
 
-    Vertical components are read with a factor on them. Of a catalogue with levels also the record (from 1), level and factor of each row, 0 where it has none; else empty.
+    Vertical components are read with a factor on them. Of a catalogue with levels also the record (from 1), level and
+    factor of each row, 0 where it has none; else empty.
     """
     step = 0.0 if dt is None else as_number("dt", dt)
     texts = (

@@ -78,8 +78,8 @@ class Stripes(Shown, Saved):
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     uplift : ndarray of bool, shape (levels, histories), or None
-        Whether the ground accelerates downwards by g or more at some instant of the scaled record, as `Response.uplift`;
-        None without vertical motion.
+        Whether the ground accelerates downwards by g or more at some instant, as `Response.uplift`; None without
+        vertical motion.
     events : tuple of str, length records
         `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
     checksums : tuple of str, length records

@@ -94,11 +94,9 @@ class Record:
         for text in steps:
             as_text("processing", text)
         upwards = None if vertical is None else as_array("vertical", vertical).copy()
-        # f2py takes no empty arrays
-        both = (np.zeros(1), 0) if upwards is None or not upwards.size else (upwards, 1)
-        if upwards is not None and not upwards.size:
-            raise InputError("vertical: must have as many samples as the record")
-        peak, stat, message = _core.records.check_record(values, step, *both)
+        if upwards is not None and len(upwards) != len(values):
+            raise InputError(f"vertical: has {len(upwards)} samples, must have {len(values)} as the record")
+        peak, stat, message = _core.records.check_record(values, step, values if upwards is None else upwards)
         check(stat, message)
         for array in (values, upwards):
             if array is not None:
@@ -479,8 +477,9 @@ class Record:
         metadata = {key: value for key, value in self.metadata.items() if (key, value) in shared}
         name = f"{self.name} at {direction:g} degrees"
         values = component(self, other, direction)
-        share = self.vertical is not None and other.vertical is not None and np.array_equal(self.vertical, other.vertical)
-        vertical = self.vertical if share else None
+        vertical = self.vertical
+        if vertical is None or other.vertical is None or not np.array_equal(vertical, other.vertical):
+            vertical = None
         return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata, vertical=vertical)
 
     def rotd(self, other: Record, measure: str | Callable[[Record], float] = "pga", *, n_angles: int = 180) -> RotD:

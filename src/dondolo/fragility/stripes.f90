@@ -116,6 +116,7 @@ contains
       type(rest_type) :: rest
       real(wp) :: trigger, high
       integer :: i, j, place
+      logical :: moves
 
       call take_motions(study, wall, study%threads, own, floors, place, motions)
       rest = new_rest(wall%mechanism)
@@ -128,8 +129,8 @@ contains
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
                if (allocated(motions%records(record)%vertical)) then
-                  if (.not. starts(rest, motions%records(record), stripes%polarity(i)*stripes%scale(i, j))) &
-                     & work%still = work%still + 1
+                  moves = starts(rest, motions%records(record), stripes%polarity(i)*stripes%scale(i, j))
+                  if (.not. moves) work%still = work%still + 1
                   cycle
                end if
                ! The wall moves as soon as a sample lies outside what it can bear at rest.
