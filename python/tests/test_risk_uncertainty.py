@@ -218,7 +218,7 @@ def test_populations_without_standard_errors(people, records, hazard):
     exact = some["all"].risk(hazard).uncertainty(n_draws=4000)
     # Read back: by the lognormal fitted to the mean, which the curve is not far from
     back = replace(some, flags=None)["all"].risk(hazard).uncertainty(n_draws=4000)
-    assert back.kind.endswith(" clusters of walls, by the lognormal fitted to the mean")
+    assert back.kind.endswith(" 4 walls, by the lognormal fitted to the mean")
     assert back.risk.bounds == exact.risk.bounds
     # Four walls leave long tails, which are those of ln lambda here and of ln theta and 1/beta there.
     ends = [np.log(one.interval(confidence=0.5)) for one in (back, exact)]
