@@ -175,7 +175,7 @@ def test_record(records, tmp_path):
         record.with_vertical(dd.Record(record.vertical, 0.5))
     with pytest.raises(dd.InputError, match="vertical: must be given"):
         dd.Record(record.acceleration, record.dt, vertical=[])
-    with pytest.raises(dd.InputError, match="vertical: sample 2 = nan m/s2: must be a number"):
+    with pytest.raises(dd.InputError, match="vertical: sample 2 = NaN m/s2: must be a number"):
         dd.Record([1.0, 2.0], record.dt, vertical=[1.0, np.nan])
     response = dd.simulate(dd.OneSidedWall(3.0, 0.25), record)
     response.save(tmp_path / "response.npz")

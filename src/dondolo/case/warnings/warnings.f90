@@ -8,6 +8,8 @@ module dondolo_warnings
    use dondolo_record_table, only : pga_limit
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_study, only : study_type
+   use dondolo_suite, only : suite_type
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warning_type, warnings_type
@@ -18,6 +20,8 @@ module dondolo_warnings
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
+   !> A factor that is given may take a record so far from its level
+   real(wp), parameter :: off_level = 1.1_wp
 
    !> Levels that no ground motion has [g], of the PGA and of spectral accelerations
    real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp
@@ -41,6 +45,11 @@ module dondolo_warnings
       integer(int64) :: lifting = 0
       real(wp) :: lifting_level = 0.0_wp
       character(len=:), allocatable :: lifting_record
+      !> Factors that are given, how many of them take a record far from its level, and the farthest: how many times the level,
+      !> the level, and the record
+      integer(int64) :: given = 0, off = 0
+      real(wp) :: farthest = 1.0_wp, missed = 0.0_wp
+      character(len=:), allocatable :: off_record
    contains
       !> Look at the factors of a wall
       procedure :: look
@@ -74,19 +83,15 @@ module dondolo_warnings
 contains
 
    !> Look at the factors of a wall
-   subroutine look(self, stripes, records, falls, gravity)
+   subroutine look(self, stripes, study, wall)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
-      type(record_type), intent(in) :: records(:)
-      !> Largest downward acceleration of the ground under each [m/s2]
-      real(wp), intent(in) :: falls(:)
-      !> What g is for the wall [m/s2]
-      real(wp), intent(in) :: gravity
+      type(study_type), intent(in) :: study
+      type(wall_type), intent(in) :: wall
 
-      logical :: lifts(size(stripes%record))
-      integer :: at(2), j
+      integer :: at(2)
 
       self%histories = self%histories + count(stripes%ran, kind=int64)
       self%large = self%large + count(stripes%scale > large_scale, kind=int64)
@@ -96,21 +101,64 @@ contains
          if (stripes%im == 'pga') self%usual = largest_pga
          if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
       end if
-      do j = 1, size(stripes%levels)
-         if (.not. any(falls > 0.0_wp)) exit
-         lifts = stripes%scale(:, j)*falls(stripes%record) >= gravity
-         if (self%lifting == 0 .and. any(lifts)) then
-            self%lifting_level = stripes%levels(j)
-            self%lifting_record = records(stripes%record(findloc(lifts, .true., dim=1)))%name
-         end if
-         self%lifting = self%lifting + count(lifts, kind=int64)
-      end do
+      if (allocated(study%factor)) call look_at_given(self, study, wall)
+      if (any(study%suite%falls > 0.0_wp)) call look_at_falls(self, stripes, study%suite, wall%gravity)
       at = maxloc(stripes%scale)
       if (.not. stripes%scale(at(1), at(2)) > self%largest) return
       self%largest = stripes%scale(at(1), at(2))
       self%level = stripes%levels(at(2))
-      self%record = records(stripes%record(at(1)))%name
+      self%record = study%suite%records(stripes%record(at(1)))%name
    end subroutine look
+
+   !> Look at the factors that are given: do they take the records to their levels?
+   subroutine look_at_given(self, study, wall)
+      class(scale_warning_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
+      type(wall_type), intent(in) :: wall
+
+      real(wp) :: expected, times
+      integer :: i, j
+
+      do j = 1, size(study%levels)
+         do i = 1, size(study%factor, 1)
+            if (.not. study%factor(i, j) > 0.0_wp) cycle
+            expected = study%scaling%factor(study%levels(j), study%values(i), wall)
+            if (.not. expected > 0.0_wp) cycle
+            self%given = self%given + 1
+            times = (study%factor(i, j)/expected)**study%scaling%measure%power()
+            if (max(times, 1.0_wp/times) <= off_level) cycle
+            self%off = self%off + 1
+            if (max(times, 1.0_wp/times) <= max(self%farthest, 1.0_wp/self%farthest)) cycle
+            self%farthest = times
+            self%missed = study%levels(j)
+            self%off_record = study%suite%records(i)%name
+         end do
+      end do
+   end subroutine look_at_given
+
+   !> Look at histories in which the ground falls away from the wall
+   subroutine look_at_falls(self, stripes, suite, gravity)
+      !> What there is to say
+      type(scale_warning_type), intent(inout) :: self
+      !> Stripes of the wall
+      type(stripes_type), intent(in) :: stripes
+      !> Its accelerograms
+      type(suite_type), intent(in) :: suite
+      !> What g is for the wall [m/s2]
+      real(wp), intent(in) :: gravity
+
+      logical :: lifts(size(stripes%record))
+      integer :: j
+
+      do j = 1, size(stripes%levels)
+         lifts = stripes%scale(:, j)*suite%falls(stripes%record) >= gravity
+         if (self%lifting == 0 .and. any(lifts)) then
+            self%lifting_level = stripes%levels(j)
+            self%lifting_record = suite%records(stripes%record(findloc(lifts, .true., dim=1)))%name
+         end if
+         self%lifting = self%lifting + count(lifts, kind=int64)
+      end do
+   end subroutine look_at_falls
 
    !> Warn, if there is reason to
    subroutine warn(self, warnings)
@@ -134,6 +182,17 @@ contains
          call warning%with('histories_beyond', self%lifting)
          call warning%with('histories', self%histories)
          call warning%with('level', self%lifting_level)
+         call warnings%add(warning)
+      end if
+      if (self%off > 0) then
+         warning = warning_type('factors_off_levels')
+         call warning%about('record', self%off_record)
+         call warning%about('im', self%im)
+         call warning%with('limit', 100.0_wp*(off_level - 1.0_wp))
+         call warning%with('factors_beyond', self%off)
+         call warning%with('factors', self%given)
+         call warning%with('value', self%farthest*self%missed)
+         call warning%with('level', self%missed)
          call warnings%add(warning)
       end if
       if (self%large == 0) return
