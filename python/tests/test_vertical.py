@@ -136,6 +136,39 @@ def test_uplift_is_no_collapse():
     assert not response.collapsed
 
 
+@pytest.mark.parametrize("wall", [dd.OneSidedWall(3.0, 0.25), dd.FreeStandingWall(2.0, 0.4)])
+def test_base_forces(records, wall):
+    """The momentum of the centroid, by differences of its place."""
+    response = dd.simulate(wall, records[0], 4.0)
+    normal, shear = response.base_forces()
+    mass, radius, alpha = 1800.0 * wall.height * wall.thickness, wall.radius, wall.slenderness_angle
+    upwards = 4.0 * np.interp(response.time, records[0].time, records[0].vertical, right=0.0)
+    q, side = np.abs(response.rotation), response.side
+    x, y = -side * radius * np.sin(alpha - q), radius * np.cos(alpha - q)
+    even = np.flatnonzero(np.diff(response.time) > 0.999 * records[0].dt)
+    inner = [i for i in even[1:] if i - 1 in even and q[i - 1] * q[i] * q[i + 1] > 0.0]
+    assert len(inner) > 100
+    inner = np.array(inner)
+    step = records[0].dt ** 2
+    second = [(one[inner + 1] - 2.0 * one[inner] + one[inner - 1]) / step for one in (x, y)]
+    scale = mass * 9.81
+    # Differences see the mean over two steps of a motion whose acceleration has corners at samples.
+    assert np.abs(normal[inner] - mass * (9.81 + upwards[inner] + second[1])).mean() < 0.003 * scale
+    assert np.abs(shear[inner] - mass * (response.ground_acceleration[inner] + second[0])).mean() < 0.02 * scale
+    # A block that only rests has its weight.
+    rests = (q == 0.0) & (response.velocity == 0.0)
+    assert normal[rests] == pytest.approx(mass * (9.81 + upwards[rests]), rel=1e-12)
+
+
+def test_base_forces_refusals(records):
+    for wall in (dd.TwoBlockWall(3.0, 0.25), dd.OneSidedWall(3.0, 0.25, hinge_depth=0.02)):
+        response = dd.simulate(wall, records[0], 0.5)
+        with pytest.raises(dd.InputError, match="must be one rectangular block"):
+            response.base_forces()
+    with pytest.raises(dd.DondoloError, match="no time history"):
+        dd.simulate(dd.OneSidedWall(3.0, 0.25), records[0], history=False).base_forces()
+
+
 def test_processing(records):
     """Both components take the same steps, and stay as long as each other."""
     record = records[0]

@@ -18,7 +18,7 @@ from dondolo._fortran.library import as_text, check, receive, stoppable, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import DondoloError, DondoloWarning
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
@@ -82,6 +82,44 @@ class Response(Shown, Saved):
     @property
     def uplift(self) -> bool:
         return bool(abs(self.scale) * self.record.largest_fall >= self.wall.gravity)
+
+    def base_forces(self) -> tuple[FloatArray, FloatArray]:
+        """Forces between the base and the ground at the rows of the time history.
+
+        Returns
+        -------
+        normal, shear : ndarray, shape (rows,)
+            Per metre of wall [N/m]: upwards on the wall, and in the direction in which the ground acceleration is
+            positive. The model ends where the normal force falls below 0, and needs a coefficient of friction of
+            abs(shear) / normal.
+
+        Raises
+        ------
+        DondoloError
+            The response has no time history.
+        InputError
+            A wall of two blocks, or one that is more than a rectangular block.
+
+        Notes
+        -----
+        Momentum of the block: M (g + v_g'') + (S q')' and M s u_g'' + (L q')', with S = G/g, S' = -L and L' = S. The
+        block slides, if it does, from the first row on that needs more friction than there is, which no equation of
+        dondolo describes. When a one-sided wall is at rest its transverse walls take part of the shear force.
+        """
+        time, ground, rotation, _ = self._motion()
+        velocity, side = np.abs(np.asarray(self.velocity)), np.asarray(self.side, dtype=np.float64)
+        mass = _mass_of_block(self.wall)
+        upwards = np.zeros_like(time)
+        if self.record.vertical is not None:
+            upwards = abs(self.scale) * np.interp(time, self.record.time, self.record.vertical, right=0.0)
+        terms = self.wall.terms(np.abs(rotation))
+        vertical_lever, lever = terms.restoring_moment / self.wall.gravity, terms.excitation_lever
+        moment = terms.restoring_moment + vertical_lever * upwards + side * lever * ground
+        moves = (rotation != 0.0) | (velocity > 0.0)
+        turning = np.where(moves, -moment / terms.inertia, 0.0)
+        normal = mass * (self.wall.gravity + upwards) + vertical_lever * turning - lever * velocity**2
+        shear = mass * ground + side * (lever * turning + vertical_lever * velocity**2)
+        return normal, shear
 
     @property
     def peak_rotation(self) -> float:
@@ -291,6 +329,23 @@ def simulate(
         edp_error=edp_error if estimate_error else None,
         **motion,
     )
+
+
+def _mass_of_block(wall: Wall) -> float:
+    """Mass of a wall that is a rectangular block and nothing more, by its terms [kg/m]."""
+    mass, half, arm = wall.density * wall.height * wall.thickness, 0.5 * wall.height, 0.5 * wall.thickness
+    angles = np.array([0.0, 0.5 * wall.capacity_angle])
+    sine, cosine = np.sin(angles), np.cos(angles)
+    expected = (
+        4.0 / 3.0 * mass * (half**2 + arm**2) + 0.0 * angles,
+        0.0 * angles,
+        mass * wall.gravity * (arm * cosine - half * sine),
+        mass * (half * cosine + arm * sine),
+        0.0 * angles,
+    )
+    if wall.mechanism == "two_block" or not np.allclose(wall.terms(angles), expected, rtol=1e-9, atol=0.0):
+        raise InputError(f"wall '{wall.name}': must be one rectangular block for its base forces")
+    return mass
 
 
 @functools.lru_cache
