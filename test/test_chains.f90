@@ -22,6 +22,7 @@ program test_chains
    call test_time_to_rest()
    call test_closed_sums()
    call test_rule()
+   call test_rule_of_both()
    call test_worst_case()
    call test_rest_is_kept()
    call finish()
@@ -59,6 +60,10 @@ contains
          motion%time = 0.0_wp
          motion%excitation%start = motion%side*record%acceleration(i)
          motion%excitation%slope = motion%side*(record%acceleration(i + 1) - record%acceleration(i))/record%dt
+         if (allocated(record%vertical)) then
+            motion%excitation%heavier = record%vertical(i)/mechanism%gravity
+            motion%excitation%heavier_slope = (record%vertical(i + 1) - record%vertical(i))/(mechanism%gravity*record%dt)
+         end if
          motion%f = angular_acceleration(mechanism, motion%excitation, 0.0_wp, motion%q, motion%v)
          sample_reached = .false.
          do while (.not. sample_reached)
@@ -68,7 +73,8 @@ contains
             motion%v = -mechanism%restitution*motion%v
             if (mechanism%two_sided) then
                motion%side = -motion%side
-               motion%excitation = excitation_type(-motion%excitation%start, -motion%excitation%slope)
+               motion%excitation = excitation_type(-motion%excitation%start, -motion%excitation%slope, &
+                  & motion%excitation%heavier, motion%excitation%heavier_slope)
             end if
             motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
             ended = motion%v < all_but_gone*speed
@@ -137,8 +143,9 @@ contains
    end subroutine test_closed_sums
 
    !> The shortest sample interval with which the rule finds rest before the last sample, where both sides open
-   real(wp) function least_time(a, rest, speed, scale) result(dt)
+   real(wp) function least_time(a, rest, speed, scale, vertical) result(dt)
       real(wp), intent(in) :: a(:)
+      real(wp), intent(in), optional :: vertical(:)
       type(rest_type), intent(in) :: rest
       real(wp), intent(in) :: speed, scale
       real(wp) :: bounds(2)
@@ -147,7 +154,7 @@ contains
       bounds = scale*[0.0_wp, 100.0_wp]
       do i = 1, 60
          dt = 0.5_wp*sum(bounds)
-         if (finds_rest(a, rest, speed, dt)) then
+         if (finds_rest(a, rest, speed, dt, vertical)) then
             bounds(2) = dt
          else
             bounds(1) = dt
@@ -157,13 +164,17 @@ contains
    end function least_time
 
    !> Does the rule find that a chain ends at rest before the end of these samples?
-   logical function finds_rest(a, rest, speed, dt)
+   logical function finds_rest(a, rest, speed, dt, vertical)
       real(wp), intent(in) :: a(:), speed, dt
       type(rest_type), intent(in) :: rest
+      real(wp), intent(in), optional :: vertical(:)
+      type(record_type) :: record
       real(wp) :: opening
 
       opening = -2.0_wp*rest%moment/rest%lever
-      finds_rest = rest%chain_ends(accelerogram([a, opening, opening], dt), 1.0_wp, 1, 0.0_wp, 1.0_wp, speed, huge(dt))
+      record = accelerogram([a, opening, opening], dt)
+      if (present(vertical)) record%vertical = [vertical, 0.0_wp, 0.0_wp]
+      finds_rest = rest%chain_ends(record, 1.0_wp, 1, 0.0_wp, 1.0_wp, speed, huge(dt))
    end function finds_rest
 
    !> Random accelerograms that keep all moments positive: where the rule finds rest, with not a bit of time to
@@ -199,6 +210,50 @@ contains
          call check(found > trials/4, 'the rule finds rest')
       end do
    end subroutine test_rule
+
+   !> The same under both components
+   subroutine test_rule_of_both()
+      integer, parameter :: samples = 6, trials = 60
+      type(random_type) :: random
+      type(wall_type) :: wall
+      type(rest_type) :: rest
+      type(record_type) :: record
+      real(wp) :: a(samples), v(samples), speed, dt, duration, highest, without, with
+      logical :: ended
+      integer :: i, k, m, found
+
+      call suite('the rule that ends chains, both components')
+      random = new_random(20260103, 0)
+      do m = 1, 4
+         wall = a_wall(m)
+         rest = new_rest(wall%mechanism)
+         found = 0
+         do k = 1, trials
+            do i = 1, samples
+               a(i) = (1.2_wp*random%next() - 0.6_wp)*wall%mechanism%trigger_acceleration()
+               v(i) = 7.0_wp*random%next() - 3.5_wp
+            end do
+            speed = speed_for(rest, 10.0_wp**(-4.0_wp*random%next()))
+            dt = closed_sum(rest, 0.0_wp, speed)/samples
+            if (.not. finds_rest(a, rest, speed, 100.0_wp*dt, v)) cycle
+            found = found + 1
+            dt = least_time(a, rest, speed, dt, v)
+            record = accelerogram(a, dt)
+            record%vertical = v
+            call let_bounce(wall%mechanism, record, speed, duration, highest, ended)
+            call check(ended, 'the chain has ended')
+            call check(highest <= rest%height, 'it stayed low')
+         end do
+         call check(found > trials/4, 'the rule finds rest')
+         ! A ground that falls lets the chain last longer, and the rule knows.
+         speed = speed_for(rest, 1.0e-3_wp)
+         a = 0.0_wp
+         dt = closed_sum(rest, 0.0_wp, speed)/samples
+         without = least_time(a, rest, speed, dt)
+         with = least_time(a, rest, speed, dt, spread(-3.0_wp, 1, samples))
+         call check(with > without, 'falling ground')
+      end do
+   end subroutine test_rule_of_both
 
    !> The moment is small, grows eightfold at the top of the first flight and is small again from the next impact
    !> on: the speed grows nearly by the root of eight, which a rule that knows only the least moment would not see

@@ -256,6 +256,10 @@ def test_case(records, executable, tmp_path):
     bare = [one.with_vertical(None) for one in records]
     alone = dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), bare, [0.2, 0.4, 0.6, 0.8], progress=False)
     assert "no vertical ground motion" in _page(alone, tmp_path)
+    population = dd.typology(dd.Population([dd.OneSidedWall(3.0, 0.25)]), records, [0.2, 0.6], progress=False)
+    page = _page(population, tmp_path)
+    assert "no vertical ground motion" not in page
+    assert "only if the records have vertical components" in page
 
 
 def _page(results, folder):
@@ -280,3 +284,5 @@ def test_population(records, tmp_path):
     curves = dd.typology(walls, records, **given)
     alone = dd.multiple_stripe(walls[0], records, [0.3, 0.6], progress=False)
     assert np.array_equal(curves.collapses[:, 0], alone.collapses)
+    with pytest.raises(dd.InputError, match="belongs to another study: other records"):
+        dd.typology(walls, [one.with_vertical(None) for one in records], **given)
