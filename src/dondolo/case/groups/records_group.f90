@@ -29,8 +29,9 @@ module dondolo_records_group
       & property_type('vertical', is_text, word='none', meaning='vertical ground motion: ''recorded'' takes the '// &
       &   'components that the column vertical of the catalogue names', choices=reshape(vertical_names, [most_choices], &
       &   pad=blank)), &
-      & property_type('vertical_factor', default=1.0_wp, smallest=-largest_factor, largest=largest_factor, &
-      &   meaning='factor on the vertical components beside that of their record; negative: they are positive downwards')]
+      & property_type('vertical_factor', optional=.true., example='1.0', smallest=-largest_factor, largest=largest_factor, &
+      &   meaning='factor on the vertical components beside that of their record, 1 if not given; negative: they are '// &
+      &   'positive downwards')]
 
    !> What is said of the accelerograms
    type :: records_input_type
@@ -66,7 +67,8 @@ contains
       records%polarity = settings%word('polarity')
       records%vertical = settings%word('vertical')
       if (records%vertical == 'recorded') then
-         records%vertical_factor = settings%number('vertical_factor')
+         records%vertical_factor = 1.0_wp
+         if (settings%has('vertical_factor')) records%vertical_factor = settings%number('vertical_factor')
       else if (group%has('vertical_factor') .and. .not. allocated(error)) then
          call group%refuse('vertical_factor', 'only with vertical = ''recorded''', error)
       end if
