@@ -96,7 +96,11 @@ class Wall:
             # The library reads words in any case, as its files may have them; those of a program are exact.
             if row.choices and isinstance(word, str) and word != word.lower():
                 one_of(row.name, word, row.choices)
-        self._fill(describe_wall(properties, self.gravity))
+        data = describe_wall(properties, self.gravity)
+        if more.get("hinge_level") is not None:
+            # The wall above a hinge is on a floor of its own.
+            del self.__dict__["building"]
+        self._fill(data)
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
