@@ -123,7 +123,8 @@ contains
       integer :: i
 
       associate (survey => case%survey)
-         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+            & facade=case%facade)
          if (.not. allocated(error)) call reader%skip(survey%first - 1, error)
          if (allocated(error)) return
          if (survey%walls < survey%rows) write (output_unit, '(a)') to_text(survey%walls)//' walls, with '// &

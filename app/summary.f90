@@ -3,21 +3,19 @@ module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
    use dondolo_check_lines, only : print_check, print_verdicts
-   use dondolo_clustered, only : fewest_clusters, parameter_intervals
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_typology, only : whole_population
+   use dondolo_union_lines, only : print_unions, print_verdict_rows
+   use dondolo_wall_properties, only : is_of_building
    implicit none
    private
 
    public :: print_summary
-
-   !> Widest bar of a table
-   integer, parameter :: bar_width = 40
 
 contains
 
@@ -33,6 +31,7 @@ contains
       integer, intent(in) :: threads
 
       integer :: i
+      logical :: on_floors
 
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
       select case (case%job%task)
@@ -52,9 +51,11 @@ contains
          if (allocated(results%typologies)) then
             call print_curves(case, results)
             call print_typology(case, results)
+            if (allocated(results%unions)) call print_unions(case, results)
             if (allocated(case%check)) then
                write (output_unit, '(a)') ''
                call print_verdicts(results%verdicts, case%check)
+               call print_verdict_rows(case, results)
             end if
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
@@ -62,7 +63,9 @@ contains
                & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
          end if
       end select
-      if (allocated(case%wall%building)) then
+      on_floors = allocated(case%wall%building)
+      if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)
+      if (on_floors) then
          write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
@@ -184,72 +187,6 @@ contains
          & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes
 
-   !> Print a curve, or why there is none
-   subroutine print_fit(case, curve)
-      type(case_type), intent(in) :: case
-      type(fragility_type), intent(in) :: curve
-
-      if (curve%has_fit()) then
-         write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
-            & ', beta = '//rounded(curve%beta)//', status '//trim(curve%status)
-         call print_errors(curve)
-         write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
-            & trim(fractiles(case, curve, 1.0_wp))
-      else
-         write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
-      end if
-   end subroutine print_fit
-
-   !> Print the standard errors and intervals of a curve, or why it has none
-   subroutine print_errors(curve)
-      type(fragility_type), intent(in) :: curve
-
-      real(wp) :: bounds(2, 2)
-      character(len=24) :: upper
-
-      select case (curve%errors)
-      case ('few_clusters')
-         write (output_unit, '(a)') 'no standard errors: '//counted(curve%clusters, 'cluster')// &
-            & ' of records, at least '//to_text(fewest_clusters)//' are needed'
-      case ('one_cluster')
-         write (output_unit, '(a)') 'no standard errors: one cluster of records determines the curve'
-      case default
-         bounds = parameter_intervals(curve)
-         upper = 'no bound'
-         if (bounds(2, 2) < huge(bounds)) upper = rounded(bounds(2, 2))
-         write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
-            & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
-            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper), &
-            & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
-            & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
-            & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
-      end select
-   end subroutine print_errors
-
-   !> Levels at which 16, 50 and 84 % collapse
-   pure function fractiles(case, curve, saturation) result(text)
-      type(case_type), intent(in) :: case
-      type(fragility_type), intent(in) :: curve
-      !> Share that can collapse
-      real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse, and why; filled up with blanks
-      character(len=160) :: text
-
-      real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
-      integer :: i
-
-      text = ''
-      do i = 1, size(shares)
-         if (shares(i) < saturation) then
-            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))//','
-         else
-            text = trim(text)//' -,'
-         end if
-      end do
-      text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
-      if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
-   end function fractiles
-
    !> Print the curves of a population
    subroutine print_curves(case, results)
       type(case_type), intent(in) :: case
@@ -322,25 +259,5 @@ contains
          end do
       end do
    end subroutine print_typology
-
-   !> A bar as long as a fraction
-   pure function bar(fraction)
-      !> Fraction, 0 to 1
-      real(wp), intent(in) :: fraction
-      !> Bar
-      character(len=nint(fraction*real(bar_width, wp))) :: bar
-
-      bar = repeat('#', len(bar))
-   end function bar
-
-   !> Make the head of a column of levels: the measure and its unit
-   pure subroutine make_head(case, head)
-      type(case_type), intent(in) :: case
-      !> Head, at least as wide as a number
-      character(len=:), allocatable, intent(out) :: head
-
-      head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
-      head = right(head, max(12, len(head) + 1))
-   end subroutine make_head
 
 end module dondolo_summary

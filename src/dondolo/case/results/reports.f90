@@ -6,7 +6,7 @@ module dondolo_reports
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_report_rows, only : make_typology_row, typology_head
+   use dondolo_report_rows, only : make_typology_row, make_union_row, typology_head, union_head
    use dondolo_result_files, only : check_output, result_files_type, run_suffix
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
@@ -53,6 +53,8 @@ contains
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
+            & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
       end select
    end function suffixes
@@ -99,6 +101,8 @@ contains
 
       if (name == '_typology.csv') then
          call write_typology(case, results, files)
+      else if (name == '_unions.csv') then
+         call write_unions(case, results, files)
       else if (name == '_check.csv') then
          call write_check(results, files)
       else if (name == '_history.csv') then
@@ -183,6 +187,27 @@ contains
          end do
       end do
    end subroutine write_typology
+
+   !> Walls with several mechanisms, of the same histories
+   subroutine write_unions(case, results, files)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i, j, k
+
+      call files%line(union_head)
+      do i = 1, size(results%unions)
+         do k = 1, size(case%stripes%thresholds)
+            do j = 1, size(case%stripes%levels)
+               call make_union_row(results%unions(i), case%stripes%scaling%name, case%stripes%levels(j), j, k, &
+                  & case%stripes%thresholds(k), case%job%spreadsheet_safe, line)
+               call files%line(line)
+            end do
+         end do
+      end do
+   end subroutine write_unions
 
    !> The sheet of the check
    subroutine write_check(results, files)

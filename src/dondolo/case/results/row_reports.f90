@@ -40,7 +40,8 @@ contains
       logical :: found
 
       call write_names(case, name, files)
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+         & facade=case%facade)
       associate (population => results%population)
          do i = 1, population%rows() + 1
             if (allocated(error)) exit
@@ -104,6 +105,7 @@ contains
 
       member%wall = case%wall
       member%group = ''
+      member%facade = ''
       call write_names(case, name, files)
       call write_row(case, member, row, name, files, error)
    end subroutine write_one_row
@@ -119,7 +121,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_head(list_lengths(case), line)
+         call make_wall_head(list_lengths(case), case%survey%has_facades, line)
          call files%line(line)
       case ('_histories.csv')
          if (case%solver%solver%estimate_error) then
@@ -164,7 +166,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_row(member, list_lengths(case), case%job%spreadsheet_safe, line)
+         call make_wall_row(member, list_lengths(case), case%survey%has_facades, case%job%spreadsheet_safe, line)
          call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)
