@@ -5,10 +5,12 @@ program test_facade
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_population, only : member_type, population_reader_type, read_population
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 
    real(wp), parameter :: exact = 1.0e-12_wp, g = 9.81_wp
+   character(len=*), parameter :: folder = 'build/test_facade', table = folder//'/walls.csv'
 
    call test_levels()
    call test_same_wall()
@@ -17,6 +19,9 @@ program test_facade
    call test_building()
    call test_leaves()
    call test_wrong_input()
+   call test_rows()
+   call test_wrong_rows()
+   call test_given_facade()
    call finish()
 
 contains
@@ -297,5 +302,118 @@ contains
       call new_wall(wall, input, error)
       call check_error(error, 'hinge_level = 1: only for mechanism = ''one_sided''', 'another mechanism')
    end subroutine test_wrong_input
+
+   !> Write a table of walls
+   subroutine write_table(lines)
+      !> Its lines
+      character(len=*), intent(in) :: lines(:)
+
+      integer :: unit, i
+
+      call execute_command_line('mkdir -p '//folder)
+      open (newunit=unit, file=table, action='write', status='replace')
+      do i = 1, size(lines)
+         write (unit, '(a)') trim(lines(i))
+      end do
+      close (unit)
+   end subroutine write_table
+
+   !> Rows of a population with hinges, and rows of one facade
+   subroutine test_rows()
+
+      character(len=*), parameter :: lines(6) = [character(len=80) :: &
+         & 'name,mechanism,height,thickness,hinge1_level,hinge2_level,weight,facade,p_occ', &
+         & 'a,one_sided,3,0.3,,,1,,1', &
+         & 'b,one_sided,6,0.4,0,2.5,2,,1', &
+         & 'outer,one_sided,3,0.12,,,1,leaves,1', &
+         & 'inner,one_sided,3,0.12,,,1,leaves,1', &
+         & 'inner,two_block,3,0.12,,,1,leaves,0.5']
+      type(member_type), allocatable :: members(:)
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      type(error_type), allocatable :: error
+      logical :: found
+
+      call suite('rows of facades')
+      call write_table(lines)
+      call read_population(table, members, error)
+      call check_ok(error, 'the table is right')
+      if (allocated(error)) return
+      call check(size(members) == 6, 'a row with two hinges is two')
+      if (size(members) /= 6) return
+      call check(members(1)%wall%name() == 'a' .and. members(1)%facade == '', 'no facade')
+      call check(members(2)%wall%name() == 'b at 0 m' .and. members(2)%facade == 'b', 'its first hinge')
+      call check(members(3)%wall%name() == 'b at 2.5 m' .and. members(3)%facade == 'b', 'its second hinge')
+      call check_close(members(3)%wall%input%number('height'), 3.5_wp, exact, 'the wall above')
+      call check_close(members(3)%weight, 2.0_wp, exact, 'its weight')
+      call check(all(members%continues .eqv. [.false., .false., .true., .false., .true., .true.]), 'who goes on')
+      call reader%open(table, error)
+      call reader%skip(2, error)
+      call reader%next(member, found, error)
+      call check(found .and. member%wall%name() == 'b at 2.5 m' .and. member%continues, 'rows can be passed over')
+      call reader%close()
+   end subroutine test_rows
+
+   !> Rows that do not go together
+   subroutine test_wrong_rows()
+
+      character(len=*), parameter :: head = 'name,mechanism,height,thickness,hinge1_level,hinge2_level,weight,facade'
+
+      call suite('wrong rows of facades')
+      call check_rows([character(len=80) :: head, 'a,one_sided,3,0.3,0,3,1,'], &
+         & 'line 2: hinge_level = 3: must be less than the height')
+      call check_rows([character(len=80) :: head, 'a,one_sided,-3,0.3,0,1,1,'], 'line 2: height = -3: must be positive')
+      call check_rows([character(len=80) :: head, 'a,one_sided,3,0.3,,,1,f', 'b,one_sided,3,0.3,,,2,f'], &
+         & 'line 3: weight = 2: must be 1 as in the row before, which is of the same facade')
+      call check_rows([character(len=80) :: head, 'a,one_sided,3,0.3,,,1,f', 'a,one_sided,3,0.2,,,1,f'], &
+         & 'line 3: name = ''a'': the row before gives this wall the same mechanism')
+      call check_rows([character(len=80) :: head, 'a,one_sided,3,0.3,,,1,f', 'b,one_sided,3,0.3,,,1,', &
+         & 'c,one_sided,3,0.3,,,1,f'], 'line 4: facade = ''f'': another facade has this name (line 2)')
+      call check_rows([character(len=80) :: head, 'a,one_sided,3,0.3,0,1,1,', 'a at 1 m,one_sided,3,0.3,,,1,'], &
+         & 'line 3: name = ''a at 1 m'': another wall has this name (line 2)')
+   end subroutine test_wrong_rows
+
+   !> Check that a table is refused with one line
+   subroutine check_rows(lines, part)
+      !> Its lines
+      character(len=*), intent(in) :: lines(:)
+      !> What the message says
+      character(len=*), intent(in) :: part
+
+      type(member_type), allocatable :: members(:)
+      type(error_type), allocatable :: error
+
+      call write_table(lines)
+      call read_population(table, members, error)
+      call check_error(error, part, part)
+      if (allocated(error)) call check(index(error%message, new_line('a')) == 0, part//': once')
+   end subroutine check_rows
+
+   !> A facade without a table
+   subroutine test_given_facade()
+
+      type(wall_input_type) :: input
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      type(error_type), allocatable :: error
+      logical :: found
+      integer :: rows
+
+      call suite('a facade alone')
+      input = facade('both')
+      call input%set('name', 'F')
+      call input%set('hinge_at', 'storeys')
+      call reader%open('case.nml', error, facade=input)
+      call check_ok(error, 'opened')
+      rows = 0
+      do
+         call reader%next(member, found, error)
+         call check_ok(error, 'a row')
+         if (.not. found .or. allocated(error)) exit
+         rows = rows + 1
+         call check(member%facade == 'F' .and. (member%continues .eqv. rows > 1), 'one facade')
+      end do
+      call check(rows == 3, 'a hinge at each storey')
+   end subroutine test_given_facade
 
 end program test_facade

@@ -287,11 +287,13 @@ contains
 
       type(wall_input_type) :: input
       type(problems_type) :: problems
+      type(error_type), allocatable :: wrong
 
       if (size(self%levels) == 0) then
+         call read_own(self, wrong)
          call read_row(self, problems)
          ! What cannot be read would be told of once more as missing
-         if (problems%count == 0 .and. has_hinge_level(self%input)) call find_levels(self, problems)
+         if (problems%count == 0 .and. has_hinge_level(self%input)) call find_levels(self)
       end if
       input = self%input
       if (problems%count == 0 .and. size(self%levels) > 0) then
@@ -304,19 +306,21 @@ contains
       call member%wall%input%set('name', trim(input%word('name')))
       if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
       ! What is wrong with a facade is wrong with all of its walls: the others are not tried
-      if (allocated(error) .or. problems%count > 0) self%levels = [real(wp) ::]
+      if (allocated(error) .or. allocated(wrong) .or. problems%count > 0) self%levels = [real(wp) ::]
       call problems%take(error)
+      call problems%take(wrong)
       call problems%raise(error)
    end subroutine make_member
 
-   !> Find the hinges of the row
-   subroutine find_levels(self, problems)
+   !> Find the hinges of the row; none if they are wrong, which is said where the wall is made
+   subroutine find_levels(self)
       class(population_reader_type), intent(inout) :: self
-      !> Takes hinges that the wall does not have; what else is wrong with it is found where it is made
-      type(problems_type), intent(inout) :: problems
+
+      type(problems_type) :: problems
 
       self%level = 0
       call find_hinge_levels(self%input, problems, self%levels)
+      if (problems%count > 0) self%levels = [real(wp) ::]
       if (len(self%own%facade) == 0) self%own%facade = trim(self%input%word('name'))
       self%own%has_name = .true.
    end subroutine find_levels
@@ -382,27 +386,37 @@ contains
       if (rows > 0) call self%next(member, found, error)
    end subroutine skip
 
-   !> Read what a row says
+   !> Read what a row says of its wall
    subroutine read_row(self, problems)
       !> The reader, with a row: what it says is set
       class(population_reader_type), intent(inout) :: self
-      !> Takes every cell that is not a number or out of range
+      !> Takes every cell that is not a number
       type(problems_type), intent(inout) :: problems
 
-      type(group_settings_type) :: own
-
       self%input = wall_input_type()
-      call new_settings(own, member_properties)
+      self%own%has_name = .true.
       if (allocated(self%facade)) then
          self%input = self%facade
-         self%own%has_name = .true.
-      else
-         call self%input%set('name', 'wall '//to_text(self%row))
-         self%own%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
-         call read_cells(self, self%wall_columns, self%input, problems)
-         call read_lists(self, self%input, problems)
-         call read_cells(self, self%member_columns, own, problems)
+         return
       end if
+      call self%input%set('name', 'wall '//to_text(self%row))
+      self%own%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
+      call read_cells(self, self%wall_columns, self%input, problems)
+      call read_lists(self, self%input, problems)
+   end subroutine read_row
+
+   !> Read what a row says of its weight, its group, its mechanism and its facade
+   subroutine read_own(self, error)
+      !> The reader, with a row: all but what is said of its wall is set
+      class(population_reader_type), intent(inout) :: self
+      !> Every cell that is not a number or out of range
+      type(error_type), allocatable, intent(out) :: error
+
+      type(group_settings_type) :: own
+      type(problems_type) :: problems
+
+      call new_settings(own, member_properties)
+      if (.not. allocated(self%facade)) call read_cells(self, self%member_columns, own, problems)
       call own%fill()
       call own%check(problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
@@ -410,7 +424,8 @@ contains
       self%own%p_occ = abs(own%number('p_occ'))
       self%own%group = own%word('group')
       self%own%facade = trim(own%word('facade'))
-   end subroutine read_row
+      call problems%raise(error)
+   end subroutine read_own
 
    !> Has the row something in a column? Blanks alone are nothing
    logical function is_given(reader, column)

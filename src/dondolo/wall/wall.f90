@@ -99,7 +99,7 @@ contains
       call understand(wall, input, problems, body)
       if (problems%count == 0 .and. has_hinge_level(input)) then
          call find_hinge_levels(wall%input, problems, levels)
-         if (size(levels) > 1) call problems%note('hinge_level: has '//to_text(size(levels))// &
+         if (problems%count == 0 .and. size(levels) > 1) call problems%note('hinge_level: has '//to_text(size(levels))// &
             & ' values, a wall has one; a facade with several is a population, task = ''typology''')
          above = input
          if (problems%count == 0) call cut_wall(above, levels(1), problems)
