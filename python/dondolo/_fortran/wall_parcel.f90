@@ -122,7 +122,7 @@ contains
    end subroutine pack_walls
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
-   !> mechanisms; text: their groups
+   !> mechanisms; text: their groups, then their facades
    subroutine pack_members(members, parcel)
       !> The rows
       type(member_type), intent(in) :: members(:)
@@ -140,6 +140,9 @@ contains
       call parcel%add([members%weight, members%p_occ])
       do i = 1, size(members)
          call parcel%lines%add(members(i)%group)
+      end do
+      do i = 1, size(members)
+         call parcel%lines%add(members(i)%facade)
       end do
    end subroutine pack_members
 

@@ -163,15 +163,16 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 def read_walls(
     path: str | os.PathLike[str], gravity: float | None
-) -> tuple[list[WallData], FloatArray, list[str], FloatArray]:
-    """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
+) -> tuple[list[WallData], FloatArray, list[str], FloatArray, list[str]]:
+    """Read a population: its walls, their weights and groups, the probabilities of their mechanisms, their facades."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.walls.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
     reals, _, groups = walls_end(parcel, count)
     weights, p_occ = parcel.reals[reals:].reshape(2, count)
-    warn_of_notes(parcel.lines[groups + count :])
-    return unpack_walls(parcel, count), weights, parcel.lines[groups : groups + count], p_occ
+    facades = groups + count
+    warn_of_notes(parcel.lines[facades + count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[groups:facades], p_occ, parcel.lines[facades:][:count]
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself

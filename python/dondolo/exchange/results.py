@@ -200,7 +200,8 @@ def _population(table: ResultFile, gravity: float) -> Population:
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
-    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
+    facades = tuple(table.texts("facade")) if "facade" in table else None
+    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
 
 
 def _list(table: ResultFile, column: str, i: int) -> list[Any]:

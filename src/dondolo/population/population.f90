@@ -106,7 +106,7 @@ module dondolo_population
 contains
 
    !> Read all of a population
-   subroutine read_population(file, members, error, gravity, note)
+   subroutine read_population(file, members, error, gravity, note, facade)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
@@ -117,6 +117,8 @@ contains
       real(wp), intent(in), optional :: gravity
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
+      !> The facade that is the whole population; absent: the table
+      type(wall_input_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
@@ -124,7 +126,7 @@ contains
       logical :: found
       integer :: rows
 
-      call reader%open(file, error, gravity)
+      call reader%open(file, error, gravity, facade=facade)
       if (allocated(error)) return
       allocate (members(64))
       rows = 0
