@@ -200,7 +200,7 @@ def _population(table: ResultFile, gravity: float) -> Population:
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
-    facades = tuple(table.texts("facade")) if "facade" in table else None
+    facades = tuple(table.texts("facade")) if "facade" in table else ("",) * len(walls)
     return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
 
 

@@ -62,8 +62,8 @@ class Typology(Shown, Saved):
     curves : tuple of Fragility
         Curve of each row.
     combined : dict of str to Fragility
-        Curve of each wall or facade by its name, mechanisms in series: that of its row, or where there are several or one that
-        may not occur, the lognormal fitted to the combined fractions.
+        Curve of each wall or facade by its name, mechanisms in series: that of its row, or where there are several or
+        one that may not occur, the lognormal fitted to the combined fractions.
     groups : tuple of Group
         The curves: those of the whole population, then those of each group, in the order they appear in; for each
         mechanism, and the last for all, if there are several or one that may not occur.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -27,7 +28,7 @@ def unions_of(typology: Typology) -> dict[str, Fragility]:
     ends = np.append(people.first_rows, len(people))
     return {
         people.wholes[first]: _union(typology, flags, np.arange(first, end))
-        for first, end in zip(ends, ends[1:], strict=False)
+        for first, end in pairwise(ends)
         if end - first > 1
     }
 

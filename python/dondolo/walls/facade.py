@@ -14,7 +14,7 @@ from dondolo.walls.mechanisms import OneSidedWall, wall_from
 from dondolo.walls.population import Population
 
 
-def facade(wall: OneSidedWall, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
+def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
     """Make the walls of a facade that can turn out about several hinges.
 
     Parameters

@@ -42,8 +42,8 @@ class Population(Shown):
     """Walls and how many of the kind each stands for.
 
     Walls with the same name, one after the other, are mechanisms of one wall; those of the same facade are mechanisms
-    of the facade, which collapses if any of its walls does (`facade` makes them). Walls that were given no name are called
-    'wall' with the number of their row, or the next that no other wall is called by.
+    of the facade, which collapses if any of its walls does (`facade` makes them). Walls that were given no name are
+    called 'wall' with the number of their row, or the next that no other wall is called by.
 
     Attributes
     ----------
@@ -435,9 +435,8 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
         if facade:
             one, whole = first_of.setdefault(facade, i), "facade"
             if one != i and facades[i - 1] != facade:
-                raise InputError(
-                    f"facade = {facade!r}: another facade has this name; walls of one facade must be on consecutive rows"
-                )
+                wrong = f"facade = {facade!r}: another facade has this name"
+                raise InputError(f"{wrong}; walls of one facade must be on consecutive rows")
         if weights[i] != weights[one] or groups[i] != groups[one]:
             raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same weight and group")
     for facade in first_of:

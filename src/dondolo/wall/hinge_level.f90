@@ -13,6 +13,9 @@ module dondolo_hinge_level
 
    public :: has_hinge_level, find_hinge_levels, cut_wall
 
+   !> What asks for a hinge at the bottom of every section
+   character(len=*), parameter :: storeys = 'storeys'
+
    !> Heights that differ by this part of the wall are the same
    real(wp), parameter :: same = 1.0e-9_wp
 
@@ -47,6 +50,7 @@ contains
       else
          levels = [(sum(heights(:i)), i=0, size(heights) - 1)]
          if (input%has('hinge_level')) call problems%note('hinge_at: give either hinge_at or hinge_level')
+         if (input%word('hinge_at') /= storeys) call problems%note('hinge_at: must be '//storeys)
          if (.not. input%has('section_height')) call problems%note('hinge_at = '''//input%word('hinge_at')// &
             & ''': only with section_height, the heights of the storeys')
       end if
