@@ -194,12 +194,12 @@ def test_saved(tmp_path, few):
 
 def test_plot(ran):
     result = dd.run_case(ran[0] / "case.nml", progress=False).typology
-    ax = result.plot_union("front")
+    ax = result.plot_union()
     words = [text.get_text() for text in ax.get_legend().get_texts()]
     assert words[0] == "front at 0 m, one-sided"
     assert any(word.startswith("same histories: θ = ") for word in words)
     with pytest.raises(dd.InputError, match="name = 'back'"):
-        result.plot_union("back")
+        result.plot_union(name="back")
 
 
 @pytest.mark.parametrize(

@@ -201,15 +201,15 @@ class Typology(Shown, Saved):
 
         return unions_of(self)
 
-    def plot_union(self, name: str, ax: Axes | None = None) -> Axes:
+    def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
         """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.
 
         Parameters
         ----------
-        name : str
-            One of `unions`.
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        name : str, optional
+            One of `unions`; must be given if there are several.
 
         Returns
         -------
@@ -223,8 +223,9 @@ class Typology(Shown, Saved):
         """
         from dondolo.populations.plots import draw_union
 
-        one_of("name", name, self.unions)
-        return draw_union(self, name, ax)
+        chosen = next(iter(self.unions)) if name is None and len(self.unions) == 1 else name
+        one_of("name", chosen, self.unions)
+        return draw_union(self, str(chosen), ax)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curve of the whole population: ``typology["all"].plot()``.

@@ -10,13 +10,14 @@ module dondolo_unions
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_population_counts, only : population_counts_type
+   use dondolo_roster, only : number_of_group
    use dondolo_row_result, only : row_result_type, shape_type
    use dondolo_typology, only : typology_type
    use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
-   public :: union_type, union_builder_type, wall_union, mean_union
+   public :: union_type, union_builder_type, wall_union, mean_unions
 
    !> Fractions of a wall with several mechanisms, or means over a population or a group
    type :: union_type
@@ -126,62 +127,115 @@ contains
       end do
    end subroutine wall_union
 
-   !> Weighted mean of the unions of the walls of a population or of a group
-   subroutine mean_union(union, unions, population, group, typologies, error)
-      !> The mean, with naive standard errors; without curves if no wall has several mechanisms
-      type(union_type), intent(out) :: union
+   !> Weighted means of the unions of the walls of a population and of its groups
+   subroutine mean_unions(means, unions, population, typologies, error)
+      !> The means, with naive standard errors: of the population, then of the groups with walls of several mechanisms
+      type(union_type), allocatable, intent(out) :: means(:)
       !> Unions of the walls with several mechanisms, in the order of walls
       type(union_type), intent(in) :: unions(:)
       !> The population, fitted
       type(population_counts_type), intent(in) :: population
-      !> Number of the group, 0: all walls
-      integer, intent(in) :: group
-      !> Curves of the same walls, all mechanisms independent (states)
-      type(typology_type), intent(in) :: typologies(:)
+      !> Curves of the population and of its groups (curves, states), 'all' among them where walls have several mechanisms
+      type(typology_type), intent(in) :: typologies(:, :)
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
+      type(union_type) :: union
+      real(wp) :: sums(size(population%levels), size(typologies, 2), 0:population%groups%count)
+      real(wp) :: weight(0:population%groups%count)
+      logical :: has_union(0:population%groups%count)
+      integer :: i, number
+
+      call sum_unions(unions, population, sums, weight, has_union)
+      allocate (means(0))
+      do i = 1, size(typologies, 1)
+         number = number_of_group(population%groups, typologies(i, 1)%group)
+         if (typologies(i, 1)%mechanism /= 'all' .or. .not. has_union(number)) cycle
+         call fit_mean(union, sums(:, :, number)/weight(number), typologies(i, :), population%levels, error)
+         if (allocated(error)) return
+         means = [means, union]
+      end do
+   end subroutine mean_unions
+
+   !> Sums of weights and of weighted fractions over the walls of a population and of its groups
+   subroutine sum_unions(unions, population, sums, weight, has_union)
+      !> Unions of the walls with several mechanisms, in the order of walls
+      type(union_type), intent(in) :: unions(:)
+      !> The population, fitted
+      type(population_counts_type), intent(in) :: population
+      !> Sum of weight and fraction (levels, states, groups from 0, the population)
+      real(wp), intent(out) :: sums(:, :, 0:)
+      !> Sum of the weights
+      real(wp), intent(out) :: weight(0:)
+      !> Has a wall several mechanisms?
+      logical, intent(out) :: has_union(0:)
+
       type(wall_curves_type) :: wall
       real(wp), allocatable :: together(:, :)
-      real(wp) :: weight, share(size(population%levels))
-      integer :: i, k, next, found
+      real(wp) :: share(size(sums, 1), size(sums, 2))
+      integer :: i, k, next, group
+      logical :: several
+
+      sums = 0.0_wp
+      weight = 0.0_wp
+      has_union = .false.
+      next = 1
+      do i = 1, population%walls()
+         several = population%first(i + 1) - population%first(i) > 1
+         if (several) then
+            share = unions(next)%fraction
+            next = next + 1
+         else
+            do k = 1, size(sums, 2)
+               wall = population%wall(i, k)
+               together = wall%fractions()
+               share(:, k) = together(:, size(together, 2))
+            end do
+         end if
+         group = population%group(population%first(i))
+         associate (own => population%weight(population%first(i)))
+            weight(0) = weight(0) + own
+            sums(:, :, 0) = sums(:, :, 0) + own*share
+            has_union(0) = has_union(0) .or. several
+            if (group == 0) cycle
+            weight(group) = weight(group) + own
+            sums(:, :, group) = sums(:, :, group) + own*share
+            has_union(group) = has_union(group) .or. several
+         end associate
+      end do
+   end subroutine sum_unions
+
+   !> Fit a mean
+   subroutine fit_mean(union, fraction, typologies, levels, error)
+      !> The mean
+      type(union_type), intent(out) :: union
+      !> Its fractions (levels, states)
+      real(wp), intent(in) :: fraction(:, :)
+      !> Curves of the same walls, all mechanisms independent (states)
+      type(typology_type), intent(in) :: typologies(:)
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Fractions that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: share(size(levels))
+      integer :: k
 
       union%name = ''
       union%group = typologies(1)%group
-      found = 0
-      allocate (union%fraction(size(population%levels), size(typologies)), source=0.0_wp)
-      do k = 1, size(typologies)
-         weight = 0.0_wp
-         next = 1
-         do i = 1, population%walls()
-            wall = population%wall(i, k)
-            together = wall%fractions()
-            share = together(:, size(together, 2))
-            if (next <= size(unions)) then
-               if (unions(next)%rows(1) == population%first(i)) then
-                  share = unions(next)%fraction(:, k)
-                  next = next + 1
-                  if (group == 0 .or. population%group(population%first(i)) == group) found = found + 1
-               end if
-            end if
-            if (group > 0 .and. population%group(population%first(i)) /= group) cycle
-            weight = weight + wall%weight
-            union%fraction(:, k) = union%fraction(:, k) + wall%weight*share
-         end do
-         union%fraction(:, k) = min(union%fraction(:, k)/weight, 1.0_wp)
-      end do
-      if (found == 0) return
+      ! Rounding must not leave more collapses than histories.
+      union%fraction = min(fraction, 1.0_wp)
       union%histories = typologies(1)%histories
       union%saturation = typologies(1)%saturation
       union%product = typologies%fit
-      allocate (union%curve(size(typologies)), union%independent(size(population%levels), size(typologies)))
+      allocate (union%curve(size(typologies)), union%independent(size(levels), size(typologies)))
       do k = 1, size(typologies)
          union%independent(:, k) = typologies(k)%mean_fraction
          share = union%fraction(:, k)
          if (union%saturation > 0.0_wp) share = min(share/union%saturation, 1.0_wp)
-         call fit_fragility(union%curve(k), population%levels, union%histories*share, union%histories, error)
+         call fit_fragility(union%curve(k), levels, union%histories*share, union%histories, error)
          if (allocated(error)) return
       end do
-   end subroutine mean_union
+   end subroutine fit_mean
 
 end module dondolo_unions

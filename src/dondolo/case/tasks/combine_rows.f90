@@ -9,10 +9,9 @@ module dondolo_combine_rows
    use dondolo_population_counts, only : new_population_counts
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
-   use dondolo_roster, only : number_of_group
    use dondolo_study, only : study_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_unions, only : mean_union, union_builder_type, union_type, wall_union
+   use dondolo_unions, only : mean_unions, union_builder_type, union_type, wall_union
    use dondolo_warnings, only : fit_warning_type, warn_of_records
    implicit none
    private
@@ -66,7 +65,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(union_builder_type) :: builder
-      type(union_type) :: union
+      type(union_type), allocatable :: means(:)
       type(row_result_type) :: row
       logical :: runs(size(study%suite%clusters), size(study%levels))
       integer :: i, k, wall, number
@@ -99,14 +98,9 @@ contains
             end associate
          end do
          call name_unions(case, results%unions, error)
-         if (population%walls() == 1) return
-         do k = 1, size(results%typologies, 1)
-            if (allocated(error)) return
-            if (results%typologies(k, 1)%mechanism /= 'all') cycle
-            call mean_union(union, results%unions(:number), population, number_of_group(population%groups, &
-               & results%typologies(k, 1)%group), results%typologies(k, :), error)
-            if (allocated(union%curve)) results%unions = [results%unions, union]
-         end do
+         if (allocated(error) .or. population%walls() == 1) return
+         call mean_unions(means, results%unions, population, results%typologies, error)
+         if (.not. allocated(error)) results%unions = [results%unions, means]
       end associate
    end subroutine unite_rows
 
