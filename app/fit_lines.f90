@@ -6,10 +6,11 @@ module dondolo_fit_lines
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_text, only : counted, right, rounded, to_text
+   use dondolo_typology, only : typology_type
    implicit none
    private
 
-   public :: print_fit, fractiles, bar, make_head
+   public :: print_fit, print_population_errors, fractiles, bar, make_head
 
    !> Widest bar of a table
    integer, parameter :: bar_width = 40
@@ -37,7 +38,6 @@ contains
       type(fragility_type), intent(in) :: curve
 
       real(wp) :: bounds(2, 2)
-      character(len=24) :: upper
 
       select case (curve%errors)
       case ('few_clusters')
@@ -47,11 +47,9 @@ contains
          write (output_unit, '(a)') 'no standard errors: one cluster of records determines the curve'
       case default
          bounds = parameter_intervals(curve)
-         upper = 'no bound'
-         if (bounds(2, 2) < huge(bounds)) upper = rounded(bounds(2, 2))
          write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
             & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
-            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper), &
+            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2))), &
             & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
             & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
             & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
@@ -81,6 +79,37 @@ contains
       text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
       if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
    end function fractiles
+
+   !> Print the standard errors of a curve of the population and their intervals, or why it has none
+   subroutine print_population_errors(typology)
+      type(typology_type), intent(in) :: typology
+
+      real(wp) :: bounds(2, 2)
+
+      associate (fit => typology%fit)
+         if (fit%has_errors()) then
+            bounds = parameter_intervals(fit)
+            write (output_unit, '(a)') '  standard errors over records and walls: '//rounded(fit%se_ln_theta())// &
+               & ' of ln theta, '//rounded(fit%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))// &
+               & ' to '//rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2)))
+         else if (fit%errors == 'one_cluster') then
+            write (output_unit, '(a)') '  no standard errors: one cluster of records, or one wall, determines the curve'
+         else
+            write (output_unit, '(a)') '  no standard errors: at least '//to_text(fewest_clusters)// &
+               & ' clusters of records and as many walls, or a single one, are needed'
+         end if
+      end associate
+   end subroutine print_population_errors
+
+   !> The upper end of an interval of beta, filled up with blanks
+   pure function upper_end(bound) result(text)
+      !> Huge if there is none
+      real(wp), intent(in) :: bound
+      character(len=24) :: text
+
+      text = 'no bound'
+      if (bound < huge(bound)) text = rounded(bound)
+   end function upper_end
 
    !> A bar as long as a fraction
    pure function bar(fraction)

@@ -3,7 +3,7 @@ module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
    use dondolo_check_lines, only : print_check, print_verdicts
-   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
+   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
@@ -252,6 +252,7 @@ contains
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
                      & '), status '//trim(typology%fit%status)//'; at 16, 50, 84 %: '// &
                      & trim(fractiles(case, typology%fit, typology%saturation))
+                  call print_population_errors(typology)
                else
                   write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
                end if

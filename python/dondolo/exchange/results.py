@@ -23,6 +23,7 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
+from dondolo.exchange.stored_errors import kept_errors
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.building import building_from
@@ -93,7 +94,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     -------
     StoredResults
         The same objects as those of a run in Python; curves are fitted again, to the same counts. Those of a typology
-        have naive standard errors, for the files do not tell which record brings which wall down.
+        have the standard errors of the files, and cannot be compared: the files do not tell which record brings which
+        wall down.
 
     Raises
     ------
@@ -161,6 +163,8 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, fragility=curves[-1])
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
+    if stored.typology is not None:
+        stored = replace(stored, typology=_with_errors(stored.typology, prefix, run))
     walls.check(run)
     table.check(run)
     if task == "stripes" and "check" in run.settings:
@@ -307,3 +311,12 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
     im = table.texts("im")[0]
     result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
     return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))
+
+
+def _with_errors(typology: Typology, prefix: str, run: RunFile) -> Typology:
+    """A typology with the standard errors of its tables."""
+    curves, groups = (ResultFile(f"{prefix}_{name}.csv", run) for name in ("fragility", "typology"))
+    kept = kept_errors(typology, curves, groups)
+    for table in (curves, groups):
+        table.check(run)
+    return replace(kept.put_into(typology, -1), kept_errors=kept)

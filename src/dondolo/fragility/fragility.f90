@@ -38,6 +38,8 @@ module dondolo_fragility
       character(len=len(error_names)) :: errors = 'naive'
       !> Number of clusters; 0 if the histories are taken for independent
       integer :: clusters = 0
+      !> Degrees of freedom of Student's t in intervals; 0 without clustered errors
+      real(wp) :: degrees_of_freedom = 0.0_wp
       !> Covariance of ln theta and beta from the Fisher information, as if all histories were independent
       real(wp) :: naive(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included
