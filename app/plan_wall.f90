@@ -74,6 +74,8 @@ contains
                text = trim(text)//', on the centreline'
             end if
          end if
+         if (input%number('leaves') > 1.0_wp) text = trim(text)//'  '//rounded(input%number('leaves'))//' leaves of '// &
+            & rounded(input%number('thickness')/input%number('leaves'))//' m, one of which rocks'
          if (wall%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%hinge_depth)//' m deep'
          if (wall%mechanism%unseating < wall%mechanism%capacity) text = trim(text)//'  unseating at '// &
             & rounded(wall%mechanism%unseating)//' rad'

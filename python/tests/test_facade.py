@@ -220,3 +220,27 @@ def test_wrong_case(run, root, tmp_path, old, new, message):
     assert done.returncode != 0
     assert message in done.stderr
     assert len(done.stderr.splitlines()) == 1
+
+
+def test_report(ran, tmp_path):
+    result = dd.run_case(ran[0] / "case.nml", progress=False).typology
+    dd.report(result, tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text()
+    assert "Facade front: its walls above each hinge" in text
+    assert "Facades and walls with several mechanisms, collapse in the same histories." in text
+    assert f"{result.unions['front'].theta:.4g}"[:5] in text
+
+
+def test_check_says_leaves(run, root, tmp_path):
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'stripes', output = 'out' /\n"
+        "&wall mechanism = 'one_sided', height = 3, thickness = 0.25, leaves = 2 /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n&stripes levels = 0.1, 0.2, 0.4 /\n"
+    )
+    assert "2 leaves of 0.125 m, one of which rocks" in run("--check", "case.nml").stdout
+    done = run("case.nml")
+    assert "2 leaves of 0.125 m" in done.stdout
+    (row,) = rows(tmp_path / "out_walls.csv")
+    assert float(row["leaves"]) == 2.0
+    assert float(row["alpha_rad"]) == pytest.approx(0.0416425790985884, rel=1e-12)
+    assert dd.read_results(tmp_path / "out").stripes.wall.leaves == 2.0
