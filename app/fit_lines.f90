@@ -39,13 +39,9 @@ contains
 
       real(wp) :: bounds(2, 2)
 
-      select case (curve%errors)
-      case ('few_clusters')
-         write (output_unit, '(a)') 'no standard errors: '//counted(curve%clusters, 'cluster')// &
-            & ' of records, at least '//to_text(fewest_clusters)//' are needed'
-      case ('one_cluster')
-         write (output_unit, '(a)') 'no standard errors: one cluster of records determines the curve'
-      case default
+      if (.not. curve%has_errors()) then
+         write (output_unit, '(a)') 'no standard errors: '//trim(why_none(curve))
+      else
          bounds = parameter_intervals(curve)
          write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
             & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
@@ -53,8 +49,25 @@ contains
             & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
             & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
             & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
-      end select
+      end if
    end subroutine print_errors
+
+   !> Why a curve has no standard errors, filled up with blanks
+   pure function why_none(curve) result(text)
+      type(fragility_type), intent(in) :: curve
+      character(len=80) :: text
+
+      select case (curve%errors)
+      case ('few_clusters')
+         text = counted(curve%clusters, 'cluster')//' of records, at least '//to_text(fewest_clusters)//' are needed'
+      case ('few_walls')
+         text = counted(curve%clusters, 'wall')//', one or at least '//to_text(fewest_clusters)//' are needed'
+      case ('one_wall')
+         text = 'one wall determines the curve'
+      case default
+         text = 'one cluster of records determines the curve'
+      end select
+   end function why_none
 
    !> Levels at which 16, 50 and 84 % collapse
    pure function fractiles(case, curve, saturation) result(text)
@@ -92,11 +105,8 @@ contains
             write (output_unit, '(a)') '  standard errors over records and walls: '//rounded(fit%se_ln_theta())// &
                & ' of ln theta, '//rounded(fit%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))// &
                & ' to '//rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2)))
-         else if (fit%errors == 'one_cluster') then
-            write (output_unit, '(a)') '  no standard errors: one cluster of records, or one wall, determines the curve'
          else
-            write (output_unit, '(a)') '  no standard errors: at least '//to_text(fewest_clusters)// &
-               & ' clusters of records and as many walls, or a single one, are needed'
+            write (output_unit, '(a)') '  no standard errors: '//trim(why_none(fit))
          end if
       end associate
    end subroutine print_population_errors

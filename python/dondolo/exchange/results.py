@@ -11,6 +11,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
+from dondolo._base.shown import Shown
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.checks import SheetRow
@@ -42,8 +43,8 @@ _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not i
 _LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class StoredResults:
+@dataclass(frozen=True, repr=False, kw_only=True)
+class StoredResults(Shown):
     """What the result files of one run hold; what its task does not make is None.
 
     Attributes
@@ -69,6 +70,11 @@ class StoredResults:
     fragility: Fragility | None = None
     typology: Typology | None = None
     check: CodeCheck | None = None
+
+    def _facts(self) -> list[tuple[str, str]]:
+        names = ("response", "stripes", "fragility", "typology", "check")
+        made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
+        return [("run", f"{self.run.run} of dondolo {self.run.version}"), ("population", repr(self.population)), *made]
 
     @property
     def edp_thresholds(self) -> list[float]:

@@ -13,7 +13,7 @@ from dondolo.exchange.result_file import ResultFile
 from dondolo.populations.errors import KeptErrors
 from dondolo.populations.typology import Typology
 
-_KINDS = ("clustered", "few_clusters", "one_cluster")
+_KINDS = ("clustered", "few_clusters", "one_cluster", "few_walls", "one_wall")
 
 
 def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> KeptErrors:

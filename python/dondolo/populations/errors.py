@@ -17,7 +17,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_curves
 from dondolo._storage.saved import part_of_results
-from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
+from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts, no_errors
 from dondolo.curves.fitting import with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series, series_slopes
@@ -208,5 +208,6 @@ class _Sum:
         names = [f"wall {number + 1}" for number in range(len(walls))]
         drawn = errors_of_counts("walls", names, self.levels, walls / total * part.sum(axis=0), histories, at)
         if drawn.errors != "clustered":
-            return with_errors(fit, drawn)
+            why = {"few_clusters": "few_walls", "one_cluster": "one_wall"}[drawn.errors]
+            return with_errors(fit, no_errors(why, drawn.clusters))
         return with_errors(fit, errors_of_parts((*records.parts, *drawn.parts)))

@@ -21,8 +21,10 @@ module dondolo_fragility
       & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
 
    !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_clustered);
-   !> the last two have none, for too few clusters or since one of them determines the curve
-   character(len=12), parameter :: error_names(4) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', 'one_cluster']
+   !> the others have none, for too few clusters of records, or walls of a population, or since one of them determines
+   !> the curve
+   character(len=12), parameter :: error_names(6) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', &
+      & 'one_cluster', 'few_walls', 'one_wall']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type

@@ -207,7 +207,7 @@ contains
 
       associate (fit => typology%fit)
          if (curve%walls < fewest_clusters .or. .not. curve%is_determined) then
-            fit%errors = merge('few_clusters', 'one_cluster ', curve%walls < fewest_clusters)
+            fit%errors = merge('few_walls', 'one_wall ', curve%walls < fewest_clusters)
             fit%clusters = curve%walls
             fit%covariance = 0.0_wp
             fit%degrees_of_freedom = 0.0_wp
