@@ -144,8 +144,8 @@ contains
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
-         do i = 1, size(results%ties)
-            call make_tie_sentence(i, results%ties(i), line)
+         do i = 1, size(results%trace%ties)
+            call make_tie_sentence(i, results%trace%ties(i), line)
             write (output_unit, '(a)') line
          end do
          if (case%solver%solver%estimate_error) then

@@ -5,7 +5,6 @@ module histories
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : check_floor, floors_type
-   use dondolo_grip, only : tie_response_type
    use dondolo_handles, only : find_suite, find_walls
    use dondolo_interrupt, only : check_interrupt
    use dondolo_memory, only : check_memory => check_room, raise_shortage
@@ -49,7 +48,6 @@ contains
       type(solver_type) :: solver
       type(response_type) :: response
       type(trace_type) :: trace
-      type(tie_response_type), allocatable :: ties(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
@@ -63,19 +61,17 @@ contains
       if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
          if (history == 1) then
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, trace, ties)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, trace)
          else
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, ties=ties)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response)
          end if
          call check_interrupt(error)
       end if
       if (.not. allocated(error) .and. history == 1) call check_trace(trace, error)
       if (.not. allocated(error) .and. history == 1) then
-         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity, trace%ties%time_of_yield, &
+            & trace%ties%time_of_fracture]
          parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
-      end if
-      if (.not. allocated(error)) then
-         if (size(ties) > 0) call parcel%add([ties%time_of_yield, ties%time_of_fracture])
       end if
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       call send(parcel, error, sent, stat, message)

@@ -82,7 +82,8 @@ contains
       !> The walls
       type(wall_type), intent(in) :: walls(:)
       !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e, u and
-      !> the greatest static and the rigid-plastic acceleration of each wall, then all values of all walls; text: their texts, one a line
+      !> the greatest static and the rigid-plastic acceleration of each wall, then all values of all walls; text: their
+      !> texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
       integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 10

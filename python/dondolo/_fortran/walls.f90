@@ -86,9 +86,9 @@ contains
       call report(error, stat, message)
    end subroutine wall_terms
 
-   !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest rotations / capacity
+   !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
+   !> rotations / capacity
    subroutine tie_states(walls, edp, n, k, elongation, energy, broken, stat, message)
-      !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: n, k
       real(c_double), intent(in) :: edp(n)

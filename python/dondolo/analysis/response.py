@@ -63,7 +63,8 @@ class Response(Shown, Saved):
     edp_error : float or None
         Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
     tie_times : ndarray, shape (ties, 2), or None
-        When each tie first yields and when it breaks [s]; NaN for never. None for walls without ties.
+        When each tie first yields and when it breaks [s]; NaN for never. None for walls without ties and with
+        history=False.
     """
 
     wall: Wall
@@ -85,7 +86,7 @@ class Response(Shown, Saved):
 
     @property
     def ties(self) -> TieStates:
-        """What the motion leaves of the ties, each of shape (ties,): plastic elongation, energy, whether it is broken."""
+        """What the motion leaves of the ties: plastic elongation, energy, whether broken, each of shape (ties,)."""
         return states_of_ties(self.wall, self.edp)
 
     @property
@@ -280,7 +281,6 @@ def simulate(
             int(history),
         )
     check(stat, message)
-    parcel = receive(sent, stat, message)
     if sentences := _warnings(wall, record.name, record.peak_acceleration):
         warn(sentences)
     edp_limit = float(settings[2])
@@ -288,14 +288,15 @@ def simulate(
     if estimate_error:
         warn(warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
     if history:
+        parcel = receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
         names = ("time", "ground_acceleration", "rotation", "velocity")
         rows = parcel.reals[: 4 * len(side)]
         motion = dict(zip(names, rows.reshape(4, -1), strict=True))
         motion |= {"side": side.astype(np.int8), "after_impact": after == 1}
-    if ties := number_of_ties(wall):
-        times = parcel.reals[-2 * ties :].reshape(2, ties).T
-        motion["tie_times"] = np.where(times < 0.0, np.nan, times)
+        if ties := number_of_ties(wall):
+            times = parcel.reals[-2 * ties :].reshape(2, ties).T
+            motion["tie_times"] = np.where(times < 0.0, np.nan, times)
     return Response(
         wall=wall,
         record=record,

@@ -171,7 +171,7 @@ class Wall:
 
     @property
     def greatest_acceleration(self) -> float:
-        """Greatest static acceleration that a wall with ties withstands [m/s2]; without ties the trigger acceleration."""
+        """Greatest static acceleration that a wall with ties withstands [m/s2]; without ties the trigger."""
         return self._static(7)
 
     @property

@@ -220,8 +220,8 @@ contains
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
-         do i = 1, size(results%ties)
-            call make_tie_comment(i, results%ties(i), line)
+         do i = 1, size(results%trace%ties)
+            call make_tie_comment(i, results%trace%ties(i), line)
             call files%line(line)
          end do
          call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact')

@@ -4,7 +4,6 @@ module dondolo_results
    use dondolo_check_sheet, only : sheet_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
-   use dondolo_grip, only : tie_response_type
    use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_store, only : store_type
@@ -60,8 +59,6 @@ module dondolo_results
       type(response_type) :: response
       !> Its time history
       type(trace_type) :: trace
-      !> What it did to each of the ties
-      type(tie_response_type), allocatable :: ties(:)
       !> What was computed, of all walls: tasks 'stripes' and 'typology'
       type(work_type) :: work
       !> What the user should know

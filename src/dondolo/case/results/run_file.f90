@@ -224,10 +224,10 @@ contains
          call json%put('impacts', response%impacts)
          call json%put('time_of_peak_s', response%time_of_peak)
          if (case%solver%solver%estimate_error) call json%put('edp_error', response%edp_error)
-         if (size(results%ties) > 0) then
+         if (size(results%trace%ties) > 0) then
             call json%open_array('ties')
-            do i = 1, size(results%ties)
-               call put_tie(results%ties(i), json)
+            do i = 1, size(results%trace%ties)
+               call put_tie(results%trace%ties(i), json)
             end do
             call json%close_array()
          end if

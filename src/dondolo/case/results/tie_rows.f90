@@ -1,10 +1,9 @@
 !> What histories do to the ties of a wall: for people, programs and tables.
 module dondolo_tie_rows
-   use dondolo_grip, only : tie_response_type
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : response_type
+   use dondolo_response, only : response_type, tie_response_type
    use dondolo_text, only : rounded, to_table, to_text
    use dondolo_tie_statics, only : ties_after
    implicit none
