@@ -1,5 +1,6 @@
-!> What follows from a wall with ties alone: what a largest rotation does to them, and accelerations that it withstands: at which it begins to move, the greatest of all, and that of a
-!> mechanism whose ties all yield at once, which design calls alpha_0 g (docs/theory.md, section 2).
+!> What follows from a wall with ties without a history: what a largest rotation does to them, and the accelerations that the
+!> wall withstands statically: at which it begins to move, the greatest of all, and that of a mechanism whose ties all yield
+!> at once, which design calls alpha_0 g (docs/theory.md, section 2).
 module dondolo_tie_statics
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type

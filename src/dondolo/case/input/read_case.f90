@@ -82,7 +82,7 @@ contains
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == 'stripes') then
-         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'the wall has ties')
+         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'wall '''//case%wall%name()//''' has ties')
       end if
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
