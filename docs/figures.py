@@ -119,7 +119,8 @@ def ties():
     path += [(turns, strength), (breaks, strength), (breaks, 0.0)]
     travel, force = np.array(path).T
     axes[1].plot(1e3 * travel, force / 1e3, color=style.BLUE, linewidth=1.8)
-    places = {"yields": (yields, strength), "turns": (turns, strength), "slack": (slack, 0.0), "breaks": (breaks, strength)}
+    places = {"yields": (yields, strength), "turns": (turns, strength), "slack": (slack, 0.0)}
+    places["breaks"] = (breaks, strength)
     for word, (x, y) in places.items():
         axes[1].annotate(word, (1e3 * x, y / 1e3), (0, 5), textcoords="offset points", ha="center")
     axes[1].set(xlabel="elongation from rest D [mm]", ylabel="force T [kN/m]", ylim=(-0.4, 10.5))
