@@ -104,7 +104,7 @@ contains
       motion%q = next%q
       motion%v = next%v
       motion%f = next%f
-      motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
+      if (motion%grip%exists) motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
       if (event /= no_event) motion%longest = longest_step(constants%solver%steps_per_sample, dt, motion%time)
    end subroutine advance
 
