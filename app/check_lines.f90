@@ -39,8 +39,15 @@ contains
          end if
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
-         & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//rounded(sheet%value('site', 'SLV', 'probability'))// &
+         & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//trim(chance(sheet%value('site', 'SLV', 'probability')))// &
          & '; P(collapse) above is that at what the wall stands by each formula'
+      if (sheet%value('dynamic', 'SLV', 'histories') > 0.0_wp) then
+         write (output_unit, '(a)') 'note: NTC 2018, 3.2.3.6 asks for records that are compatible with the spectrum of the '// &
+            & 'site, which is not checked'
+      end if
+      if (sheet%value('site', 'SLD', 'pga') >= sheet%value('site', 'SLC', 'pga')) then
+         write (output_unit, '(a)') 'note: one hazard is given for all limit states; the code has less for SLD, and more for SLC'
+      end if
       write (output_unit, '(a)') ''
 
    contains
@@ -56,9 +63,21 @@ contains
          value = sheet%value(method, check_states(i), name)
          cell = right('-', len(cell))
          if (value >= 0.0_wp) cell = right(rounded(value), len(cell))
+         if (name == 'probability' .and. value >= 0.0_wp) cell = right(trim(chance(value)), len(cell))
       end function cell
 
    end subroutine print_check
+
+   !> A probability; of tails of a fitted curve no more is known than that they are small
+   pure function chance(value) result(text)
+      !> Probability
+      real(wp), intent(in) :: value
+      !> Text, filled up with blanks
+      character(len=24) :: text
+
+      text = '< 0.001'
+      if (value >= 1.0e-3_wp) text = rounded(value)
+   end function chance
 
    !> Print the checks of a population at a glance; those of each row are in their table
    subroutine print_verdicts(verdicts, input)

@@ -28,11 +28,13 @@ module dondolo_help
       & 'A case is a Fortran namelist file:', &
       & '   &job          what is to be done: ''stripes'', ''history'' or ''typology''; where the results go', &
       & '   &wall         the wall (tasks stripes and history)', &
+      & '   &building     the building whose motion shakes it, if it does not stand on the ground', &
       & '   &population   a table of walls (task typology)', &
       & '   &records      the catalogue of accelerograms', &
       & '   &stripes      the intensity measure and its levels (tasks stripes and typology)', &
       & '   &solver       tolerances and the rotation that counts as collapse', &
       & '   &history      which record, and how strong (task history)', &
+      & '   &check        the site of a check by NTC 2018 beside the curves', &
       & 'Groups &stripes and &history are allowed in any case: a task checks both and uses what it needs, so that', &
       & 'one file serves to run the stripes of a wall and to look at one of its histories.', &
       & 'Paths in a case are relative to the case, those of the results to the current folder.', &

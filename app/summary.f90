@@ -11,7 +11,7 @@ module dondolo_summary
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
-   use dondolo_typology, only : whole_population
+   use dondolo_typology, only : typology_type, whole_population
    implicit none
    private
 
@@ -213,26 +213,36 @@ contains
       type(fragility_type), intent(in) :: curve
 
       real(wp) :: bounds(2, 2)
-      character(len=24) :: upper
 
-      select case (curve%errors)
-      case ('few_clusters')
-         write (output_unit, '(a)') 'no standard errors: '//counted(curve%clusters, 'cluster')// &
-            & ' of records, at least '//to_text(fewest_clusters)//' are needed'
-      case ('one_cluster')
-         write (output_unit, '(a)') 'no standard errors: one cluster of records determines the curve'
-      case default
+      if (.not. curve%has_errors()) then
+         write (output_unit, '(a)') 'no standard errors: '//trim(why_none(curve))
+      else
          bounds = parameter_intervals(curve)
-         upper = 'no bound'
-         if (bounds(2, 2) < huge(bounds)) upper = rounded(bounds(2, 2))
          write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
             & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
-            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper), &
+            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2))), &
             & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
             & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
             & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
-      end select
+      end if
    end subroutine print_errors
+
+   !> Why a curve has no standard errors, filled up with blanks
+   pure function why_none(curve) result(text)
+      type(fragility_type), intent(in) :: curve
+      character(len=80) :: text
+
+      select case (curve%errors)
+      case ('few_clusters')
+         text = counted(curve%clusters, 'cluster')//' of records, at least '//to_text(fewest_clusters)//' are needed'
+      case ('few_walls')
+         text = counted(curve%clusters, 'wall')//', one or at least '//to_text(fewest_clusters)//' are needed'
+      case ('one_wall')
+         text = 'one wall determines the curve'
+      case default
+         text = 'one cluster of records determines the curve'
+      end select
+   end function why_none
 
    !> Levels at which 16, 50 and 84 % collapse
    pure function fractiles(case, curve, saturation) result(text)
@@ -323,6 +333,7 @@ contains
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
                      & '), status '//trim(typology%fit%status)//'; at 16, 50, 84 %: '// &
                      & trim(fractiles(case, typology%fit, typology%saturation))
+                  call print_population_errors(typology)
                else
                   write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
                end if
@@ -330,6 +341,34 @@ contains
          end do
       end do
    end subroutine print_typology
+
+   !> Print the standard errors of a curve of the population and their intervals, or why it has none
+   subroutine print_population_errors(typology)
+      type(typology_type), intent(in) :: typology
+
+      real(wp) :: bounds(2, 2)
+
+      associate (fit => typology%fit)
+         if (fit%has_errors()) then
+            bounds = parameter_intervals(fit)
+            write (output_unit, '(a)') '  standard errors over records and walls: '//rounded(fit%se_ln_theta())// &
+               & ' of ln theta, '//rounded(fit%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))// &
+               & ' to '//rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2)))
+         else
+            write (output_unit, '(a)') '  no standard errors: '//trim(why_none(fit))
+         end if
+      end associate
+   end subroutine print_population_errors
+
+   !> The upper end of an interval of beta, filled up with blanks
+   pure function upper_end(bound) result(text)
+      !> Huge if there is none
+      real(wp), intent(in) :: bound
+      character(len=24) :: text
+
+      text = 'no bound'
+      if (bound < huge(bound)) text = rounded(bound)
+   end function upper_end
 
    !> A bar as long as a fraction
    pure function bar(fraction)

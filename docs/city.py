@@ -124,7 +124,7 @@ def curves(study):
     for mechanism in (*MECHANISMS, "all"):
         fit = study.typology[mechanism or "all"].fit
         print(f"standard error of ln theta, {mechanism}: fit {fit.se_ln_theta:.4f}")
-        for what, events in (("one by one", None), ("in pairs of components", study.events)):
+        for what, events in (("one by one", range(len(study.records))), ("in pairs of components", study.events)):
             errors = []
             for over in (("records",), ("walls",), ("records", "walls")):
                 samples = study.typology[mechanism].bootstrap(n_resamples=SAMPLES, over=over, events=events)

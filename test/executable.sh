@@ -115,7 +115,7 @@ check "stripes: header of stripes" equal "$(header out/deep/wall_stripes.csv)" \
    "wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold"
 check "stripes: header of fragility" equal "$(header out/deep/wall_fragility.csv)" \
    "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high,edp_threshold,\
-theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,naive_se_ln_theta,naive_se_beta"
+theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta"
 check "stripes: rows of walls" equal "$(rows out/deep/wall_walls.csv)" 1
 check "stripes: rows of histories" equal "$(rows out/deep/wall_histories.csv)" 40
 check "stripes: rows of stripes" equal "$(rows out/deep/wall_stripes.csv)" 5
@@ -244,7 +244,8 @@ check "typology: exit code" equal "$rc" 0
 check "typology: files" equal "$(ls out | tr '\n' ' ')" \
    "people_fragility.csv people_run.json people_stripes.csv people_typology.csv people_walls.csv "
 check "typology: header" equal "$(header out/people_typology.csv)" \
-   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold"
+   "mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,\
+se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom"
 check "typology: rows" equal "$(rows out/people_typology.csv)" 12
 check "typology: rows of stripes" equal "$(rows out/people_stripes.csv)" 8
 check "typology: levels at 16, 50, 84 % of each curve" equal \

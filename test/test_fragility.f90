@@ -300,11 +300,20 @@ contains
    !> Tables of Student's t
    subroutine test_student()
       call suite('Student''s t')
-      call check_close(student_quantile(0.975_wp, 1), 12.7062047362_wp, 1.0e-10_wp, 'one degree')
-      call check_close(student_quantile(0.975_wp, 2), 4.30265272991_wp, 1.0e-10_wp, 'two degrees')
-      call check_close(student_quantile(0.975_wp, 21), 2.07961384473_wp, 1.0e-10_wp, '21 degrees')
-      call check_close(student_quantile(0.995_wp, 10), 3.16927267_wp, 1.0e-8_wp, 'ten degrees')
-      call check_close(student_cdf(1.96_wp, 100000), normal_cdf(1.96_wp), 2.0e-6_wp, 'many degrees')
+      call check_close(student_quantile(0.975_wp, 1.0_wp), 12.7062047362_wp, 1.0e-10_wp, 'one degree')
+      call check_close(student_quantile(0.975_wp, 2.0_wp), 4.30265272991_wp, 1.0e-10_wp, 'two degrees')
+      call check_close(student_quantile(0.975_wp, 21.0_wp), 2.07961384473_wp, 1.0e-10_wp, '21 degrees')
+      call check_close(student_quantile(0.995_wp, 10.0_wp), 3.16927267262_wp, 1.0e-10_wp, 'ten degrees')
+      ! P(|t| < x) = 2/pi atan(x) of one degree, and x/sqrt(2 + x^2) of two
+      call check_close(student_cdf(-3.0_wp, 1.0_wp), 0.5_wp - atan(3.0_wp)/acos(-1.0_wp), 1.0e-15_wp, 'left of one degree')
+      call check_close(student_cdf(0.3_wp, 2.0_wp), 0.5_wp + 0.15_wp/sqrt(2.09_wp), 1.0e-15_wp, 'two degrees, near 0')
+      call check_close(student_cdf(0.0_wp, 5.0_wp), 0.5_wp, 1.0e-15_wp, 'middle')
+      ! By SciPy 1.17
+      call check_close(student_quantile(0.975_wp, 7.3_wp), 2.345066736547703_wp, 1.0e-13_wp, '7.3 degrees')
+      call check_close(student_quantile(0.975_wp, 0.7_wp), 36.611415031588656_wp, 1.0e-13_wp, '0.7 degrees')
+      call check_close(student_quantile(0.975_wp, 250.5_wp), 1.969479272051676_wp, 1.0e-13_wp, '250.5 degrees')
+      call check_close(student_cdf(-2.0_wp, 3.5_wp), 0.06306926128795672_wp, 1.0e-13_wp, 'left of 3.5 degrees')
+      call check_close(student_cdf(1.96_wp, 1.0e5_wp), normal_cdf(1.96_wp), 2.0e-6_wp, 'many degrees')
    end subroutine test_student
 
 end program test_fragility

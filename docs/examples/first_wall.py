@@ -12,7 +12,7 @@ data = Path(__file__).resolve().parents[2] / "data"
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% A brick parapet that leans against the roof behind it: it can only overturn outwards
+# %% A brick parapet that a roof or buttresses hold from behind, up to its top: it can only overturn outwards
 wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
 print(wall)
 print(f"rocking starts at {wall.trigger_acceleration / wall.gravity:.3f} g")

@@ -52,6 +52,7 @@ from dondolo.records.spectrum import Spectrum
 from dondolo.records.synthetic import synthetic_records
 from dondolo.records.target import TargetSpectrum
 from dondolo.reporting.page import report
+from dondolo.retrofit.designs import DesignComparison, compare_designs
 from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.uncertainty import RiskUncertainty
@@ -72,6 +73,7 @@ __all__ = [
     "Cloud",
     "CodeCheck",
     "Comparison",
+    "DesignComparison",
     "DiscreteFragility",
     "DondoloError",
     "DondoloWarning",
@@ -119,6 +121,7 @@ __all__ = [
     "check_ntc",
     "cloud",
     "compare",
+    "compare_designs",
     "compare_intensities",
     "ec8_spectrum",
     "fit_fragility",

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -155,3 +156,23 @@ def test_selection(records):
     np.testing.assert_allclose(chosen.sa[:, here], 0.6, rtol=1e-12)
     with pytest.raises(dd.InputError, match="records can be scaled"):
         dd.select_records(records, dd.ec8_spectrum(30.0, periods=PERIODS), 5, max_factor=1.5)
+
+
+@pytest.mark.parametrize(("im", "power"), [("pga", 1), ("arias", 2)])
+def test_factors_that_miss_their_level(records, wall, im, power):
+    """A factor of ones own may take a record elsewhere; beyond 10 % that is said."""
+    values = [record.intensity(im) for record in records[:3]]
+    level = 1.5 * values[0]
+    exact = [(level / value) ** (1.0 / power) for value in values]
+    near = [exact[0], 1.08 ** (1.0 / power) * exact[1], exact[2]]
+    far = [*near[:2], (0.5) ** (1.0 / power) * exact[2]]
+    for factors, told in ((near, []), (far, [f"record '{records[2].name}' has {im} = {0.5 * level:.4g} at level"])):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            dd.multiple_stripe(wall, {level: dd.RecordSet(records[:3], factor=factors)}, im=im, progress=False)
+        found = [one.message for one in caught if one.message.code == "factors_off_levels"]
+        assert len(found) == len(told)
+        for one, words in zip(found, told, strict=True):
+            assert "more than 10 % off their levels: 1 of 3" in str(one)
+            assert words in str(one)
+            assert one.numbers["factors"] == 3

@@ -177,6 +177,8 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["walls"] == [str(curve.n_walls) for curve in people.groups]
     assert table["θ [g]"] == four(curve.fit.theta for curve in people.groups)
     assert table["β"] == four(curve.fit.beta for curve in people.groups)
+    errors = [numerals.number(curve.fit.se_ln_theta, 3).text for curve in people.groups]
+    assert table["standard error of ln θ"] == errors
     assert table["βwalls"] == four(curve.beta_walls for curve in people.groups)
     assert table["βrecords"] == four(curve.beta_records for curve in people.groups)
     assert table["status"] == [curve.fit.status for curve in people.groups]
@@ -194,8 +196,13 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["wall"] == ["a", "a", "b", "never"]
     assert table["θ [g]"] == four(curve.theta for curve in people.curves)
     assert table["status"] == [curve.status for curve in people.curves]
+    assert people["all"].fit.has_errors
+    ends = people["all"].fit.parameter_interval()
+    table = page.table("95 % intervals of the parameters, whole population, by the covariance of the fit")
+    assert table["from"] == four(ends[name][0] for name in ("theta", "beta"))
+    assert table["to"] == four(ends[name][1] for name in ("theta", "beta"))
     samples = people["all"].bootstrap(n_resamples=500).parameter_interval()
-    table = page.table("95 % intervals of the parameters")
+    table = page.table("95 % intervals of the parameters, by drawing")
     assert table["from"] == four(samples[name][0] for name in ("theta", "beta"))
     assert table["to"] == four(samples[name][1] for name in ("theta", "beta"))
 

@@ -514,6 +514,7 @@ def test_files(hazard, tmp_path):
         dd.HazardCurve.from_csv(3.5)
 
 
+RIGID = "ag is taken for the PGA; that of rigid ground must be multiplied by the factors of soil and topography"
 NTC = "TR [anni];ag [g];F0 [-];TC* [s]\n30;0,05;2,4;0,28\n475;0,2;2,5;0,33\n"
 
 
@@ -522,11 +523,11 @@ NTC = "TR [anni];ag [g];F0 [-];TC* [s]\n30;0,05;2,4;0,28\n475;0,2;2,5;0,33\n"
     [
         ("pga,annual_frequency\n0.05,0.03333333333333333\n0.2,0.002105263157894737\n", ()),
         ("return_period,pga\n30,0.05\n475,0.2\n", ()),
-        ("Return_Period (years),ag (g/10)\n30,0.5\n475,2\n", ()),
-        ("tr,ag (m/s²)\n30,0.4905\n475,1.962\n", ()),
+        ("Return_Period (years),ag (g/10)\n30,0.5\n475,2\n", (RIGID,)),
+        ("tr,ag (m/s²)\n30,0.4905\n475,1.962\n", (RIGID,)),
         ("PGA [cm/s^2],TR\n49.05,30\n196.2,475\n", ()),
-        (NTC, ("semicolons, decimal commas", "columns that are not used: F0 [-], TC* [s]")),
-        ("\ufeffFerrara, 2024;;;\n" + NTC + ";;;\n", ("line 1 is a title", "not used")),
+        (NTC, ("semicolons, decimal commas", "columns that are not used: F0 [-], TC* [s]", RIGID)),
+        ("\ufeffFerrara, 2024;;;\n" + NTC + ";;;\n", ("line 1 is a title", "not used", RIGID)),
         # 1 - exp(-50/30), and of another time in each row
         ("poe,investigation_time,pga\n0.8111243971624382,50,0.05\n0.1,50.04624493746748,0.2\n", ()),
     ],

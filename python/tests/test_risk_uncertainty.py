@@ -104,6 +104,20 @@ def test_curves_that_are_open(hazard):
     np.testing.assert_array_equal(half.annual_frequency, 0.5 * found.annual_frequency)
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_intervals_cover_what_the_hazard_may_be_beyond_its_levels(people, records):
+    short = dd.HazardCurve([0.1, 0.2, 0.3], [0.01, 2e-3, 8e-4])
+    curve = curve_of([[4e-3, 1e-3], [1e-3, 2e-3]])
+    for risk in (dd.mean_annual_frequency(curve, short), people(records[::4])["all"].risk(short)):
+        low, high = risk.bounds
+        assert high > 1.5 * low
+        found = risk.uncertainty(n_draws=2000)
+        assert found.interval()[0] < low < high < found.interval()[1]
+        assert np.median(found.annual_frequency) == pytest.approx(low, rel=0.1)
+        assert np.median(found.upper) == pytest.approx(high, rel=0.1)
+        assert f"between {low:.4g} and {high:.4g} a year" in repr(found)
+
+
 def test_what_has_no_uncertainty(hazard):
     for curve, message in (
         (replace(curve_of(np.full((2, 2), np.nan)), errors="few_clusters"), "no standard errors: less than three"),
@@ -201,9 +215,20 @@ def test_walls_left_out_of_a_population(people, records, hazard):
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_populations_without_standard_errors(people, records, hazard):
     some = people(records[::4])
-    risk = replace(some, flags=None)["all"].risk(hazard)
-    with pytest.raises(dd.DondoloError, match="results that were read back hold counts"):
-        risk.uncertainty()
+    exact = some["all"].risk(hazard).uncertainty(n_draws=4000)
+    # Read back: by the lognormal fitted to the mean, which the curve is not far from
+    back = replace(some, flags=None)["all"].risk(hazard).uncertainty(n_draws=4000)
+    assert back.kind.endswith(" 4 walls, by the lognormal fitted to the mean")
+    assert back.risk.bounds == exact.risk.bounds
+    # Four walls leave long tails, which are those of ln lambda here and of ln theta and 1/beta there.
+    ends = [np.log(one.interval(confidence=0.5)) for one in (back, exact)]
+    np.testing.assert_allclose(*ends, atol=0.5)
+    by_fit = dd.mean_annual_frequency(some["all"].fit, hazard).uncertainty(n_draws=4000)
+    for end, draws, of_fit in zip(
+        (0, 1), (back.annual_frequency, back.upper), (by_fit.annual_frequency, by_fit.upper), strict=True
+    ):
+        np.testing.assert_allclose(draws, of_fit * back.risk.bounds[end] / by_fit.risk.bounds[end], rtol=1e-12)
+    assert list(back.fractiles) == list(exact.fractiles)
     few = people(records[:2])["all"].risk(hazard)
     with pytest.raises(dd.DondoloError, match="less than 3 clusters of records"):
         few.uncertainty()

@@ -60,6 +60,13 @@ def results(stripes, few, wall):
         ),
         "intensities": dd.compare_intensities(wall, few, ims=["pga", "pgv"], progress=False),
         "comparison": dd.compare(curve, gone.fit()) if gone.fit().has_fit else dd.compare(curve, curve),
+        "designs": dd.compare_designs(
+            {"as it stands": wall, "folds": slender, "never": dd.OneSidedWall(1.5, 1.4)},
+            few,
+            [0.4, 0.8, 1.2],
+            steel={"folds": 3.0},
+            progress=False,
+        ),
         "bootstrap": curve.bootstrap(n_resamples=20),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.transactions import RUN_NAME, create, new_run, synchronize
+from dondolo._base.transactions import RUN_NAME, create, new_run, release, synchronize
 from dondolo.errors import DondoloError, InputError, MissingFileError
 
 # How often a part is made that another process takes for a dead one
@@ -98,7 +98,7 @@ def whole_file(path: Any) -> Iterator[Path]:
         if lock is not None:
             with suppress(OSError):
                 part.unlink()
-            os.close(lock)
+            release(lock)
 
 
 def _new_part(target: Path) -> tuple[Path, int]:
@@ -112,7 +112,7 @@ def _new_part(target: Path) -> tuple[Path, int]:
         # Who found it before it was locked has removed it.
         if part.exists():
             return part, descriptor
-        os.close(descriptor)
+        release(descriptor)
     raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
 
 

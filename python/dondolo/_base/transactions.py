@@ -80,6 +80,12 @@ def synchronize(path: Path) -> None:
         os.close(descriptor)
 
 
+def release(descriptor: int) -> None:
+    """Close a lock; whatever the system says, nothing was written through it that could be lost."""
+    with suppress(OSError):
+        os.close(descriptor)
+
+
 def run_of(table: str) -> tuple[str, str]:
     """The run that a table names, empty if it names none, and what follows that line."""
     lines = table.split("\n", 2)
@@ -197,7 +203,7 @@ def publishing(prefix: Path) -> Iterator[Publication]:
         # A process that was forked meanwhile does not keep it.
         with suppress(OSError):
             fcntl.flock(descriptor, fcntl.LOCK_UN)
-        os.close(descriptor)
+        release(descriptor)
 
 
 def published_run(prefix: Path) -> str:

@@ -149,7 +149,7 @@ contains
             exit
          end if
          histories(i) = size(stripes%record)
-         call scales%look(stripes, chosen%suite%records)
+         call scales%look(stripes, chosen, people(i))
          call oddities%look(people(i))
       end do
       if (.not. allocated(error)) then

@@ -92,7 +92,8 @@ def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) ->
         curve._quantile(confidence)
         if curve.errors == "clustered" and not curve.parts:
             raise InputError(
-                "curves: one wall of a population does not know its records: compare curves of Stripes.fit"
+                "curves: that of one wall of a population, or of a population that was read back, does not know its"
+                " records: compare curves of Stripes.fit or of a typology that was run"
             )
     if first.errors != second.errors:
         raise InputError(f"standard errors: {first.errors} and {second.errors}: both must be of one kind")

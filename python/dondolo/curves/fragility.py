@@ -33,6 +33,8 @@ _WHY = {
     "naive": "as if all histories were independent",
     "few_clusters": "less than three clusters of records",
     "one_cluster": "one cluster of records determines the curve",
+    "few_walls": "two walls, one or at least three are needed",
+    "one_wall": "one wall determines the curve",
     "given": "the parameters were given",
 }
 
@@ -68,10 +70,11 @@ class Fragility(Shown, Saved):
     errors : str
         'clustered': histories of one record or event (of typological curves also: of one wall) depend on each other
         (Mancl and DeRouen 2001); 'naive': all histories are taken for independent, for curves fitted to counts. There
-        are no standard errors for 'few_clusters', less than three, 'one_cluster', which alone determines the curve, and
-        'given', a curve that was not fitted here.
+        are no standard errors for 'few_clusters', less than three, 'one_cluster', which alone determines the curve,
+        'few_walls' and 'one_wall', the same of the walls of a population, and 'given', a curve that was not fitted
+        here.
     clusters : int
-        Number of clusters of records; 0 for 'naive'.
+        Number of clusters of records, or of the walls that are too few; 0 for 'naive'.
     degrees_of_freedom : float
         Of Student's t in intervals: clusters - 1; inf for 'naive'.
     naive_covariance : ndarray, shape (2, 2)
@@ -385,6 +388,9 @@ class Fragility(Shown, Saved):
     def _kind(self) -> str:
         """What the standard errors are, in words."""
         if self.errors == "clustered":
-            kinds = " and ".join(f"{len(part.labels)} clusters of {part.kind}" for part in self.parts)
+            kinds = " and ".join(
+                f"{len(part.labels)} {'walls' if part.kind == 'walls' else f'clusters of {part.kind}'}"
+                for part in self.parts
+            )
             return kinds or f"{self.clusters} clusters of records"
         return _WHY[self.errors]

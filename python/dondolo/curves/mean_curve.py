@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo.curves.fragility import Fragility
 from dondolo.curves.members import Members
 from dondolo.errors import InputError
 
@@ -22,10 +23,18 @@ class MeanCurve(ABC):
         Intensity measure.
     saturation : float
         What the mean tends to.
+    fit : Fragility
+        The lognormal fitted to the mean.
     """
 
     im: str
     saturation: float
+    fit: Fragility
+
+    @property
+    @abstractmethod
+    def knows_records(self) -> bool:
+        """Is it known which record brings which wall down?"""
 
     @property
     @abstractmethod

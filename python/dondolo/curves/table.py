@@ -13,6 +13,8 @@ from dondolo.walls.wall import Wall
 if TYPE_CHECKING:
     from dondolo.curves.fragility import Fragility
 
+# Columns that standard errors are made of
+ERRORS = ("se_ln_theta", "se_beta", "cov_ln_theta_beta", "errors", "clusters", "degrees_of_freedom")
 _BOUNDS = ("theta_low", "theta_high", "beta_low", "beta_high")
 
 
@@ -37,7 +39,14 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "degrees_of_freedom": [_freedom(curve) if curve.has_fit else None for curve in curves],
         "naive_se_ln_theta": [float(np.sqrt(curve.naive_covariance[0, 0])) for curve in curves],
         "naive_se_beta": [float(np.sqrt(curve.naive_covariance[1, 1])) for curve in curves],
+        "cov_ln_theta_beta": [float(curve.covariance[0, 1]) for curve in curves],
     }
+
+
+def errors_table(curves: Sequence[Fragility]) -> tables.Table:
+    """Columns of the standard errors of ``_typology.csv``."""
+    table = fragility_table([None] * len(curves), curves)
+    return {name: table[name] for name in ERRORS}
 
 
 def _freedom(curve: Fragility) -> float:

@@ -139,6 +139,13 @@ class ResultFile:
         values.flags.writeable = False
         return values
 
+    def count(self, name: str, i: int) -> int:
+        """A cell that is a whole number, not negative."""
+        value = self.number(name, i)
+        if not 0.0 <= value < 2**31 or value != math.floor(value):
+            raise ValueError(f"{self.place(i)}: {name} = {value:.15g}: must be an integer between 0 and {2**31 - 1}")
+        return int(value)
+
     def counts(self, name: str, least: int = 0, most: int = 2**31 - 1) -> NDArray[np.int32]:
         """A column of whole numbers."""
         values = self.numbers(name)

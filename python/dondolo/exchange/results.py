@@ -11,6 +11,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_array, one_of
 from dondolo._base.files import as_file
+from dondolo._base.shown import Shown
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.checks import SheetRow
@@ -23,6 +24,7 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
+from dondolo.exchange.stored_errors import kept_errors
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.records.building import building_from
@@ -41,8 +43,8 @@ _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not i
 _LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WALL_LISTS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class StoredResults:
+@dataclass(frozen=True, repr=False, kw_only=True)
+class StoredResults(Shown):
     """What the result files of one run hold; what its task does not make is None.
 
     Attributes
@@ -69,6 +71,11 @@ class StoredResults:
     typology: Typology | None = None
     check: CodeCheck | None = None
 
+    def _facts(self) -> list[tuple[str, str]]:
+        names = ("response", "stripes", "fragility", "typology", "check")
+        made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
+        return [("run", f"{self.run.run} of dondolo {self.run.version}"), ("population", repr(self.population)), *made]
+
     @property
     def edp_thresholds(self) -> list[float]:
         """Damage states that the case names [rotation / capacity], if there are several."""
@@ -93,7 +100,8 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
     -------
     StoredResults
         The same objects as those of a run in Python; curves are fitted again, to the same counts. Those of a typology
-        have naive standard errors, for the files do not tell which record brings which wall down.
+        have the standard errors of the files, and cannot be compared: the files do not tell which record brings which
+        wall down.
 
     Raises
     ------
@@ -161,6 +169,8 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, fragility=curves[-1])
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
+    if stored.typology is not None:
+        stored = replace(stored, typology=_with_errors(stored.typology, prefix, run))
     walls.check(run)
     table.check(run)
     if task == "stripes" and "check" in run.settings:
@@ -307,3 +317,12 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
     im = table.texts("im")[0]
     result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
     return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))
+
+
+def _with_errors(typology: Typology, prefix: str, run: RunFile) -> Typology:
+    """A typology with the standard errors of its tables."""
+    curves, groups = (ResultFile(f"{prefix}_{name}.csv", run) for name in ("fragility", "typology"))
+    kept = kept_errors(typology, curves, groups)
+    for table in (curves, groups):
+        table.check(run)
+    return replace(kept.put_into(typology, -1), kept_errors=kept)

@@ -170,6 +170,11 @@ class PopulationCurve(Group, MeanCurve):
         weights = people.weights[rows] * people.p_occ[rows]
         return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
 
+    @property
+    def knows_records(self) -> bool:
+        """Is it known which record brings which wall down? Not of results that were read back."""
+        return self._source.flags is not None
+
     def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
         """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
         flags = self._source.flags

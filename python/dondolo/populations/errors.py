@@ -8,20 +8,22 @@ in the number of walls or of records.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_curves
-from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts
+from dondolo._storage.saved import part_of_results
+from dondolo.curves.clusters import Errors, errors_of_counts, errors_of_parts, no_errors
 from dondolo.curves.fitting import with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series, series_slopes
 from dondolo.populations.curve import Group
 from dondolo.populations.flags import Flags
+from dondolo.populations.rows import curves_of_walls, has_curve_of_row
 
 if TYPE_CHECKING:
     from dondolo.populations.typology import Typology
@@ -98,6 +100,63 @@ def _clustered(levels: FloatArray, curves: list[Fragility], counts: FloatArray, 
     ]
 
 
+@part_of_results
+@dataclass(frozen=True, eq=False, repr=False)
+class KeptErrors:
+    """Standard errors of the curves of rows and then of groups, which were read back.
+
+    Attributes
+    ----------
+    kinds : tuple of str
+        `errors` of each curve, state by state; '' without a fit.
+    clusters : ndarray of int, shape (states, curves)
+    covariances : ndarray, shape (states, curves, 2, 2)
+    degrees_of_freedom : ndarray, shape (states, curves)
+    """
+
+    kinds: tuple[str, ...]
+    clusters: np.ndarray[Any, Any]
+    covariances: FloatArray
+    degrees_of_freedom: FloatArray
+
+    @classmethod
+    def of(cls, errors: Sequence[Sequence[Errors]]) -> KeptErrors:
+        """Those of each state."""
+        return cls(
+            tuple(one.errors for state in errors for one in state),
+            np.array([[one.clusters for one in state] for state in errors]),
+            np.array([[one.covariance for one in state] for state in errors]),
+            np.array([[one.degrees_of_freedom for one in state] for state in errors]),
+        )
+
+    def put_into(self, typology: Typology, state: int) -> Typology:
+        """The typology of a state with these standard errors; walls with several mechanisms keep naive ones."""
+        number = self.clusters.shape[1]
+        kinds = self.kinds[number * (state % len(self.clusters)) :]
+        found = [
+            with_errors(curve, Errors(np.array(covariance), kind, int(clusters), float(degrees)))
+            if curve.has_fit and kind
+            else curve
+            for curve, kind, covariance, clusters, degrees in zip(
+                (*typology.curves, *(group.fit for group in typology.groups)),
+                kinds[:number],
+                self.covariances[state],
+                self.clusters[state],
+                self.degrees_of_freedom[state],
+                strict=True,
+            )
+        ]
+        own, fits = found[: len(typology.curves)], found[len(typology.curves) :]
+        alone = has_curve_of_row(typology.population).tolist()
+        mixed = [curve for curve, has_row in zip(typology.combined.values(), alone, strict=True) if not has_row]
+        return replace(
+            typology,
+            curves=tuple(own),
+            combined=curves_of_walls(typology.population, own, mixed),
+            groups=tuple(replace(group, fit=fit) for group, fit in zip(typology.groups, fits, strict=True)),
+        )
+
+
 class _Sum:
     """Sums over the walls of a curve of the population."""
 
@@ -110,6 +169,7 @@ class _Sum:
         self.alone = group.mechanism != "all"
         if self.alone:
             self.chosen &= np.array([wall.mechanism == group.mechanism for wall in people.walls])
+            self.chosen &= people.weights * people.p_occ > 0.0
         self.moved = np.zeros(shape)
         self.walls: list[FloatArray] = []
         self.occurring: list[FloatArray] = []
@@ -148,5 +208,6 @@ class _Sum:
         names = [f"wall {number + 1}" for number in range(len(walls))]
         drawn = errors_of_counts("walls", names, self.levels, walls / total * part.sum(axis=0), histories, at)
         if drawn.errors != "clustered":
-            return with_errors(fit, drawn)
+            why = {"few_clusters": "few_walls", "one_cluster": "one_wall"}[drawn.errors]
+            return with_errors(fit, no_errors(why, drawn.clusters))
         return with_errors(fit, errors_of_parts((*records.parts, *drawn.parts)))

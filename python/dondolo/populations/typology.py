@@ -24,10 +24,10 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.table import fragility_table
+from dondolo.curves.table import errors_table, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
-from dondolo.populations.errors import with_clustered_errors
+from dondolo.populations.errors import KeptErrors, with_clustered_errors
 from dondolo.populations.flags import Flags
 from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
 from dondolo.walls.population import Population
@@ -74,6 +74,8 @@ class Typology(Shown, Saved):
         read back.
     warnings : tuple of DondoloWarning
         What was warned of: by the run, and of the curves of this state.
+    kept_errors : KeptErrors
+        The standard errors of results that were read back, in place of the flags; None for results of a run.
     """
 
     population: Population
@@ -88,6 +90,7 @@ class Typology(Shown, Saved):
     work: Work
     flags: Flags | None = None
     warnings: tuple[DondoloWarning, ...] = ()
+    kept_errors: KeptErrors | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -180,6 +183,8 @@ class Typology(Shown, Saved):
             if self.flags is not None:
                 flags = self.flags.at(int(place[0]))
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
+            elif self.kept_errors is not None:
+                state = self.kept_errors.put_into(state, int(place[0]))
             self._states[value] = state
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
@@ -329,7 +334,7 @@ class Typology(Shown, Saved):
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings")}
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors")}
         return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
 
     @classmethod
@@ -339,7 +344,9 @@ class Typology(Shown, Saved):
         own = curves_of_rows(people, levels, more["exceedances"][-1], more["histories"], unpacked(rows), **origin)
         combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
         stored = cls(curves=own, combined=combined, **more)
-        return stored if stored.flags is None else with_clustered_errors(stored, stored.flags)
+        if stored.flags is not None:
+            return with_clustered_errors(stored, stored.flags)
+        return stored if stored.kept_errors is None else stored.kept_errors.put_into(stored, -1)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.
@@ -436,4 +443,5 @@ def _typology_of(typology: Typology) -> tables.Table:
         "beta_records": repeated(group.beta_records for group in groups),
         "saturation": repeated(group.saturation for group in groups),
         "edp_threshold": [typology.edp_thresholds[-1]] * (number * len(groups)),
+        **{name: repeated(values) for name, values in errors_table([group.fit for group in groups]).items()},
     }

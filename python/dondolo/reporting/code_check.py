@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Symbol, Table, figure
-from dondolo.reporting.numerals import NONE, number, whole
+from dondolo.reporting.numerals import NONE, number, probability, whole
 
 
 def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
@@ -33,9 +35,9 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     }
     if chances:
         columns["P(collapse) at the site"] = [
-            number(chances.get(("site", state), chances.get(("site", ""))), 2) for _, state in kinematic
+            probability(chances.get(("site", state), chances.get(("site", ""), np.nan))) for _, state in kinematic
         ]
-        columns["at what it stands"] = [number(chances[key], 2) for key in kinematic]
+        columns["at what it stands"] = [probability(chances[key]) for key in kinematic]
     histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[head] = [number(check.value(*key, name)) for key in dynamic]
@@ -46,6 +48,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         "figure": drawn,
         "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
         "sheet": _sheet(check.rows),
+        "one_hazard": _site(check, "SLD") >= _site(check, "SLC"),
     }
 
 

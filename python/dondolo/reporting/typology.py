@@ -139,7 +139,9 @@ def _curves_table(people: Typology) -> Table:
         "walls": [whole(curve.n_walls) for curve in curves],
         "weight": [number(curve.weight) for curve in curves],
         (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.fit.theta) for curve in curves],
+        ("standard error of ln ", THETA): [number(curve.fit.se_ln_theta, 3) for curve in curves],
         BETA: [parameter(curve.fit.beta) for curve in curves],
+        ("standard error of ", BETA): [number(curve.fit.se_beta, 3) for curve in curves],
         Symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
         Symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
         Symbol("β", "total"): [parameter(curve.beta_total) for curve in curves],
@@ -165,7 +167,24 @@ def _levels_table(people: Typology, curve: Group) -> Table:
 
 
 def uncertainty(people: Typology) -> dict[str, Any]:
-    """Intervals of the bootstrap, or why there are none."""
+    """Intervals of the fit and of the bootstrap, or why there are none."""
+    return _fitted(people) | _drawn(people)
+
+
+def _fitted(people: Typology) -> dict[str, Any]:
+    """Intervals by the covariance of the fit."""
+    fit = people["all"].fit
+    if not fit.has_errors:
+        return {"fitted": None}
+    ends = fit.parameter_interval()
+    rows = [(fit.theta, *ends["theta"]), (fit.beta, *ends["beta"])]
+    columns: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
+    columns |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
+    return {"fitted": Table.of(columns), "clusters": fit._kind(), "over_walls": len(people.combined) > 1}
+
+
+def _drawn(people: Typology) -> dict[str, Any]:
+    """Intervals of the bootstrap."""
     curve = people["all"]
     stored = people.flags is None
     try:

@@ -39,6 +39,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
         if any(title.lower().startswith("poe-") for title in titles):
             raise InputError("is of OpenQuake: must be read by HazardCurve.from_openquake")
         im, levels, columns, unused = _understand(titles, values)
+        is_rigid = any(_name_and_unit(title)[0] == "ag" for title in titles)
         frequency, fractiles = _frequencies(columns)
     except InputError as error:
         raise InputError(f"{os.fspath(path)}: {error}") from None
@@ -46,6 +47,10 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
         names = ", ".join(unused)
         subject = {"file": os.fspath(path), "columns": names}
         warn([DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)])
+    if is_rigid:
+        subject = {"file": os.fspath(path)}
+        text = "ag is taken for the PGA; that of rigid ground must be multiplied by the factors of soil and topography"
+        warn([DondoloWarning(f"{subject['file']}: {text}", "hazard_of_rigid_ground", subject)])
     return im, levels, frequency, fractiles
 
 

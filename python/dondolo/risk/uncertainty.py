@@ -8,11 +8,14 @@ One curve
 Curve of a population
     The frequency is a sum over walls and records. Left out one at a time, to first order, a wall or a cluster of
     records changes it; the sums of the squares of the changes by records and by walls are its variance, of which the
-    degrees of freedom are Satterthwaite's. ln lambda is drawn from Student's t with it.
+    degrees of freedom are Satterthwaite's. ln lambda is drawn from Student's t with it. Results that were read back do
+    not know their records: there the draws are those of the lognormal fitted to the mean curve, in proportion.
 Hazard
     All draws are integrated over the mean hazard, and over each of its fractiles: an interval for each. A fractile of
     the hazard gives the same fractile of the frequency only where one branch of the logic tree is above another at all
-    levels, which is why they are not mixed into one distribution.
+    levels, which is why they are not mixed into one distribution. Beyond its levels the hazard is not known: intervals
+    reach from the lower end for the least that it may be there to the upper end for the most; what levels below the
+    lowest may add is that of the estimate, for the tail of a drawn curve there says nothing.
 
 What an interval covers is told in docs/uncertainty.md: the choice of the records, and of the walls.
 """
@@ -32,7 +35,7 @@ from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.errors import DondoloError
-from dondolo.risk.frequency import Risk, mean_annual_frequency
+from dondolo.risk.frequency import Risk, between, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.integrals import nodes, of_lognormal
 
@@ -51,11 +54,15 @@ class RiskUncertainty(Shown, Saved):
     risk : Risk
         The estimate; frequencies are its lower bounds, as `Risk.annual_frequency`.
     annual_frequency : ndarray, shape (draws,)
-        Draws for the mean hazard [1/year].
+        Draws for the mean hazard [1/year], with the least that it may be beyond its levels.
+    upper : ndarray, shape (draws,)
+        The same with the most that it may be there.
     estimates : dict
         Fractile of the hazard -> annual frequency for it [1/year].
     fractiles : dict
-        Fractile of the hazard -> draws for it, shape (draws,) [1/year].
+        Fractile of the hazard -> draws for it, shape (draws,) [1/year], with the least beyond its levels.
+    upper_fractiles : dict
+        The same with the most.
     kind : str
         What was drawn, in words.
     degrees_of_freedom : float
@@ -64,13 +71,15 @@ class RiskUncertainty(Shown, Saved):
 
     risk: Risk
     annual_frequency: FloatArray
+    upper: FloatArray
     estimates: dict[float, float]
     fractiles: dict[float, FloatArray]
+    upper_fractiles: dict[float, FloatArray]
     kind: str
     degrees_of_freedom: float
 
     def interval(self, *, confidence: float = 0.95, hazard: float | None = None) -> Interval:
-        """Confidence interval of the annual frequency.
+        """Confidence interval of the annual frequency, whatever the hazard may be beyond its levels.
 
         Parameters
         ----------
@@ -91,9 +100,14 @@ class RiskUncertainty(Shown, Saved):
         """
         if hazard is not None:
             self.risk.hazard.fractile(hazard)
-        draws = self.annual_frequency if hazard is None else self.fractiles[float(hazard)]
-        low, high = np.quantile(draws, tails(confidence), method="closest_observation")
-        return float(low), float(high)
+        draws = (self.annual_frequency, self.upper)
+        if hazard is not None:
+            draws = self.fractiles[float(hazard)], self.upper_fractiles[float(hazard)]
+        low, high = (
+            float(np.quantile(of_end, tail, method="closest_observation"))
+            for of_end, tail in zip(draws, tails(confidence), strict=True)
+        )
+        return low, high
 
     def table(self, *, confidence: float = 0.95) -> tables.Table:
         """Annual frequency and its interval for the mean hazard and each fractile, as columns."""
@@ -131,7 +145,7 @@ class RiskUncertainty(Shown, Saved):
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
-            ("mean annual frequency of collapse", f"{self.risk.annual_frequency:.4g} a year"),
+            ("mean annual frequency of collapse", between(*self.risk.bounds, "a year")),
             ("95 % interval", "{:.4g} to {:.4g}".format(*self.interval())),
         ]
         for q, estimate in self.estimates.items():
@@ -143,38 +157,48 @@ class RiskUncertainty(Shown, Saved):
 def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
     """Distribution of the annual frequency of a risk: see `Risk.uncertainty`."""
     count, generator = as_count("n_draws", n_draws, 100), as_generator(seed)
-    fractiles = {q: risk.hazard.fractile(q) for q in risk.hazard.fractiles}
+    hazards = {q: risk.hazard.fractile(q) for q in risk.hazard.fractiles}
+    risks = {q: _risk(risk.fragility, hazard) for q, hazard in hazards.items()}
     curve = risk.fragility
-    if isinstance(curve, Fragility):
-        degrees = curve.degrees_of_freedom
-        theta, beta = _parameters(curve, count, generator)
-        draws = [_frequencies(curve, theta, beta, hazard) for hazard in (risk.hazard, *fractiles.values())]
-        kind = curve._kind()
-    elif isinstance(curve, MeanCurve):
-        degrees, sigma, kind = _of_population(curve, risk.hazard)
-        steps = _students(generator, count, degrees)
-        draws = [risk.annual_frequency * np.exp(sigma * steps)]
-        for hazard in fractiles.values():
-            _, sigma, _ = _of_population(curve, hazard)
-            draws.append(_estimate(curve, hazard) * np.exp(sigma * steps))
-    else:
+    if not isinstance(curve, Fragility | MeanCurve):
         raise DondoloError("uncertainty: the curve is a function, of which no standard errors are known")
+    if isinstance(curve, MeanCurve) and curve.knows_records:
+        degrees, _, kind = _of_population(curve, risk.hazard)
+        steps = _students(generator, count, degrees)
+        draws = [
+            np.multiply.outer(one.bounds, np.exp(_of_population(curve, one.hazard)[1] * steps))
+            for one in (risk, *risks.values())
+        ]
+    else:
+        fit = curve if isinstance(curve, Fragility) else curve.fit
+        degrees, kind = fit.degrees_of_freedom, fit._kind()
+        theta, beta = _parameters(fit, count, generator)
+        of_fit = [_risk(fit, one.hazard) for one in (risk, *risks.values())]
+        draws = [_frequencies(fit, theta, beta, one) for one in of_fit]
+        if fit is not curve:
+            kind += ", by the lognormal fitted to the mean"
+            draws = [
+                own * np.divide(one.bounds, by_fit.bounds)[:, None]
+                for own, one, by_fit in zip(draws, (risk, *risks.values()), of_fit, strict=True)
+            ]
     return RiskUncertainty(
         risk=risk,
-        annual_frequency=draws[0],
-        estimates={q: _estimate(curve, hazard) for q, hazard in fractiles.items()},
-        fractiles=dict(zip(fractiles, draws[1:], strict=True)),
+        annual_frequency=draws[0][0],
+        upper=draws[0][1],
+        estimates={q: one.annual_frequency for q, one in risks.items()},
+        fractiles={q: own[0] for q, own in zip(risks, draws[1:], strict=True)},
+        upper_fractiles={q: own[1] for q, own in zip(risks, draws[1:], strict=True)},
         kind=kind,
         degrees_of_freedom=degrees,
     )
 
 
-def _estimate(curve: Fragility | MeanCurve, hazard: HazardCurve) -> float:
+def _risk(curve: Any, hazard: HazardCurve) -> Risk:
     from dondolo.errors import silent
 
     # The ends of a fractile are those of the mean, of which was warned.
     with silent():
-        return mean_annual_frequency(curve, hazard).annual_frequency
+        return mean_annual_frequency(curve, hazard)
 
 
 def _students(generator: np.random.Generator, count: int, degrees: float) -> FloatArray:
@@ -199,12 +223,18 @@ def _parameters(curve: Fragility, count: int, generator: np.random.Generator) ->
     return curve.theta * np.exp(steps[:, 0]), beta
 
 
-def _frequencies(curve: Fragility, theta: FloatArray, beta: FloatArray, hazard: HazardCurve) -> FloatArray:
-    """Annual frequency of each draw."""
+def _frequencies(curve: Fragility, theta: FloatArray, beta: FloatArray, risk: Risk) -> FloatArray:
+    """Annual frequencies of each draw, for the least and the most that the hazard may be beyond its levels."""
+    hazard = risk.hazard
     level = np.isinf(beta)
     parts = of_lognormal(theta, np.where(level, 1.0, beta), hazard)
     flat = np.inf if hazard.endless else 0.5 * hazard.annual_frequency[0]
-    return curve.saturation * np.where(level, flat, parts.inside + parts.above)
+    least = curve.saturation * np.where(level, flat, parts.inside + parts.above)
+    if hazard.endless:
+        return np.stack([least, least])
+    above = np.where(level, 0.5 * hazard.annual_frequency[-1], parts.above)
+    most = least + curve.saturation * (hazard.annual_frequency[-1] - above) + risk.below[1]
+    return np.stack([least, most])
 
 
 def _of_population(curve: MeanCurve, hazard: HazardCurve) -> tuple[float, float, str]:

@@ -18,7 +18,7 @@ module dondolo_clustered
    implicit none
    private
 
-   public :: cluster_errors, parameter_intervals
+   public :: cluster_errors, leave_out_type, parameter_intervals
    public :: confidence, fewest_clusters, correction
 
    !> Confidence of the intervals that the executable gives
@@ -27,6 +27,23 @@ module dondolo_clustered
    integer, parameter :: fewest_clusters = 3
    !> Name of the small-sample correction
    character(len=*), parameter :: correction = 'CR3 (Mancl and DeRouen 2001), Student''s t'
+
+   !> A fitted curve and the histories behind it, cluster after cluster of which is left out.
+   !>
+   !> P = Phi(b1 + b2 x) with b = (0, 1): to first order b1 is -d ln theta/beta, and b2 is 1 - d beta/beta.
+   type :: leave_out_type
+      !> Dispersion
+      real(wp) :: beta = 0.0_wp
+      !> ln(level/theta)/beta, probability there, and what score and information are made of
+      real(wp), allocatable :: x(:), chance(:), steep(:), part(:)
+      !> Fisher information of all histories on b
+      real(wp) :: information(2, 2) = 0.0_wp
+   contains
+      !> Take a curve and its histories
+      procedure :: begin
+      !> Change of ln theta and beta without one of the clusters
+      procedure :: without
+   end type leave_out_type
 
 contains
 
@@ -43,6 +60,7 @@ contains
       !> Change of ln theta and beta if each cluster is left out, to first order (parameter, cluster); 0 without errors
       real(wp), intent(out) :: changes(:, :)
 
+      type(leave_out_type) :: data
       integer :: g
       logical :: ok
 
@@ -52,59 +70,67 @@ contains
       curve%covariance = 0.0_wp
       curve%errors = 'few_clusters'
       if (curve%clusters < fewest_clusters) return
-      call leave_out_clusters(curve, levels, collapses, histories, changes, ok)
-      curve%errors = 'one_cluster'
-      if (.not. ok) return
+      call data%begin(curve, levels, sum(histories, dim=2))
+      do g = 1, size(histories, 2)
+         if (.not. any(histories(:, g) > 0.0_wp)) cycle
+         call data%without(collapses(:, g), histories(:, g), changes(:, g), ok)
+         if (ok) cycle
+         changes = 0.0_wp
+         curve%errors = 'one_cluster'
+         return
+      end do
       curve%errors = 'clustered'
       curve%covariance = matmul(changes, transpose(changes))
+      curve%degrees_of_freedom = real(curve%clusters - 1, wp)
    end subroutine cluster_errors
 
-   !> Change of ln theta and beta if each cluster is left out, to first order
-   pure subroutine leave_out_clusters(curve, levels, collapses, histories, changes, ok)
+   !> Take a curve and its histories
+   pure subroutine begin(self, curve, levels, histories)
+      class(leave_out_type), intent(inout) :: self
       !> Curve with a fit
       type(fragility_type), intent(in) :: curve
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
-      !> Collapses and histories of each cluster (levels, clusters), as for cluster_errors
-      real(wp), intent(in) :: collapses(:, :), histories(:, :)
-      !> In: 0; out: changes (parameter, cluster), 0 for a cluster without histories
-      real(wp), intent(inout) :: changes(:, :)
-      !> False: without one of the clusters there is no information on both parameters
+      !> Histories of all clusters at each level
+      real(wp), intent(in) :: histories(:)
+
+      integer :: j
+
+      self%beta = curve%beta
+      self%x = log(levels/curve%theta)/curve%beta
+      self%steep = mills(self%x) + mills(-self%x)
+      self%part = mills(self%x)*mills(-self%x)
+      self%chance = normal_cdf(self%x)
+      self%information = 0.0_wp
+      do j = 1, size(levels)
+         self%information = self%information + histories(j)*self%part(j)*square(self%x(j))
+      end do
+   end subroutine begin
+
+   !> Change of ln theta and beta if a cluster is left out, to first order
+   pure subroutine without(self, collapses, histories, change, ok)
+      class(leave_out_type), intent(in) :: self
+      !> Collapses and histories of the cluster at each level
+      real(wp), intent(in) :: collapses(:), histories(:)
+      !> Changes
+      real(wp), intent(out) :: change(2)
+      !> False: without the cluster there is no information on both parameters
       logical, intent(out) :: ok
 
-      real(wp), dimension(size(levels)) :: x, steep, part, chance
-      real(wp) :: information(2, 2), rest(2, 2), score(2)
-      integer :: g, j
+      real(wp) :: rest(2, 2), score(2)
+      integer :: j
 
-      ! P = Phi(b1 + b2 x) with b = (0, 1): to first order b1 is -d ln theta/beta, and b2 is 1 - d beta/beta.
-      x = log(levels/curve%theta)/curve%beta
-      steep = mills(x) + mills(-x)
-      part = mills(x)*mills(-x)
-      chance = normal_cdf(x)
-      information = 0.0_wp
-      do j = 1, size(levels)
-         information = information + sum(histories(j, :))*part(j)*square(x(j))
+      change = 0.0_wp
+      score = 0.0_wp
+      rest = self%information
+      do j = 1, size(collapses)
+         score = score + (collapses(j) - histories(j)*self%chance(j))*self%steep(j)*[1.0_wp, self%x(j)]
+         rest = rest - histories(j)*self%part(j)*square(self%x(j))
       end do
-      ok = .true.
-      do g = 1, size(histories, 2)
-         if (.not. any(histories(:, g) > 0.0_wp)) cycle
-         score = 0.0_wp
-         rest = information
-         do j = 1, size(levels)
-            score = score + (collapses(j, g) - histories(j, g)*chance(j))*steep(j)*[1.0_wp, x(j)]
-            rest = rest - histories(j, g)*part(j)*square(x(j))
-         end do
-         if (determinant(rest) > 1.0e-12_wp*determinant(information)) then
-            call solve_symmetric(rest, score, changes(:, g), ok)
-         else
-            ok = .false.
-         end if
-         if (ok) cycle
-         changes = 0.0_wp
-         return
-      end do
-      changes = curve%beta*changes
-   end subroutine leave_out_clusters
+      ok = determinant(rest) > 1.0e-12_wp*determinant(self%information)
+      if (ok) call solve_symmetric(rest, score, change, ok)
+      change = self%beta*change
+   end subroutine without
 
    !> Confidence intervals of theta and beta, symmetric in ln theta and in 1/beta, the slope of the regression
    pure function parameter_intervals(curve) result(bounds)
@@ -117,7 +143,7 @@ contains
 
       ! Beyond so many degrees of freedom the quantile is that of the normal distribution.
       quantile = student_quantile(0.5_wp*(1.0_wp + confidence), &
-         & merge(100000, curve%clusters - 1, curve%errors == 'naive'))
+         & merge(1.0e5_wp, curve%degrees_of_freedom, curve%errors == 'naive'))
       bounds(:, 1) = curve%theta*exp(quantile*curve%se_ln_theta()*[-1.0_wp, 1.0_wp])
       half = quantile*curve%se_beta()/curve%beta
       bounds(1, 2) = curve%beta/(1.0_wp + half)

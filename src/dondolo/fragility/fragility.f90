@@ -21,8 +21,10 @@ module dondolo_fragility
       & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
 
    !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_clustered);
-   !> the last two have none, for too few clusters or since one of them determines the curve
-   character(len=12), parameter :: error_names(4) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', 'one_cluster']
+   !> the others have none, for too few clusters of records, or walls of a population, or since one of them determines
+   !> the curve
+   character(len=12), parameter :: error_names(6) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', &
+      & 'one_cluster', 'few_walls', 'one_wall']
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
@@ -38,6 +40,8 @@ module dondolo_fragility
       character(len=len(error_names)) :: errors = 'naive'
       !> Number of clusters; 0 if the histories are taken for independent
       integer :: clusters = 0
+      !> Degrees of freedom of Student's t in intervals; 0 without clustered errors
+      real(wp) :: degrees_of_freedom = 0.0_wp
       !> Covariance of ln theta and beta from the Fisher information, as if all histories were independent
       real(wp) :: naive(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included

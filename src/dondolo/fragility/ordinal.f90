@@ -150,6 +150,7 @@ contains
          curves(k)%errors = 'one_cluster'
          if (.not. ok) cycle
          curves(k)%errors = 'clustered'
+         curves(k)%degrees_of_freedom = real(curves(k)%clusters - 1, wp)
          curves(k)%covariance = matmul(changes(:, k, :), transpose(changes(:, k, :)))
       end do
    end subroutine ordinal_errors

@@ -49,7 +49,8 @@ module dondolo_typology
       real(wp) :: fitted = 0.0_wp
       !> Histories that the fit counts at each level: number of walls by the weighted mean of their histories
       real(wp), allocatable :: histories(:)
-      !> Lognormal fitted to the mean fractions / saturation; its standard errors are naive
+      !> Lognormal fitted to the mean fractions / saturation; its standard errors are naive until those by records and
+      !> walls are set (dondolo_population_errors)
       type(fragility_type) :: fit
    end type typology_type
 

@@ -11,7 +11,7 @@ module dondolo_wall_curves
    implicit none
    private
 
-   public :: wall_curves_type, in_series, mechanism_length
+   public :: wall_curves_type, in_series, mechanism_length, series_slopes
 
    !> Room for the name of a mechanism
    integer, parameter :: mechanism_length = len(mechanism_names)
@@ -178,5 +178,24 @@ contains
       end do
       whole = min(whole, 1.0_wp)
    end function in_series
+
+   !> Derivative of 1 - prod_m (1 - p_occ,m P_m) with respect to each P_m
+   pure function series_slopes(p_occ, p) result(slopes)
+      !> Probability that each mechanism can occur
+      real(wp), intent(in) :: p_occ(:)
+      !> Probabilities of collapse (levels, mechanisms)
+      real(wp), intent(in) :: p(:, :)
+      !> Derivatives (levels, mechanisms)
+      real(wp) :: slopes(size(p, 1), size(p, 2))
+
+      integer :: l, m
+
+      do m = 1, size(p_occ)
+         slopes(:, m) = p_occ(m)
+         do l = 1, size(p_occ)
+            if (l /= m) slopes(:, m) = slopes(:, m)*(1.0_wp - p_occ(l)*p(:, l))
+         end do
+      end do
+   end function series_slopes
 
 end module dondolo_wall_curves

@@ -104,7 +104,7 @@ contains
                call reader%close()
                return
             end if
-            call survey%scales%look(plan, study%suite%records)
+            call survey%scales%look(plan, study, member%wall)
             call survey%oddities%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
                survey%histories = survey%histories + count(plan%ran)

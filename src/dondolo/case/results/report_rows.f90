@@ -18,14 +18,15 @@ module dondolo_report_rows
    public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
+   character(len=*), parameter :: error_columns = 'se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom'
    character(len=*), parameter :: &
       & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
       & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
       & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
       & 'bracket_high,edp_threshold,theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,'// &
-      & 'naive_se_ln_theta,naive_se_beta', &
+      & 'naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta', &
       & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
-      & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold', &
+      & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,'//error_columns, &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
 
 contains
@@ -149,7 +150,7 @@ contains
       real(wp) :: bounds(2, 2)
 
       fit = ',,,,'
-      intervals = ',,,,,,,,'
+      intervals = ',,,,,,,,,'
       if (curve%has_fit()) then
          fit = ','
          intervals = ',,,'
@@ -160,9 +161,9 @@ contains
                & trim(bound(bounds(2, 2)))
          end if
          fit = to_table(curve%theta)//','//to_table(curve%beta)//','//fit//','//to_table(curve%log_likelihood)
-         intervals = intervals//','//trim(curve%errors)//','//to_text(curve%clusters)//','// &
-            & to_text(max(curve%clusters - 1, 0))//','//to_table(sqrt(curve%naive(1, 1)))//','// &
-            & to_table(sqrt(curve%naive(2, 2)))
+         intervals = intervals//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))//','// &
+            & to_table(sqrt(curve%naive(1, 1)))//','//to_table(sqrt(curve%naive(2, 2)))//','
+         if (curve%has_errors()) intervals = intervals//to_table(curve%covariance(1, 2))
       end if
       row = cells//','//im//','//fit//','//trim(curve%status)//','//trim(bound(curve%bracket(1)))//','// &
          & trim(bound(curve%bracket(2)))//','//to_table(threshold)//','//intervals
@@ -182,17 +183,27 @@ contains
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: fit, dispersion
+      character(len=:), allocatable :: fit, dispersion, errors
 
       fit = ','
-      if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
+      errors = ',,,,,'
+      associate (curve => typology%fit)
+         if (curve%has_fit()) then
+            fit = to_table(curve%theta)//','//to_table(curve%beta)
+            errors = ',,'
+            if (curve%has_errors()) errors = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','// &
+               & to_table(curve%covariance(1, 2))
+            errors = errors//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))
+         end if
+      end associate
       dispersion = ','
       if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','//to_table(typology%beta_records)
       row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
          & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
          & trim(typology%fit%status)//','//text_cell(typology%group, is_safe)//','// &
          & to_table(typology%fractile(1, level))//','//to_table(typology%fractile(2, level))//','// &
-         & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)
+         & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)// &
+         & ','//errors
    end subroutine make_typology_row
 
    !> A history
@@ -218,6 +229,23 @@ contains
          & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
          & to_table(response%time_of_peak)
    end subroutine make_history_row
+
+   !> Degrees of freedom of a curve, where those of records alone are whole numbers; filled up with blanks
+   pure function freedom(curve) result(cell)
+      type(fragility_type), intent(in) :: curve
+      !> Cell
+      character(len=48) :: cell
+
+      real(wp) :: degrees
+
+      degrees = curve%degrees_of_freedom
+      if (curve%errors /= 'clustered') degrees = real(max(curve%clusters - 1, 0), wp)
+      if (degrees == anint(degrees)) then
+         cell = to_text(nint(degrees))
+      else
+         cell = to_table(degrees)
+      end if
+   end function freedom
 
    !> A bound of the median, filled up with blanks
    pure function bound(value) result(cell)

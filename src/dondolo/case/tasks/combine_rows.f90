@@ -6,6 +6,7 @@ module dondolo_combine_rows
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_population_counts, only : new_population_counts
+   use dondolo_population_errors, only : population_errors_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_study, only : study_type
@@ -36,8 +37,6 @@ contains
       call case%make_study(study)
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
-      if (.not. allocated(error)) call cluster_rows(results, study, error)
-      if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (allocated(error)) return
       do k = 1, states
          call combine_population(typologies, results%population, k, error)
@@ -45,6 +44,9 @@ contains
          if (k == 1) allocate (results%typologies(size(typologies), states))
          results%typologies(:, k) = typologies
       end do
+      call set_errors(results, study, error)
+      if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
+      if (allocated(error)) return
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
@@ -77,40 +79,59 @@ contains
       end do
    end subroutine gather
 
-   !> Set the clustered standard errors of the curves of the rows
-   subroutine cluster_rows(results, study, error)
+   !> Set the clustered standard errors of the curves of the rows and of the population
+   subroutine set_errors(results, study, error)
+      !> Results: the population and its curves are there
       type(results_type), intent(inout) :: results
       type(study_type), intent(in) :: study
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       type(row_result_type) :: row
-      real(wp), dimension(size(study%levels), maxval(study%suite%clusters)) :: counts, histories
+      type(population_errors_type) :: sums
+      real(wp), dimension(size(study%levels), maxval(study%suite%clusters)) :: histories, part
+      real(wp), allocatable :: counts(:, :, :, :)
       real(wp) :: changes(2, maxval(study%suite%clusters))
       logical :: runs(size(study%suite%clusters), size(study%levels))
-      integer :: i, j, k, state
+      integer :: g, i, j, k, state, wall
 
+      part = 0.0_wp
       do j = 1, size(runs, 2)
          do i = 1, size(runs, 1)
             runs(i, j) = study%runs(i, j)
+            g = study%suite%clusters(i)
+            if (runs(i, j)) part(j, g) = part(j, g) + 1.0_wp/real(size(runs, 1), wp)
          end do
       end do
-      do k = 1, size(results%stores)
-         associate (store => results%stores(k), population => results%population)
-            do i = store%identity%first, store%identity%last
-               if (.not. any(population%curve(:, i)%has_fit())) cycle
-               call store%read(i, row, error)
+      associate (population => results%population)
+         call sums%begin(results%typologies, population, part)
+         wall = 1
+         do k = 1, size(results%stores)
+            do i = results%stores(k)%identity%first, results%stores(k)%identity%last
+               call results%stores(k)%read(i, row, error)
                if (allocated(error)) exit
+               if (i == population%first(wall)) then
+                  if (allocated(counts)) deallocate (counts)
+                  allocate (counts(size(part, 1), size(part, 2), size(population%curve, 1), &
+                     & population%first(wall + 1) - population%first(wall)))
+               end if
                do state = 1, size(population%curve, 1)
-                  call row%by_cluster(state, study%suite%clusters, runs, counts, histories)
-                  call cluster_errors(population%curve(state, i), population%levels, counts, histories, changes)
+                  associate (own => counts(:, :, state, i - population%first(wall) + 1))
+                     call row%by_cluster(state, study%suite%clusters, runs, own, histories)
+                     call cluster_errors(population%curve(state, i), population%levels, own, histories, changes)
+                     own = own/real(row%histories, wp)
+                  end associate
                end do
+               if (i + 1 < population%first(wall + 1)) cycle
+               call sums%add(population, wall, counts)
+               wall = wall + 1
             end do
-            call store%close()
+            call results%stores(k)%close()
             if (allocated(error)) return
-         end associate
-      end do
-   end subroutine cluster_rows
+         end do
+         call sums%finish(results%typologies)
+      end associate
+   end subroutine set_errors
 
    !> Go through the rows and their names: what there is to say of the curves, and those that are shown
    subroutine look_at_rows(case, results, fits, error)

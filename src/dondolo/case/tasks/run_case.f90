@@ -131,7 +131,7 @@ contains
          call plan_stripes(stripes, wall, study, error)
          if (allocated(error)) return
          call work%add(planned_work(stripes, wall, study))
-         call scales%look(stripes, case%suite%records)
+         call scales%look(stripes, study, wall)
       end subroutine plan_wall
 
    end subroutine plan_case
@@ -159,7 +159,7 @@ contains
       if (allocated(error)) return
       results%work = stripes%work
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
-      call scales%look(stripes, case%suite%records)
+      call scales%look(stripes, study, case%wall)
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
       call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)

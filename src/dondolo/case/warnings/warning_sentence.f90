@@ -49,6 +49,12 @@ contains
             & to_text(warning%value('histories_beyond'))//' of '//to_text(warning%value('histories'))// &
             & ' histories, the largest '//rounded(warning%value('largest'))//' (record '''//record//''' at level '// &
             & rounded(warning%value('level'))//')'
+      case ('factors_off_levels')
+         call warning%get_word('im', im)
+         text = 'factors that are given take records more than '//rounded(warning%value('limit'))//' % off their levels: '// &
+            & to_text(warning%value('factors_beyond'))//' of '//to_text(warning%value('factors'))//'; record '''//record// &
+            & ''' has '//im//' = '//rounded(warning%value('value'))//' at level '// &
+            & rounded(warning%value('level'))
       case ('ill_conditioned')
          if (len(record) > 0) then
             text = 'ill-conditioned: '//to_text(warning%value('histories_beyond'))//' of '// &

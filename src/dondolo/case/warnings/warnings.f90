@@ -8,6 +8,7 @@ module dondolo_warnings
    use dondolo_record_table, only : pga_limit
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_study, only : study_type
    use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warning_type, warnings_type
@@ -18,6 +19,8 @@ module dondolo_warnings
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
+   !> A factor that is given may take a record so far from its level
+   real(wp), parameter :: off_level = 1.1_wp
 
    !> Levels that no ground motion has [g], of the PGA and of spectral accelerations
    real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp
@@ -37,6 +40,11 @@ module dondolo_warnings
       real(wp) :: level = 0.0_wp
       !> Its record
       character(len=:), allocatable :: record
+      !> Factors that are given, how many of them take a record far from its level, and the farthest: how many times the level,
+      !> the level, and the record
+      integer(int64) :: given = 0, off = 0
+      real(wp) :: farthest = 1.0_wp, missed = 0.0_wp
+      character(len=:), allocatable :: off_record
    contains
       !> Look at the factors of a wall
       procedure :: look
@@ -70,12 +78,13 @@ module dondolo_warnings
 contains
 
    !> Look at the factors of a wall
-   subroutine look(self, stripes, records)
+   subroutine look(self, stripes, study, wall)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
       !> Stripes of the wall
       type(stripes_type), intent(in) :: stripes
-      type(record_type), intent(in) :: records(:)
+      type(study_type), intent(in) :: study
+      type(wall_type), intent(in) :: wall
 
       integer :: at(2)
 
@@ -87,12 +96,39 @@ contains
          if (stripes%im == 'pga') self%usual = largest_pga
          if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
       end if
+      if (allocated(study%factor)) call look_at_given(self, study, wall)
       at = maxloc(stripes%scale)
       if (.not. stripes%scale(at(1), at(2)) > self%largest) return
       self%largest = stripes%scale(at(1), at(2))
       self%level = stripes%levels(at(2))
-      self%record = records(stripes%record(at(1)))%name
+      self%record = study%suite%records(stripes%record(at(1)))%name
    end subroutine look
+
+   !> Look at the factors that are given: do they take the records to their levels?
+   subroutine look_at_given(self, study, wall)
+      class(scale_warning_type), intent(inout) :: self
+      type(study_type), intent(in) :: study
+      type(wall_type), intent(in) :: wall
+
+      real(wp) :: expected, times
+      integer :: i, j
+
+      do j = 1, size(study%levels)
+         do i = 1, size(study%factor, 1)
+            if (.not. study%factor(i, j) > 0.0_wp) cycle
+            expected = study%scaling%factor(study%levels(j), study%values(i), wall)
+            if (.not. expected > 0.0_wp) cycle
+            self%given = self%given + 1
+            times = (study%factor(i, j)/expected)**study%scaling%measure%power()
+            if (max(times, 1.0_wp/times) <= off_level) cycle
+            self%off = self%off + 1
+            if (max(times, 1.0_wp/times) <= max(self%farthest, 1.0_wp/self%farthest)) cycle
+            self%farthest = times
+            self%missed = study%levels(j)
+            self%off_record = study%suite%records(i)%name
+         end do
+      end do
+   end subroutine look_at_given
 
    !> Warn, if there is reason to
    subroutine warn(self, warnings)
@@ -108,6 +144,17 @@ contains
          call warning%about('im', self%im)
          call warning%with('largest', self%highest)
          call warning%with('limit', self%usual)
+         call warnings%add(warning)
+      end if
+      if (self%off > 0) then
+         warning = warning_type('factors_off_levels')
+         call warning%about('record', self%off_record)
+         call warning%about('im', self%im)
+         call warning%with('limit', 100.0_wp*(off_level - 1.0_wp))
+         call warning%with('factors_beyond', self%off)
+         call warning%with('factors', self%given)
+         call warning%with('value', self%farthest*self%missed)
+         call warning%with('level', self%missed)
          call warnings%add(warning)
       end if
       if (self%large == 0) return

@@ -1,0 +1,1 @@
+"""What a strengthening of a wall gains."""

@@ -1,0 +1,279 @@
+"""Designs of one wall compared on the same records: which strengthening gains how much, for how much steel?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
+from dondolo._base.shown import Shown
+from dondolo._fortran.records import blank_unit
+from dondolo._storage import tables
+from dondolo._storage.saved import Saved
+from dondolo.analysis.request import Polarity
+from dondolo.analysis.solver import Solver
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import Stripes
+from dondolo.checks.ntc import CodeCheck, check_ntc
+from dondolo.curves.comparison import Comparison, compare
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import InputError
+from dondolo.records.codes import Site
+from dondolo.records.record import Record, as_records
+from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from dondolo.figures.style import Panels
+
+# The capacity by formula that is shown beside the median
+_CHECKED = ("nonlinear", "SLV")
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class DesignComparison(Shown, Saved):
+    """Fragility curves of several designs of a wall under the same records; the first design is the reference.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The designs.
+    stripes : tuple of Stripes
+        The analysis of each.
+    curves : tuple of Fragility
+        Their curves.
+    comparisons : tuple of Comparison or None
+        Each design against the first, paired by records; None where one of the two has no curve or no standard errors.
+    steel : ndarray, shape (designs,)
+        Mass of steel in each [kg per m of wall]; NaN where it is not known.
+    checks : tuple of CodeCheck
+        The kinematic check of each; () without a site.
+    confidence : float
+        Of the intervals.
+    """
+
+    names: tuple[str, ...]
+    stripes: tuple[Stripes, ...]
+    curves: tuple[Fragility, ...]
+    comparisons: tuple[Comparison | None, ...]
+    steel: FloatArray
+    checks: tuple[CodeCheck, ...]
+    confidence: float
+
+    @property
+    def im(self) -> str:
+        """Intensity measure of the curves."""
+        return self.stripes[0].im
+
+    @property
+    def ratio(self) -> FloatArray:
+        """Median of each design / median of the first, shape (designs,); NaN without a comparison."""
+        return np.array([np.nan if one is None else one.ratio for one in self.comparisons])
+
+    @property
+    def ratio_interval(self) -> FloatArray:
+        """Confidence intervals of these ratios, shape (designs, 2)."""
+        return np.array([(np.nan, np.nan) if one is None else one.ratio_interval for one in self.comparisons])
+
+    @property
+    def gain_per_kg(self) -> FloatArray:
+        """Relative increase of the median for each kg of steel more than in the first, shape (designs,) [m/kg]."""
+        more = self.steel - self.steel[0]
+        gain: FloatArray = np.full(len(more), np.nan)
+        np.divide(self.ratio - 1.0, more, out=gain, where=more > 0.0)
+        return gain
+
+    @property
+    def check_ratio(self) -> FloatArray:
+        """Peak acceleration that each stands by the nonlinear kinematic check (SLV) / that of the first; else NaN."""
+        stand = self._stand()
+        ratio: FloatArray = stand / stand[0]
+        return ratio
+
+    def plot(self, ax: Iterable[Any] | None = None) -> Panels:
+        """Draw the curves of all designs, and the ratios of their medians to that of the first.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Probability of collapse against intensity; and the ratios with their intervals, beside those of the
+            kinematic check.
+        """
+        from dondolo.retrofit.plots import draw_designs
+
+        return draw_designs(self, ax)
+
+    def to_frame(self) -> Any:
+        """A row for each design as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def _stand(self) -> FloatArray:
+        if not self.checks:
+            return np.full(len(self.names), np.nan)
+        return np.array([check.capacities[_CHECKED] for check in self.checks])
+
+    def _table(self) -> tables.Table:
+        low, high = self.ratio_interval.T
+        return {
+            "design": list(self.names),
+            "theta": [curve.theta for curve in self.curves],
+            "beta": [curve.beta for curve in self.curves],
+            "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
+            "ratio": self.ratio,
+            "ratio_low": low,
+            "ratio_high": high,
+            "p_value": [np.nan if one is None else one.p_value for one in self.comparisons],
+            "steel": self.steel,
+            "gain_per_kg": self.gain_per_kg,
+            "check_pga": self._stand(),
+            "check_ratio": self.check_ratio,
+            "p_collapse_at_check": [
+                float(curve(check.pga)) if curve.has_fit else np.nan
+                for curve, check in zip(self.curves, self.checks, strict=True)
+            ]
+            if self.checks
+            else np.full(len(self.names), np.nan),
+        }
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = blank_unit(self.im)
+        facts = []
+        for name, curve, one, steel in zip(self.names, self.curves, self.comparisons, self.steel, strict=True):
+            text = f"theta {curve.theta:.4g}{unit}" if curve.has_fit else f"no curve ({curve.status})"
+            if one is not None and curve is not self.curves[0]:
+                low, high = one.ratio_interval
+                text += f", x {one.ratio:.3g} ({low:.3g} to {high:.3g})"
+            if np.isfinite(steel):
+                text += f", steel {steel:.3g} kg/m"
+            facts.append((name, text))
+        return facts
+
+
+def compare_designs(
+    designs: Mapping[str, Wall],
+    records: Record | Iterable[Record],
+    levels: ArrayLike | Mapping[str, ArrayLike],
+    *,
+    steel: Mapping[str, float] | None = None,
+    site: Site | None = None,
+    confidence_factor: float = 1.35,
+    im: str = "pga",
+    polarity: Polarity = "as_recorded",
+    confidence: float = 0.95,
+    solver: Solver | None = None,
+    threads: int = 0,
+    progress: bool = True,
+) -> DesignComparison:
+    """Compare designs of one wall, such as strengthenings, on the same records.
+
+    A record that is hard on the wall is hard on all its designs. Ratios of their medians are therefore known much
+    better than the medians: their intervals come from the differences record by record (`compare`).
+
+    Parameters
+    ----------
+    designs : mapping of str to Wall
+        The wall in each design; the first is what the others are compared with, as a rule the wall as it stands.
+    records : Record or iterable of Record
+        The accelerograms.
+    levels : array_like, or mapping of str to array_like
+        Levels of intensity, as for `multiple_stripe`, for all designs or for each.
+    steel : mapping of str to float, optional
+        Mass of steel in each design [kg per m of wall]; of a design that is not named, it is that of the wall's ties.
+    site : Site, optional
+        Hazard for the kinematic check by NTC 2018 beside the curves.
+    confidence_factor : float
+        Confidence factor FC of that check.
+    im, polarity, solver, threads, progress
+        As for `multiple_stripe`.
+    confidence : float
+        Of the intervals.
+
+    Returns
+    -------
+    DesignComparison
+
+    Raises
+    ------
+    InputError
+        No designs, names without a design, and what `multiple_stripe` and `check_ntc` refuse.
+    Interrupted
+        Ctrl-C.
+
+    Warns
+    -----
+    DondoloWarning
+        What `multiple_stripe` warns of, and of curves that were not fitted: their ratios are not known.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+    >>> designs = {"as it stands": dd.OneSidedWall(3.0, 0.30), "thicker": dd.OneSidedWall(3.0, 0.45)}
+    >>> found = dd.compare_designs(designs, records, levels=[0.2, 0.4, 0.6, 0.8, 1.0, 1.2], progress=False)
+    >>> bool(found.ratio[1] > 1.0)
+    True
+    """
+    if not isinstance(designs, Mapping) or not designs:
+        raise InputError("designs: must be a mapping of names to walls, at least one")
+    names = tuple(str(name) for name in designs)
+    walls = [instance_of(f"designs[{name!r}]", wall, Wall, "no wall") for name, wall in designs.items()]
+    several = as_records(records)
+    tails(confidence)
+    masses = _masses(designs, steel)
+    grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
+    # What is wrong with a check is said before anything runs.
+    checks = () if site is None else tuple(check_ntc(wall, site, confidence=confidence_factor) for wall in walls)
+    stripes = tuple(
+        multiple_stripe(
+            wall, several, grid, im=im, polarity=polarity, solver=solver, threads=threads, progress=progress
+        )
+        for wall, grid in zip(walls, grids, strict=True)
+    )
+    curves = tuple(one.fit() for one in stripes)
+    return DesignComparison(
+        names=names,
+        stripes=stripes,
+        curves=curves,
+        comparisons=tuple(_against(curve, curves[0], confidence) for curve in curves),
+        steel=masses,
+        checks=checks,
+        confidence=float(confidence),
+    )
+
+
+def _known(designs: Mapping[str, Wall], given: object, what: str) -> Iterable[str]:
+    """The names of the designs, for each of which a mapping must have something."""
+    if isinstance(given, Mapping):
+        for name in designs:
+            if name not in given:
+                raise InputError(f"{what}: none for the design {name!r}")
+        for name in given:
+            if name not in designs:
+                raise InputError(f"{what}: {name!r} is no design")
+    return designs
+
+
+def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> FloatArray:
+    """Mass of steel in each design [kg/m]."""
+    given = steel or {}
+    for name in given:
+        if name not in designs:
+            raise InputError(f"steel: {name!r} is no design")
+    masses = np.array([as_number(f"steel[{name!r}]", given.get(name, np.nan)) for name in designs])
+    for name, mass in zip(designs, masses, strict=True):
+        if name in given and not 0.0 <= mass < np.inf:
+            raise InputError(f"steel[{name!r}] = {mass:g}: must not be negative")
+    return masses
+
+
+def _against(curve: Fragility, first: Fragility, confidence: float) -> Comparison | None:
+    """A design against the first."""
+    return compare(curve, first, confidence=confidence) if curve.has_errors and first.has_errors else None

@@ -1,0 +1,79 @@
+"""Figure of designs that are compared."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo.figures import curves, style
+
+if TYPE_CHECKING:
+    from dondolo.retrofit.designs import DesignComparison
+
+
+def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Panels:
+    """Draw the curves of all designs, and the ratios of their medians to that of the first."""
+    import matplotlib.pyplot as plt
+
+    axes = left, right = style.panels(ax, 1, (9.5, 4.0), columns=2)
+    colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(found.names)))
+    levels = np.concatenate([stripes.levels for stripes in found.stripes])
+    grid = curves.grid(np.unique(levels))
+    rows = len(found.names) - 1 - np.arange(len(found.names))
+    for i, (name, curve, color) in enumerate(zip(found.names, found.curves, colors, strict=True)):
+        look = {"color": color, "linestyle": curves.LINES[i % len(curves.LINES)]}
+        if curve.has_fit:
+            left.plot(grid, curve(grid), label=name, **look)
+        share = curve.collapses / curve.histories
+        left.plot(curve.levels, share, linestyle="none", marker="o", markersize=3, color=color)
+    left.set_xlim(0.0, grid[-1])
+    left.set_ylim(-0.02, 1.02)
+    left.set_xlabel(style.im_label(found.im))
+    left.set_ylabel("probability of collapse")
+    style.legend(left, loc="lower right")
+
+    low, high = found.ratio_interval.T
+    shown = np.isfinite(found.ratio)
+    right.axvline(1.0, color=style.GREY, linewidth=0.8, zorder=0)
+    right.errorbar(
+        found.ratio[shown],
+        rows[shown],
+        xerr=[(found.ratio - low)[shown], (high - found.ratio)[shown]],
+        linestyle="none",
+        marker="o",
+        markersize=5,
+        color=style.BLACK,
+        capsize=3,
+        label=f"median of the records, {100.0 * found.confidence:.4g} % intervals",
+    )
+    if found.checks:
+        right.plot(
+            found.check_ratio,
+            rows,
+            linestyle="none",
+            marker="D",
+            markersize=6,
+            markerfacecolor="none",
+            color=style.RED,
+            label="kinematic check, nonlinear SLV",
+        )
+    for name, row, mass in zip(found.names, rows, found.steel, strict=True):
+        text = f"{name}\n{mass:.3g} kg/m of steel" if np.isfinite(mass) and mass > 0.0 else name
+        right.annotate(
+            text,
+            (0.0, row),
+            (-6, 0),
+            ("axes fraction", "data"),
+            "offset points",
+            ha="right",
+            va="center",
+            parse_math=False,
+        )
+    right.set_yticks([])
+    right.set_ylim(-0.6, len(found.names) - 0.4)
+    right.set_xlim(left=0.0)
+    right.set_xlabel(f"ratio to '{found.names[0]}'", parse_math=False)
+    style.legend(right, loc="upper center", bbox_to_anchor=(0.5, -0.18))
+    return axes

@@ -1,0 +1,107 @@
+"""Designs of a wall compared on the same records."""
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
+SITE = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+
+
+@pytest.fixture(scope="module")
+def designs():
+    return {
+        "as it stands": dd.OneSidedWall(1.5, 0.25),
+        "thicker $t$": dd.OneSidedWall(1.5, 0.30),
+        "the same": dd.OneSidedWall(1.5, 0.25),
+    }
+
+
+@pytest.fixture(scope="module")
+def found(designs, records):
+    return dd.compare_designs(
+        designs, records, LEVELS, site=SITE, steel={"as it stands": 0.0, "thicker $t$": 4.0}, progress=False
+    )
+
+
+def test_each_is_compared_with_the_first(found, designs, records):
+    fits = [dd.multiple_stripe(wall, records, LEVELS, progress=False).fit() for wall in designs.values()]
+    assert [curve.theta for curve in found.curves] == [curve.theta for curve in fits]
+    expected = dd.compare(fits[1], fits[0])
+    assert found.comparisons[1] == expected
+    assert expected.pairing == "paired"
+    assert found.ratio[1] == fits[1].theta / fits[0].theta
+    # The same records: the ratio is known better than either median.
+    alone = np.hypot(fits[0].se_ln_theta, fits[1].se_ln_theta)
+    assert np.diff(np.log(found.ratio_interval[1]))[0] < 2.0 * alone
+    for same in (0, 2):
+        assert found.ratio[same] == 1.0
+        assert found.ratio_interval[same].tolist() == [1.0, 1.0]
+
+
+def test_steel_and_check(found, designs):
+    checks = [dd.check_ntc(wall, SITE) for wall in designs.values()]
+    stand = [check.capacities["nonlinear", "SLV"] for check in checks]
+    np.testing.assert_array_equal(found.check_ratio, np.divide(stand, stand[0]))
+    assert found.gain_per_kg[1] == (found.ratio[1] - 1.0) / 4.0
+    assert np.isnan(found.gain_per_kg[[0, 2]]).all()
+    table = found.to_frame()
+    assert table.design.tolist() == list(designs)
+    assert table.p_collapse_at_check[1] == found.curves[1](checks[1].pga)
+    assert table.check_pga.tolist() == stand
+
+
+def test_shown_drawn_and_saved(found, tmp_path):
+    assert "thicker $t$ theta" in repr(found)
+    assert "steel 4 kg/m" in repr(found)
+    left, right = found.plot()
+    assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")] == list(found.names)
+    assert right.get_xlabel() == "ratio to 'as it stands'"
+    diamonds = next(line for line in right.lines if line.get_marker() == "D")
+    np.testing.assert_array_equal(diamonds.get_xdata(), found.check_ratio)
+    found.save(tmp_path / "designs.npz")
+    again = dd.load(tmp_path / "designs.npz")
+    assert again.to_frame().equals(found.to_frame())
+
+
+def test_levels_of_their_own(designs, records):
+    few = {name: designs[name] for name in ("as it stands", "thicker $t$")}
+    levels = {"as it stands": LEVELS, "thicker $t$": [0.5, 0.8, 1.1, 1.5]}
+    own = dd.compare_designs(few, records, levels, progress=False)
+    assert own.stripes[1].levels.tolist() == levels["thicker $t$"]
+    assert np.isnan(own.check_ratio).all()
+    assert own.comparisons[1].pairing == "paired"
+
+
+def test_a_design_without_a_curve(designs, few):
+    both = {"as it stands": designs["as it stands"], "hardly": dd.OneSidedWall(1.5, 1.4)}
+    with pytest.warns(dd.DondoloWarning, match="no collapse at levels 0.2 to 1.2, no curve is fitted"):
+        found = dd.compare_designs(both, few, LEVELS, progress=False)
+    assert found.comparisons[1] is None
+    assert np.isnan(found.ratio[1])
+    assert "hardly no curve (no_collapse)" in repr(found)
+    assert "hardly" not in [line.get_label() for line in found.plot()[0].lines]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"designs": {}}, "designs: must be a mapping of names to walls, at least one"),
+        ({"designs": {"a": 3}}, r"designs\['a'\]"),
+        ({"steel": {"b": 1.0}}, "steel: 'b' is no design"),
+        ({"steel": {"a": -1.0}}, r"steel\['a'\] = -1: must not be negative"),
+        ({"levels": {"b": [1.0]}}, "levels: none for the design 'a'"),
+        ({"levels": {"a": [1.0], "b": [1.0]}}, "levels: 'b' is no design"),
+        ({"site": 5}, "site"),
+        ({"confidence": 1.5}, "confidence"),
+    ],
+)
+def test_what_cannot_be_compared(few, change, message):
+    given = {"designs": {"a": dd.OneSidedWall(1.5, 0.25)}, "records": few, "levels": [0.5, 1.0]} | change
+    with pytest.raises(dd.InputError, match=message):
+        dd.compare_designs(given.pop("designs"), given.pop("records"), given.pop("levels"), progress=False, **given)

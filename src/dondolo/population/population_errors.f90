@@ -1,0 +1,223 @@
+!> Standard errors of the curves of a population, clustered by record and by wall.
+!>
+!> All walls are subjected to the same records, and a population is a sample of the walls that there could be. The records
+!> of a cluster and the mechanisms of a wall depend on each other in any way; both kinds of clusters add their covariance.
+!> What belongs to a record and a wall alone is counted in both, which errs on the side of wide intervals by about one part
+!> in the number of walls or of records. Fractions of a wall whose mechanisms are in series are taken as linear in those
+!> of its mechanisms. Every stripe of a wall counts for one.
+module dondolo_population_errors
+   use dondolo_clustered, only : cluster_errors, fewest_clusters, leave_out_type
+   use dondolo_kinds, only : wp
+   use dondolo_population_counts, only : population_counts_type
+   use dondolo_roster, only : number_of_group
+   use dondolo_typology, only : typology_type
+   use dondolo_wall, only : mechanism_names
+   use dondolo_wall_curves, only : in_series, series_slopes
+   implicit none
+   private
+
+   public :: population_errors_type
+
+   !> What is known of a curve from the walls so far
+   type :: curve_sums_type
+      !> Number of its mechanism among mechanism_names, 0 for all together
+      integer :: mechanism = 0
+      !> Sum of the weights of what can collapse in all its walls
+      real(wp) :: total = 0.0_wp
+      !> Sum of weights and deviations of the clusters of records (levels, clusters)
+      real(wp), allocatable :: deviation(:, :)
+      !> The curve, with histories of one a level
+      type(leave_out_type) :: fit
+      !> Walls so far, and whether the curve is determined without each of them
+      integer :: walls = 0
+      logical :: is_determined = .true.
+      !> Sum of the covariances by walls
+      real(wp) :: covariance(2, 2) = 0.0_wp
+   end type curve_sums_type
+
+   !> The curves of a population, wall after wall
+   type :: population_errors_type
+      private
+      !> Levels of intensity
+      real(wp), allocatable :: levels(:)
+      !> Records of each cluster that run at each level, over all records (levels, clusters)
+      real(wp), allocatable :: part(:, :)
+      !> The sum over the clusters
+      real(wp), allocatable :: run(:)
+      !> The curves (curve, state)
+      type(curve_sums_type), allocatable :: curve(:, :)
+      !> First curve of each group, from 0 for the whole population, and behind them the number of curves + 1
+      integer, allocatable :: first(:)
+   contains
+      !> Take the curves
+      procedure :: begin
+      !> Take a wall
+      procedure :: add
+      !> Set the standard errors of the curves
+      procedure :: finish
+   end type population_errors_type
+
+contains
+
+   !> Take the curves
+   subroutine begin(self, typologies, population, part)
+      class(population_errors_type), intent(out) :: self
+      !> Curves (curve, state), those of a group one after the other
+      type(typology_type), intent(in) :: typologies(:, :)
+      !> The population, fitted
+      type(population_counts_type), intent(in) :: population
+      !> Records of each cluster that run at each level, over all records (levels, clusters)
+      real(wp), intent(in) :: part(:, :)
+
+      integer :: i, k, group
+
+      self%levels = population%levels
+      self%part = part
+      self%run = sum(part, dim=2)
+      allocate (self%curve(size(typologies, 1), size(typologies, 2)))
+      allocate (self%first(0:population%groups%count + 1), source=0)
+      do i = size(typologies, 1), 1, -1
+         group = number_of_group(population%groups, typologies(i, 1)%group)
+         self%first(group) = i
+         do k = 1, size(typologies, 2)
+            associate (curve => self%curve(i, k), typology => typologies(i, k))
+               curve%mechanism = max(findloc(mechanism_names == typology%mechanism, .true., dim=1), 0)
+               curve%total = typology%weight*typology%saturation
+               allocate (curve%deviation(size(part, 1), size(part, 2)), source=0.0_wp)
+               if (typology%fit%has_fit()) call curve%fit%begin(typology%fit, self%levels, self%run)
+            end associate
+         end do
+      end do
+      ! Groups whose walls have no weight have no curves.
+      self%first(population%groups%count + 1) = size(typologies, 1) + 1
+      do group = population%groups%count, 1, -1
+         if (self%first(group) == 0) self%first(group) = self%first(group + 1)
+      end do
+   end subroutine begin
+
+   !> Take a wall
+   pure subroutine add(self, population, number, counts)
+      class(population_errors_type), intent(inout) :: self
+      !> The population
+      type(population_counts_type), intent(in) :: population
+      !> Number of the wall
+      integer, intent(in) :: number
+      !> Histories of each cluster that reach each state, over all records (levels, clusters, states, mechanisms)
+      real(wp), intent(in) :: counts(:, :, :, :)
+
+      real(wp), dimension(size(counts, 1), size(counts, 4)) :: fraction, slope
+      real(wp) :: deviation(size(counts, 1), size(counts, 2), size(counts, 4))
+      real(wp), dimension(size(counts, 1), size(counts, 2)) :: moved
+      real(wp) :: whole(size(counts, 1)), certain(1, size(counts, 4)), occurrence(1)
+      integer :: g, k, m, group, row
+
+      row = population%first(number)
+      associate (weight => population%weight(row), p_occ => population%p_occ(row:row + size(counts, 4) - 1))
+         if (.not. weight > 0.0_wp) return
+         certain = 1.0_wp
+         occurrence = in_series(p_occ, certain)
+         do k = 1, size(counts, 3)
+            moved = 0.0_wp
+            fraction = sum(counts(:, :, k, :), dim=2)/spread(self%run, 2, size(p_occ))
+            slope = series_slopes(p_occ, fraction)
+            do m = 1, size(p_occ)
+               do g = 1, size(counts, 2)
+                  deviation(:, g, m) = counts(:, g, k, m) - self%part(:, g)*fraction(:, m)
+                  moved(:, g) = moved(:, g) + slope(:, m)*deviation(:, g, m)
+               end do
+            end do
+            whole = in_series(p_occ, fraction)
+            group = 0
+            do
+               do g = self%first(group), self%first(group + 1) - 1
+                  associate (curve => self%curve(g, k))
+                     if (curve%mechanism == 0) call take(curve, weight, occurrence(1), whole, moved, self%run)
+                     do m = 1, size(p_occ)
+                        if (curve%mechanism /= population%mechanism(row + m - 1)) cycle
+                        if (.not. weight*p_occ(m) > 0.0_wp) cycle
+                        call take(curve, weight*p_occ(m), 1.0_wp, fraction(:, m), deviation(:, :, m), self%run)
+                     end do
+                  end associate
+               end do
+               if (group == population%group(row)) exit
+               group = population%group(row)
+            end do
+         end do
+      end associate
+   end subroutine add
+
+   !> Take a wall, or one of its mechanisms, into a curve
+   pure subroutine take(curve, weight, occurrence, fraction, deviation, run)
+      type(curve_sums_type), intent(inout) :: curve
+      !> Its weight, positive
+      real(wp), intent(in) :: weight
+      !> Probability that it can collapse
+      real(wp), intent(in) :: occurrence
+      !> Its fractions at each level
+      real(wp), intent(in) :: fraction(:)
+      !> Deviations of the clusters from them (levels, clusters)
+      real(wp), intent(in) :: deviation(:, :)
+      !> Share of the records that run at each level
+      real(wp), intent(in) :: run(:)
+
+      real(wp) :: change(2)
+      logical :: ok
+
+      curve%walls = curve%walls + 1
+      curve%deviation = curve%deviation + weight*deviation
+      if (.not. allocated(curve%fit%x) .or. .not. curve%is_determined) return
+      call curve%fit%without(weight/curve%total*fraction*run, weight/curve%total*occurrence*run, change, ok)
+      curve%is_determined = ok
+      curve%covariance(:, 1) = curve%covariance(:, 1) + change*change(1)
+      curve%covariance(:, 2) = curve%covariance(:, 2) + change*change(2)
+   end subroutine take
+
+   !> Set the standard errors of the curves: over records and, if there are several walls, over these
+   pure subroutine finish(self, typologies)
+      class(population_errors_type), intent(in) :: self
+      !> Curves (curve, state): covariance, clusters, errors and degrees of freedom of the fits are set
+      type(typology_type), intent(inout) :: typologies(:, :)
+
+      real(wp), dimension(size(self%part, 1), size(self%part, 2)) :: counts
+      real(wp) :: changes(2, size(self%part, 2))
+      integer :: g, i, k
+
+      do k = 1, size(typologies, 2)
+         do i = 1, size(typologies, 1)
+            associate (curve => self%curve(i, k), typology => typologies(i, k))
+               if (.not. typology%fit%has_fit()) cycle
+               do g = 1, size(counts, 2)
+                  counts(:, g) = self%part(:, g)*typology%mean_fraction/typology%saturation &
+                     & + curve%deviation(:, g)/curve%total
+               end do
+               call cluster_errors(typology%fit, self%levels, counts, self%part, changes)
+               if (typology%fit%errors == 'clustered' .and. curve%walls > 1) call add_walls(curve, typology)
+            end associate
+         end do
+      end do
+   end subroutine finish
+
+   !> Add the covariance by walls to that by records; degrees of freedom after Satterthwaite, for ln theta
+   pure subroutine add_walls(curve, typology)
+      type(curve_sums_type), intent(in) :: curve
+      !> Curve with the covariance by records
+      type(typology_type), intent(inout) :: typology
+
+      real(wp) :: both(2)
+
+      associate (fit => typology%fit)
+         if (curve%walls < fewest_clusters .or. .not. curve%is_determined) then
+            fit%errors = merge('few_walls', 'one_wall ', curve%walls < fewest_clusters)
+            fit%clusters = curve%walls
+            fit%covariance = 0.0_wp
+            fit%degrees_of_freedom = 0.0_wp
+            return
+         end if
+         both = [fit%covariance(1, 1), curve%covariance(1, 1)]
+         if (sum(both) > 0.0_wp) fit%degrees_of_freedom = sum(both)**2/(both(1)**2/fit%degrees_of_freedom &
+            & + both(2)**2/real(curve%walls - 1, wp))
+         fit%covariance = fit%covariance + curve%covariance
+      end associate
+   end subroutine add_walls
+
+end module dondolo_population_errors
