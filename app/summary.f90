@@ -9,6 +9,7 @@ module dondolo_summary
    use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
+   use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
    use dondolo_union_lines, only : print_unions, print_verdict_rows
    use dondolo_wall_properties, only : is_of_building
@@ -131,6 +132,9 @@ contains
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
 
+      character(len=:), allocatable :: line
+      integer :: i
+
       associate (response => results%response, record => case%suite%records(case%history%record))
          write (output_unit, '(a)') 'record '''//record%name//''', scale '//rounded(case%history_scale())// &
             & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
@@ -143,6 +147,10 @@ contains
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
+         do i = 1, size(results%trace%ties)
+            call make_tie_sentence(i, results%trace%ties(i), line)
+            write (output_unit, '(a)') line
+         end do
          if (case%solver%solver%estimate_error) then
             if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
                write (output_unit, '(a)') 'with halved steps it collapses too'

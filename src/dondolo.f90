@@ -36,7 +36,7 @@ module dondolo
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
-   use dondolo_response, only : response_type, trace_type
+   use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_results, only : results_type
    use dondolo_roster, only : roster_type
@@ -50,6 +50,7 @@ module dondolo
    use dondolo_study, only : new_study, polarity_names, study_type
    use dondolo_suite, only : new_suite, suite_type
    use dondolo_synthetic, only : synthetic_record
+   use dondolo_tie, only : tie_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
@@ -64,10 +65,10 @@ module dondolo
    public :: im_names, measure_type, new_measure, ground_velocity, ground_displacement
    public :: spectral_displacement, pseudo_acceleration
    ! Walls
-   public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type
+   public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type, tie_type
    ! Motion
    public :: solver_type, check_solver, check_limit, engine_names
-   public :: simulate, response_type, trace_type
+   public :: simulate, response_type, trace_type, tie_response_type
    ! Fragility
    public :: suite_type, new_suite, study_type, new_study
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface

@@ -244,3 +244,17 @@ def test_check_says_leaves(run, root, tmp_path):
     assert float(row["leaves"]) == 2.0
     assert float(row["alpha_rad"]) == pytest.approx(0.0416425790985884, rel=1e-12)
     assert dd.read_results(tmp_path / "out").stripes.wall.leaves == 2.0
+
+
+def test_ties_above_a_hinge():
+    """Those below it, and at it, hold nothing of what is above."""
+    ties = {"tie_area": 5e-5, "tie_length": [8.0, 8.0, 6.0], "tie_depth": 0.0, "tie_strain": [0.02, 0.02, 0.05]}
+    above = dd.OneSidedWall(9.0, 0.5, tie_height=[2.5, 4.0, 8.5], hinge_level=4.0, **ties)
+    alone = dd.OneSidedWall(5.0, 0.5, tie_height=4.5, tie_area=5e-5, tie_length=6.0, tie_depth=0.0, tie_strain=0.05)
+    assert above.trigger_acceleration == pytest.approx(alone.trigger_acceleration, rel=1e-12)
+    pulse = dd.pulses.ricker(4.0, 0.8)
+    motions = [dd.simulate(wall, pulse, scale=1.0) for wall in (above, alone)]
+    assert motions[0].edp == pytest.approx(motions[1].edp, rel=1e-9)
+    assert 0.0 < motions[0].edp < 1.0
+    none = dd.OneSidedWall(9.0, 0.5, tie_height=2.5, hinge_level=4.0, tie_area=5e-5, tie_length=8.0)
+    assert none.trigger_acceleration == dd.OneSidedWall(5.0, 0.5).trigger_acceleration

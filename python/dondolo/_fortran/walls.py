@@ -110,6 +110,15 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     return found
 
 
+def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Plastic elongation and energy of each tie of a wall, and whether it is broken, of shape (*edp.shape, ties)."""
+    peaks = np.asarray(edp, dtype=np.float64)
+    elongation, energy, broken, stat, message = _core.walls.tie_states(wall.number, peaks.ravel(), ties)
+    check(stat, message)
+    shape = (*peaks.shape, ties)
+    return elongation.T.reshape(shape), energy.T.reshape(shape), broken.T.reshape(shape) == 1
+
+
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
     words = len(WALL_TEXTS)
@@ -186,5 +195,5 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
 ) | frozenset(BUILDING_NAMES)
-_WALL_REALS = 8
+_WALL_REALS = 10
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

@@ -255,6 +255,7 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
         side=table.counts("side", -1, 1).astype(np.int8),
         after_impact=table.numbers("after_impact") == 1.0,
         edp_error=result.edp_error,
+        tie_times=np.array(result.tie_times) if result.tie_times else None,
     )
 
 

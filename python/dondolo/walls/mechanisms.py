@@ -163,6 +163,24 @@ class OneSidedWall(BlockWall):
         Height at which each bed begins [m].
     bed_top : float or sequence of float, optional
         Height at which each bed ends [m].
+    tie_height : float or sequence of float, optional
+        Height of the anchor of each tie above the base [m].
+    tie_depth : float or sequence of float, optional
+        Depth of each anchor behind the outer face, 0 if not given [m].
+    tie_area : float or sequence of float, optional
+        Section of each tie per metre of wall: that of a bar / distance of two bars [m2/m].
+    tie_length : float or sequence of float, optional
+        Length of each tie that is free to stretch, as a rule up to its other anchor [m].
+    tie_modulus : float or sequence of float, optional
+        Modulus of elasticity of each tie, 2.06e11 if not given [Pa].
+    tie_strength : float or sequence of float, optional
+        Yield stress of each tie, 1.8e8 if not given [Pa].
+    tie_preload : float or sequence of float, optional
+        Stress of each tie at rest, less than its yield stress, 0 if not given [Pa].
+    tie_strain : float or sequence of float, optional
+        Strain of each tie at which it or its anchorage breaks, 0.02 if not given.
+    tie_anchor_force : float or sequence of float, optional
+        Force per metre of wall at which each anchor gives way at once; none if not given [N/m].
 
     Raises
     ------
@@ -201,6 +219,15 @@ class OneSidedWall(BlockWall):
     mechanism: ClassVar[str] = "one_sided"
 
     _: KW_ONLY
+    tie_height: Values = None
+    tie_depth: Values = None
+    tie_area: Values = None
+    tie_length: Values = None
+    tie_modulus: Values = None
+    tie_strength: Values = None
+    tie_preload: Values = None
+    tie_strain: Values = None
+    tie_anchor_force: Values = None
     leaves: float | None = None
     hinge_level: InitVar[float | Sequence[float] | None] = None
     hinge_at: InitVar[Literal["storeys"] | None] = None
@@ -214,7 +241,7 @@ class OneSidedWall(BlockWall):
 class FreeStandingWall(BlockWall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
 
-    Parameters are those of `OneSidedWall`; the models of restitution are 'default', 'impulse' (both
+    Parameters are those of `OneSidedWall` except its ties; the models of restitution are 'default', 'impulse' (both
     1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
     its thickness, and nothing thrusts.
     """

@@ -82,6 +82,10 @@ contains
       call read_wall_body(wall%input, wall%gravity, problems, body)
       call problems%raise(error)
       if (allocated(error)) return
+      if (size(body%actions%ties) > 0) then
+         call raise_input(error, 'tie_height: the kinematic check does not know ties; leave out &check, or the ties')
+         return
+      end if
       if (.not. wall%mechanism%capacity < right_angle) then
          call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
          return

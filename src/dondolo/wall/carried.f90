@@ -1,8 +1,9 @@
-!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts and springs, per metre of wall length.
+!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs and ties, per metre of wall length.
 !>
 !> Places are a depth behind the outer face of the base and a height above the base (docs/theory.md, section 2).
 module dondolo_carried
    use dondolo_kinds, only : wp
+   use dondolo_tie, only : tie_type
    implicit none
    private
 
@@ -48,6 +49,8 @@ module dondolo_carried
       type(thrust_type), allocatable :: thrusts(:)
       !> Springs
       type(spring_type), allocatable :: springs(:)
+      !> Ties
+      type(tie_type), allocatable :: ties(:)
       !> Depth u of the hinge behind the outer face [m]
       real(wp) :: hinge = 0.0_wp
       !> Radius a of the edge that the wall rolls on; the hinge at rest is then as deep [m]

@@ -1,6 +1,6 @@
 !> Walls above a hinge that is not at their base: the part of a facade that turns out while what is below it stays.
 !>
-!> It is a wall like any other: sections, loads, thrusts, springs and beds above the hinge, heights measured from it,
+!> It is a wall like any other: sections, loads, thrusts, springs, beds and ties above the hinge, heights measured from it,
 !> depths from the outer face there, and the floor of the building at its level (docs/theory.md, section 2).
 module dondolo_hinge_level
    use dondolo_error, only : problems_type
@@ -90,6 +90,8 @@ contains
       call keep_above(input, level, face, 'inertia_mass', 'inertia', [character(len=12) ::])
       call keep_above(input, level, face, 'thrust', 'thrust', [character(len=12) :: 'thrust_decay'])
       call keep_above(input, level, face, 'spring', 'spring', [character(len=12) ::])
+      call keep_above(input, level, face, 'tie_height', 'tie', [character(len=16) :: 'tie_area', 'tie_length', 'tie_modulus', &
+         & 'tie_strength', 'tie_preload', 'tie_strain', 'tie_anchor_force'])
       call cut_beds(input, level, face)
    end subroutine cut_wall
 

@@ -1,11 +1,12 @@
-!> One rigid body with a hinge at some depth and with what it carries: loads, pushed masses, thrusts, springs.
+!> One rigid body with a hinge at some depth, what it carries and what holds it: loads, pushed masses, thrusts, springs, ties.
 !>
 !> A point at depth d and height z, e = d - u and f = z - a from the hinge, moves by (docs/theory.md, section 2)
 !>
 !>     X = dx/dq = a + f cos q + e sin q        Y = dy/dq = e cos q - f sin q        y = X
 !>
 !> Every term is a sum over points that is linear or quadratic in e and f, so that a few sums made once hold any number of
-!> things; only a thrust that decays is asked one by one.
+!> things; only a thrust that decays is asked one by one. A tie is a thrust inwards and a spring, as long as it neither
+!> yields nor breaks nor becomes slack: `hold` changes those sums.
 module dondolo_loaded_block
    use dondolo_carried, only : actions_type, spring_type
    use dondolo_error, only : error_type, raise_input
@@ -13,6 +14,8 @@ module dondolo_loaded_block
    use dondolo_mechanism, only : mechanism_type
    use dondolo_rigid_body, only : rigid_body_type
    use dondolo_text, only : rounded, to_text
+   use dondolo_tie, only : elastic
+   use dondolo_travel, only : lever, rotation_after, travel, versine
    implicit none
    private
 
@@ -54,14 +57,15 @@ module dondolo_loaded_block
       type(sums_type) :: whole, pushed, lifted
       !> Dead weights and constant thrusts [N/m], stiffnesses [N/m per m]
       type(sums_type) :: dead, thrust, spring
+      !> Thrusts and stiffnesses without the ties
+      type(sums_type) :: free_thrust, free_spring
       !> Thrusts that decay
       type(fading_type), allocatable :: fading(:)
    contains
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
-      !> Horizontal travel D of a point
-      procedure, private :: travel
+      procedure :: hold
       !> Restoring moment G - Q
       procedure, private :: moment
    end type loaded_block_type
@@ -166,8 +170,54 @@ contains
       end do
       call check_rest(mechanism, body, actions, error)
       if (.not. allocated(error)) call find_capacity(mechanism, error)
-      if (.not. allocated(error)) call find_unseating(mechanism, actions)
+      if (allocated(error)) return
+      call find_unseating(mechanism, actions)
+      if (size(actions%ties) > 0) call add_ties(mechanism, actions, error)
    end subroutine new_loaded_block
+
+   !> Add the ties, none of which has yielded yet
+   subroutine add_ties(mechanism, actions, error)
+      type(loaded_block_type), intent(inout) :: mechanism
+      !> What acts on the wall
+      type(actions_type), intent(in) :: actions
+      !> A tie that is released before the wall falls: it is hardly above a hinge far behind it
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), dimension(size(actions%ties)) :: force, stiffness
+      integer :: at
+
+      mechanism%restraints = actions%ties
+      mechanism%free_thrust = mechanism%thrust
+      mechanism%free_spring = mechanism%spring
+      associate (ties => mechanism%restraints)
+         mechanism%preload = sum(ties%preload*lever(ties%edge, ties%e, ties%f, 0.0_wp))
+         call ties%pull(elastic, 0.0_wp, force, stiffness)
+      end associate
+      call mechanism%hold(force, stiffness)
+      associate (ties => mechanism%restraints)
+         at = findloc(lever(ties%edge, ties%e, ties%f, mechanism%capacity) > 0.0_wp, .false., dim=1)
+         if (at > 0) call raise_input(error, 'tie '//to_text(at)//': its tie_height is too low for the depth of the hinge; '// &
+            & 'the tie would become shorter before the wall has rotated by '//to_text(mechanism%capacity)//' rad, its capacity')
+      end associate
+   end subroutine add_ties
+
+   !> Set the forces of the ties
+   pure subroutine hold(self, force, stiffness)
+      class(loaded_block_type), intent(inout) :: self
+      !> Of each of them: T = force + stiffness D [N/m] and [N/m per m]
+      real(wp), intent(in) :: force(:), stiffness(:)
+
+      integer :: i
+
+      self%thrust = self%free_thrust
+      self%spring = self%free_spring
+      do i = 1, size(force)
+         associate (tie => self%restraints(i))
+            call self%thrust%add(-force(i), tie%e, tie%f)
+            call self%spring%add(stiffness(i), tie%e, tie%f)
+         end associate
+      end do
+   end subroutine hold
 
    !> Add a spring or a bed, whose sums are integrals over its height
    pure subroutine add_spring(sums, spring, actions)
@@ -233,7 +283,7 @@ contains
          end if
          do i = 1, size(self%fading)
             associate (fading => self%fading(i))
-               load = load + fading%force*exp(-self%travel(q, fading%e, fading%f)/fading%decay) &
+               load = load + fading%force*exp(-travel(a, fading%e, fading%f, q)/fading%decay) &
                   & *(a + fading%f*k + fading%e*s)
             end associate
          end do
@@ -263,7 +313,7 @@ contains
       end associate
       do i = 1, size(self%fading)
          associate (fading => self%fading(i))
-            v = v - fading%force*fading%decay*(1.0_wp - exp(-self%travel(q, fading%e, fading%f)/fading%decay))
+            v = v - fading%force*fading%decay*(1.0_wp - exp(-travel(self%edge, fading%e, fading%f, q)/fading%decay))
          end associate
       end do
    end function potential
@@ -276,25 +326,6 @@ contains
 
       q = atan2(self%e, self%f) + acos(max(-1.0_wp, -self%edge/hypot(self%e, self%f)))
    end function geometric_end
-
-   !> Horizontal travel D of a point: a q + f sin q + e (1 - cos q)
-   elemental real(wp) function travel(self, q, e, f)
-      class(loaded_block_type), intent(in) :: self
-      !> Rotation [rad]
-      real(wp), intent(in) :: q
-      !> Place from the hinge [m]
-      real(wp), intent(in) :: e, f
-
-      travel = self%edge*q + f*sin(q) + e*versine(q)
-   end function travel
-
-   !> 1 - cos q, without the cancellation of small rotations
-   elemental real(wp) function versine(q)
-      !> Rotation [rad]
-      real(wp), intent(in) :: q
-
-      versine = 2.0_wp*sin(0.5_wp*q)**2
-   end function versine
 
    !> Restoring moment G - Q
    elemental real(wp) function moment(self, q)
@@ -323,7 +354,8 @@ contains
       if (mechanism%moment(0.0_wp) > 0.0_wp) return
       associate (carried => actions%carried, thrusts => actions%thrusts)
          holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
-         call raise_input(error, 'thrust: the wall does not stand at rest; its weights hold it with '//rounded(holds)// &
+         call raise_input(error, 'thrust: the wall does not stand at rest'//trim(merge(' without its ties', '                 ', &
+            & size(actions%ties) > 0))//'; its weights hold it with '//rounded(holds)// &
             & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)))
       end associate
    end subroutine check_rest
@@ -384,28 +416,12 @@ contains
       !> What acts on the wall
       type(actions_type), intent(in) :: actions
 
-      real(wp), parameter :: right_angle = acos(0.0_wp)
-      real(wp) :: e, f, below, above, half
       integer :: i
 
       do i = 1, size(actions%carried)
          associate (thing => actions%carried(i))
-            e = thing%depth - actions%hinge
-            f = thing%height - actions%edge
-            ! Beyond this rotation X < 0, and the load comes back.
-            above = atan2(e, f) + right_angle
-            if (.not. mechanism%travel(above, e, f) > thing%seat) cycle
-            below = 0.0_wp
-            do
-               half = 0.5_wp*(below + above)
-               if (half <= below .or. half >= above) exit
-               if (mechanism%travel(half, e, f) > thing%seat) then
-                  above = half
-               else
-                  below = half
-               end if
-            end do
-            mechanism%unseating = min(mechanism%unseating, half)
+            mechanism%unseating = min(mechanism%unseating, rotation_after(actions%edge, thing%depth - actions%hinge, &
+               & thing%height - actions%edge, thing%seat))
          end associate
       end do
    end subroutine find_unseating

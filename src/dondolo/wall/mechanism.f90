@@ -7,6 +7,7 @@
 !> All terms are per metre of wall length.
 module dondolo_mechanism
    use dondolo_kinds, only : wp
+   use dondolo_tie, only : tie_type
    implicit none
    private
 
@@ -24,6 +25,11 @@ module dondolo_mechanism
       real(wp) :: lowest = -huge(1.0_wp), highest = huge(1.0_wp)
       !> Rotation at which a load loses its seat, which counts as collapse [rad]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
+      !> Ties; not allocated: none. As built no tie has yielded, and terms and potential are those of a wall that its ties
+      !> hold with T_0 + k D; `hold` puts other forces in their place
+      type(tie_type), allocatable :: restraints(:)
+      !> Moment of the ties at rest, as built [N m]
+      real(wp) :: preload = 0.0_wp
    contains
       !> J, C, G, L and Q at a rotation
       procedure(terms_interface), deferred :: terms
@@ -31,6 +37,8 @@ module dondolo_mechanism
       procedure(potential_interface), deferred :: potential
       !> Rotation that the geometry cannot pass
       procedure(rotation_interface), deferred :: geometric_end
+      !> Set the forces of the ties
+      procedure :: hold
       !> Ground acceleration at which it begins to rock
       procedure :: trigger_acceleration
       !> Frequency parameter p
@@ -79,6 +87,16 @@ module dondolo_mechanism
 
 contains
 
+   !> Set the forces of the ties, T = force + stiffness D: terms and potential then contain them. Nothing to do without ties
+   pure subroutine hold(self, force, stiffness)
+      class(mechanism_type), intent(inout) :: self
+      !> Of each of them [N/m] and [N/m per m]
+      real(wp), intent(in) :: force(:), stiffness(:)
+
+      associate (of => self, that => force, and => stiffness)
+      end associate
+   end subroutine hold
+
    !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 2)
    pure function trigger_acceleration(self) result(a)
       class(mechanism_type), intent(in) :: self
@@ -91,7 +109,7 @@ contains
       a = (g - load)/l
    end function trigger_acceleration
 
-   !> Frequency parameter, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block
+   !> Frequency parameter of the wall without its ties, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block
    !> (docs/theory.md, section 2)
    pure function frequency_parameter(self) result(p)
       class(mechanism_type), intent(in) :: self
@@ -101,7 +119,7 @@ contains
       real(wp) :: j, c, g, l, load
 
       call self%terms(0.0_wp, j, c, g, l, load)
-      p = sqrt((g - load)/(j*sin(self%capacity)))
+      p = sqrt((g - load - self%preload)/(j*sin(self%capacity)))
    end function frequency_parameter
 
 end module dondolo_mechanism

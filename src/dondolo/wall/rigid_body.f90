@@ -4,7 +4,7 @@ module dondolo_rigid_body
    implicit none
    private
 
-   public :: rigid_body_type, section_type, body_of_sections
+   public :: rigid_body_type, section_type, body_of_sections, faces_at, same
 
    !> What rocks, without what it carries
    type :: rigid_body_type
@@ -27,6 +27,9 @@ module dondolo_rigid_body
       !> Width of its elevation at its bottom and at its top / width that all values per metre refer to
       real(wp) :: base_width = 1.0_wp, top_width = 1.0_wp
    end type section_type
+
+   !> Lengths that differ by this part of the wall are the same
+   real(wp), parameter :: same = 1.0e-9_wp
 
 contains
 
@@ -60,5 +63,31 @@ contains
       body%height = sum(mass*height)/body%mass
       body%inertia = sum(inertia + mass*((depth - body%depth)**2 + (height - body%height)**2))
    end function body_of_sections
+
+   !> Outer and inner face at a height; where sections meet, the outermost and the innermost
+   pure function faces_at(sections, height) result(faces)
+      !> From the bottom
+      type(section_type), intent(in) :: sections(:)
+      !> Height above the base [m]
+      real(wp), intent(in) :: height
+      !> Depths of both faces [m]; the first is greater than the second beyond the wall
+      real(wp) :: faces(2)
+
+      real(wp) :: bottom, slack
+      integer :: i
+
+      faces = [huge(1.0_wp), -huge(1.0_wp)]
+      slack = same*sum(sections%height)
+      bottom = 0.0_wp
+      do i = 1, size(sections)
+         associate (part => sections(i))
+            if (height >= bottom - slack .and. height <= bottom + part%height + slack) then
+               faces(1) = min(faces(1), part%offset)
+               faces(2) = max(faces(2), part%offset + part%thickness)
+            end if
+            bottom = bottom + part%height
+         end associate
+      end do
+   end function faces_at
 
 end module dondolo_rigid_body

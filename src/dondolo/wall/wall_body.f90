@@ -5,9 +5,11 @@ module dondolo_wall_body
    use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_kinds, only : wp
    use dondolo_property, only : name_length, number_of_words, word_of
-   use dondolo_rigid_body, only : body_of_sections, rigid_body_type, section_type
+   use dondolo_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
    use dondolo_text, only : rounded, to_text
+   use dondolo_wall_lists, only : take
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
+   use dondolo_wall_ties, only : read_ties
    implicit none
    private
 
@@ -22,9 +24,6 @@ module dondolo_wall_body
       !> What acts on it
       type(actions_type) :: actions
    end type wall_body_type
-
-   !> Lengths that differ by this part of the wall are the same
-   real(wp), parameter :: same = 1.0e-9_wp
 
 contains
 
@@ -100,47 +99,11 @@ contains
       if (problems%count > before) return
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
+      call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
       if (problems%count > before) return
       if (input%has('mass')) call take_inertia(input, problems, wall)
       if (input%word('mechanism') == 'free_standing') call check_symmetry(input, problems, wall)
    end subroutine read_wall_body
-
-   !> Values of a list that goes with another, one for each or one for all
-   subroutine take(input, problems, name, of, values, default)
-      !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
-      !> Takes what is wrong
-      type(problems_type), intent(inout) :: problems
-      !> Name of the list
-      character(len=*), intent(in) :: name
-      !> Name of the list that it goes with
-      character(len=*), intent(in) :: of
-      !> Its values, as many as that list has
-      real(wp), allocatable, intent(out) :: values(:)
-      !> Value where it is not given; absent: it must be given
-      real(wp), intent(in), optional :: default
-
-      real(wp), allocatable :: given(:)
-      integer :: needed
-
-      needed = size(input%list(of))
-      given = input%list(name)
-      allocate (values(needed), source=0.0_wp)
-      if (size(given) == 1 .and. needed > 0) then
-         values = given(1)
-      else if (size(given) > 0 .and. needed == 0) then
-         call problems%note(name//': only with '//of)
-      else if (size(given) == needed) then
-         values = given
-      else if (size(given) > 0) then
-         call problems%note(name//': has '//to_text(size(given))//' values, must have '//to_text(needed)//' as '//of// &
-            & ', or one for all')
-      else if (present(default)) then
-         values = default
-      else
-         call problems%note(name//': must be given with '//of)
-      end if
-   end subroutine take
 
    !> The storeys
    subroutine read_sections(input, problems, sections)
@@ -399,32 +362,6 @@ contains
          call check_hinge(problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth))
       end do
    end subroutine read_hinge
-
-   !> Outer and inner face at a height; where sections meet, the outermost and the innermost
-   pure function faces_at(sections, height) result(faces)
-      !> From the bottom
-      type(section_type), intent(in) :: sections(:)
-      !> Height above the base [m]
-      real(wp), intent(in) :: height
-      !> Depths of both faces [m]; the first is greater than the second beyond the wall
-      real(wp) :: faces(2)
-
-      real(wp) :: bottom, slack
-      integer :: i
-
-      faces = [huge(1.0_wp), -huge(1.0_wp)]
-      slack = same*sum(sections%height)
-      bottom = 0.0_wp
-      do i = 1, size(sections)
-         associate (part => sections(i))
-            if (height >= bottom - slack .and. height <= bottom + part%height + slack) then
-               faces(1) = min(faces(1), part%offset)
-               faces(2) = max(faces(2), part%offset + part%thickness)
-            end if
-            bottom = bottom + part%height
-         end associate
-      end do
-   end function faces_at
 
    !> Check that everything acts within the wall
    subroutine check_places(input, problems, wall)

@@ -152,6 +152,32 @@ module dondolo_wall_properties
       &   meaning='height at which each bed begins'), &
       & property_type('bed_top', is_list, unit='m', owners=one_block, optional=.true., example='3.0', &
       &   meaning='height at which each bed ends'), &
+      & property_type('tie_height', is_list, unit='m', owners=one_sided, optional=.true., example='7.4', &
+      &   meaning='height of the anchor of each tie above the base'), &
+      & property_type('tie_depth', is_list, unit='m', owners=one_sided, optional=.true., example='0.0', &
+      &   meaning='depth of each anchor behind the outer face, 0 if not given'), &
+      & property_type('tie_area', is_list, unit='m2/m', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e-2_wp, usual_least=1.0e-6_wp, usual_most=1.0e-3_wp, if_less='is it in m2 per metre?', &
+      &   if_more='is it per metre of wall, in m2?', example='5.0e-5', &
+      &   meaning='section of each tie per metre of wall: that of a bar / distance of two bars'), &
+      & property_type('tie_length', is_list, unit='m', owners=one_sided, optional=.true., positive=.true., &
+      &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=60.0_wp, if_more='is it in centimetres?', example='8.0', &
+      &   meaning='length of each tie that is free to stretch, as a rule up to its other anchor'), &
+      & property_type('tie_modulus', is_list, unit='Pa', owners=one_sided, optional=.true., positive=.true., &
+      &   smallest=1.0e8_wp, largest=1.0e12_wp, usual_least=1.0e9_wp, usual_most=5.0e11_wp, if_less='is it in MPa?', &
+      &   if_more='is it in Pa?', example='2.06e11', meaning='modulus of elasticity of each tie, 2.06e11 if not given'), &
+      & property_type('tie_strength', is_list, unit='Pa', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e10_wp, usual_least=1.0e7_wp, usual_most=3.0e9_wp, if_less='is it in MPa?', if_more='is it in Pa?', &
+      &   example='1.8e8', meaning='yield stress of each tie, 1.8e8 if not given'), &
+      & property_type('tie_preload', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e10_wp, example='0.0', meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
+      & property_type('tie_strain', is_list, owners=one_sided, optional=.true., positive=.true., largest=1.0_wp, &
+      &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
+      &   meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
+      & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', &
+      &   if_more='is it per metre of wall?', example='6.0e3', &
+      &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &
       & property_type('hinge', default=0.5_wp, smallest=0.01_wp, largest=0.99_wp, owners=two_block, &
       &   meaning='height of the intermediate hinge / height of the wall'), &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &

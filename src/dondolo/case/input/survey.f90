@@ -48,6 +48,9 @@ module dondolo_survey
       type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
+      !> Rows of walls with ties, and the name of the first
+      integer :: tied = 0
+      character(len=:), allocatable :: first_tied
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -93,6 +96,8 @@ contains
             call survey%roster%add(member)
             survey%lengths = max(survey%lengths, member%wall%input%lengths())
             call add_wall(survey%walls_fingerprint, member%wall)
+            if (allocated(member%wall%mechanism%restraints)) survey%tied = survey%tied + 1
+            if (survey%tied == 1 .and. .not. allocated(survey%first_tied)) survey%first_tied = member%wall%name()
             if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)

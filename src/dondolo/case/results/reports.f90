@@ -13,6 +13,7 @@ module dondolo_reports
    use dondolo_run_file, only : shape_names, shape_of, write_run
    use dondolo_echo, only : echo_type
    use dondolo_text, only : to_table, to_text
+   use dondolo_tie_rows, only : make_tie_comment
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names
    implicit none
@@ -48,6 +49,8 @@ contains
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
             & run_suffix]
+         if (allocated(case%wall%mechanism%restraints)) names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', &
+            & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_check.csv', run_suffix]]
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
@@ -230,6 +233,7 @@ contains
       type(results_type), intent(in) :: results
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: line
       real(wp) :: capacity
       integer :: i
 
@@ -241,6 +245,10 @@ contains
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
+         do i = 1, size(results%trace%ties)
+            call make_tie_comment(i, results%trace%ties(i), line)
+            call files%line(line)
+         end do
          call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact')
          capacity = case%wall%mechanism%capacity
          do i = 1, trace%rows

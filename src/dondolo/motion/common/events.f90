@@ -1,4 +1,4 @@
-!> What happens within a step: an impact, a turning point, the limit.
+!> What happens within a step: an impact, a turning point, the limit, a level at which the ties of a wall change.
 !>
 !> The rotation in the step is a polynomial in Bernstein form, so that no event is missed and none is found that the
 !> polynomial does not have (docs/theory.md, section 5).
@@ -8,11 +8,11 @@ module dondolo_events
    implicit none
    private
 
-   public :: find_event
-   public :: no_event, impact, turning, limit_reached
+   public :: find_event, find_level
+   public :: no_event, impact, turning, limit_reached, level_above, level_below
 
    !> Events within a step
-   integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3
+   integer, parameter :: no_event = 0, impact = 1, turning = 2, limit_reached = 3, level_above = 4, level_below = 5
 
 contains
 
@@ -61,6 +61,35 @@ contains
          end if
       end if
    end subroutine find_event
+
+   !> A level that is crossed within a step before its first event
+   pure subroutine find_level(b, above, below, event, x)
+      !> Bernstein coefficients of the rotation [rad]
+      real(wp), intent(in) :: b(0:)
+      !> Nearest levels above and below the rotation at the start [rad]
+      real(wp), intent(in) :: above, below
+      !> The first event; out: the level, if that comes before it
+      integer, intent(inout) :: event
+      !> Its place, as a part of the step
+      real(wp), intent(inout) :: x
+
+      real(wp) :: place
+
+      if (maxval(b) >= above) then
+         place = first_descent(above - b)
+         if (place < x) then
+            x = place
+            event = level_above
+         end if
+      end if
+      if (minval(b) <= below) then
+         place = first_descent(b - below)
+         if (place < x) then
+            x = place
+            event = level_below
+         end if
+      end if
+   end subroutine find_level
 
    !> Sign of the first coefficient that is not zero
    pure function initial_sign(c) result(s)

@@ -48,6 +48,8 @@ module dondolo_history
       procedure, private :: settle
       !> Add the free motion after the record
       procedure :: add_free_motion
+      !> Take what happens after the record
+      procedure :: take_tail
       !> Result, once the history is over
       procedure :: finish
    end type history_type
@@ -182,11 +184,20 @@ contains
       type(tail_type) :: tail
 
       call free_motion(mechanism, limit, q, v, tail)
+      call self%take_tail(tail, record)
+   end subroutine add_free_motion
+
+   !> Take what happens after the record: a collapse, a new peak
+   pure subroutine take_tail(self, tail, record)
+      class(history_type), intent(inout) :: self
+      type(tail_type), intent(in) :: tail
+      type(record_type), intent(in) :: record
+
       self%collapsed = tail%collapsed
       if (.not. tail%peak > self%peak) return
       self%peak = tail%peak
       self%time_of_peak = record%duration() + tail%delay
-   end subroutine add_free_motion
+   end subroutine take_tail
 
    !> Result and counts of a history that is over
    pure subroutine finish(self, constants, record, response, work)

@@ -65,7 +65,7 @@ contains
       !> Its rest
       type(rest_type) :: rest
 
-      real(wp) :: j0, c0, g0, l0, load0, j, c, g, l, load
+      real(wp) :: j0, c0, g0, l0, load0, j, c, g, l, load, change
 
       call mechanism%terms(0.0_wp, j0, c0, g0, l0, load0)
       rest%two_sided = mechanism%two_sided
@@ -78,8 +78,11 @@ contains
       rest%height = 1.0e-3_wp*mechanism%capacity
       do
          call mechanism%terms(rest%height, j, c, g, l, load)
+         change = (g - load)/rest%moment - 1.0_wp
+         ! What a tie adds to the moment shortens a bounce; the bounds of a chain ask for no more than the rest.
+         if (allocated(mechanism%restraints)) change = min(change, 0.0_wp)
          ! The term C q'^2 takes at most 2 |C| height/J of the moment from a bounce of that height.
-         rest%slack = abs((g - load)/rest%moment - 1.0_wp) + abs(l/l0 - 1.0_wp) + abs(j/j0 - 1.0_wp) &
+         rest%slack = abs(change) + abs(l/l0 - 1.0_wp) + abs(j/j0 - 1.0_wp) &
             & + 2.0_wp*max(abs(c0), abs(c))*rest%height/j0
          if (rest%slack <= largest_slack) exit
          rest%height = 0.5_wp*rest%height

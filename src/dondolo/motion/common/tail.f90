@@ -9,6 +9,7 @@ module dondolo_tail
    private
 
    public :: tail_type, free_motion
+   public :: inertia, time_between, turning_rotation
 
    !> What happens after the record
    type :: tail_type

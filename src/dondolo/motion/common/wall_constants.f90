@@ -13,13 +13,17 @@ module dondolo_wall_constants
    type :: wall_constants_type
       !> The wall at rest
       type(rest_type) :: rest
-      !> Tolerances and limit
+      !> Tolerances of a step, and limit
       type(solver_type) :: solver
       !> Capacity q_c and rotation that counts as collapse [rad]
       real(wp) :: capacity, limit
       !> Velocity p q_c, the unit of the absolute tolerance [rad/s]
       real(wp) :: velocity_unit
    end type wall_constants_type
+
+   !> Factor on the tolerances for walls with ties, and what it does not tighten them beyond. They vibrate on their ties
+   !> between many impacts, each of which enlarges errors
+   real(wp), parameter :: with_ties = 1.0e-4_wp, least_rtol = 1.0e-12_wp, least_atol = 1.0e-14_wp
 
 contains
 
@@ -33,6 +37,10 @@ contains
 
       constants%rest = new_rest(mechanism)
       constants%solver = solver
+      if (allocated(mechanism%restraints)) then
+         constants%solver%rtol = max(with_ties*solver%rtol, min(solver%rtol, least_rtol))
+         constants%solver%atol = max(with_ties*solver%atol, min(solver%atol, least_atol))
+      end if
       constants%capacity = mechanism%capacity
       constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
       constants%velocity_unit = mechanism%frequency_parameter()*mechanism%capacity

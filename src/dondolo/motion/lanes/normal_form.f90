@@ -35,7 +35,7 @@ module dondolo_normal_form
 
    !> A mechanism up to its limit rotation
    type :: normal_form_type
-      !> Do polynomials hold its terms to rounding? If not, the rest is undefined
+      !> Do polynomials hold its terms to rounding? Those of ties they do not. If not, the rest is undefined
       logical :: exists = .false.
       !> Their degree, one of `degrees`
       integer :: degree = 0
@@ -73,7 +73,7 @@ contains
       real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
       integer :: i, iteration, needed, kept
 
-      if (limit < least_limit*mechanism%capacity) return
+      if (limit < least_limit*mechanism%capacity .or. allocated(mechanism%restraints)) return
       z = chebyshev_nodes(nodes)
       q = 0.5_wp*limit*(1.0_wp + z)
       call sample(mechanism, q, inertia, stretch, a, b)

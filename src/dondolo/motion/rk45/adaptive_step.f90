@@ -1,12 +1,13 @@
 !> One accepted step of the engine rk45: to the next sample, less where the error asks for it, or to the first
 !> event on the way.
 !>
-!> Events - impact, turning point, limit - are found on the dense output of a step; the step is then taken again so
-!> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
+!> Events - impact, turning point, limit, a level of the ties - are found on the dense output of a step; the step is then
+!> taken again so that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_adaptive_step
    use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond, state_type
-   use dondolo_events, only : find_event, impact, limit_reached, no_event, turning
+   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
+   use dondolo_grip, only : grip_type
    use dondolo_history, only : history_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -34,11 +35,18 @@ module dondolo_adaptive_step
       real(wp) :: step = 0.0_wp
       !> Longest step from the last sample or event to the next [s]
       real(wp) :: longest = huge(1.0_wp)
+      !> How its ties hold the wall
+      type(grip_type) :: grip
+      !> Levels in a row that were reached without any time passing
+      integer :: stalled = 0
       !> Scaled error of the last accepted step
       real(wp) :: last_error = 1.0e-4_wp
       !> Steps taken, and evaluations of the terms
       integer :: steps = 0, evaluations = 0
    end type motion_type
+
+   !> Levels are not looked for in the step after this many in a row that took no time: the wall balances on one of them
+   integer, parameter :: most_stalled = 8
 
 contains
 
@@ -55,7 +63,7 @@ contains
       logical, intent(out) :: sample_reached
 
       type(state_type) :: start, next
-      real(wp) :: remaining, h, q_error, v_error, error, x
+      real(wp) :: remaining, h, q_error, v_error, error, x, b(0:5)
       logical :: accepted
       integer :: parts
 
@@ -84,7 +92,11 @@ contains
 
       ! The signs in a shorter step are rounding; the next step shows what happened.
       if (h > shortest_motion*dt) then
-         call find_event(dense_rotation(h, start, next), motion%peak, constants%limit, event, x)
+         b = dense_rotation(h, start, next)
+         call find_event(b, motion%peak, constants%limit, event, x)
+         if (motion%grip%exists .and. motion%stalled < most_stalled) then
+            call find_level(b, motion%grip%above, motion%grip%below, event, x)
+         end if
       end if
       if (event /= no_event) call land(mechanism, constants%limit, motion, h, event, x, next)
       sample_reached = parts == 1 .and. event == no_event
@@ -92,6 +104,7 @@ contains
       motion%q = next%q
       motion%v = next%v
       motion%f = next%f
+      if (motion%grip%exists) motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
       if (event /= no_event) motion%longest = longest_step(constants%solver%steps_per_sample, dt, motion%time)
    end subroutine advance
 
@@ -149,10 +162,13 @@ contains
 
       integer, parameter :: most_trials = 60
       type(state_type) :: start
-      real(wp) :: before, after, trial, gap, rate, change, sense, q_error, v_error
+      real(wp) :: before, after, trial, gap, rate, change, sense, level, q_error, v_error
       logical :: crossed
       integer :: i
 
+      level = limit
+      if (event == level_above) level = motion%grip%above
+      if (event == level_below) level = motion%grip%below
       start = state_type(motion%q, motion%v, motion%f)
       before = 0.0_wp
       after = h
@@ -168,9 +184,12 @@ contains
          case (impact)
             gap = next%q
             rate = next%v
-         case (limit_reached)
-            gap = limit - next%q
+         case (limit_reached, level_above)
+            gap = level - next%q
             rate = -next%v
+         case (level_below)
+            gap = next%q - level
+            rate = next%v
          case default
             gap = sense*next%v
             rate = sense*next%f
@@ -201,6 +220,7 @@ contains
       next%q = next%q + change*(next%v + 0.5_wp*change*next%f)
       next%v = next%v + change*next%f
       if (event == impact) next%q = 0.0_wp
+      if (event >= level_above) next%q = level
       if (event == turning) then
          next%v = 0.0_wp
          if (next%q >= limit) event = limit_reached

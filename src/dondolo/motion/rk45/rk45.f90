@@ -6,15 +6,19 @@ module dondolo_rk45
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_events, only : impact, limit_reached
+   use dondolo_events, only : impact, level_above, level_below, limit_reached, turning
+   use dondolo_grip, only : grip_type
+   use dondolo_held_tail, only : held_motion
    use dondolo_history, only : starting_acceleration
    use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
+   use dondolo_rest, only : new_rest
    use dondolo_solver, only : solver_type
    use dondolo_step_limits, only : longest_step
+   use dondolo_tail, only : tail_type
    use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
    use dondolo_work, only : work_type
    implicit none
@@ -46,16 +50,20 @@ contains
       !> Counts, added to
       type(work_type), intent(inout), optional :: work
 
+      class(mechanism_type), allocatable :: wall
       type(wall_constants_type) :: constants
       type(motion_type) :: motion
       integer :: last, ending
 
-      constants = new_wall_constants(mechanism, solver)
+      ! A copy, whose ties change in the course of the history
+      allocate (wall, source=mechanism)
+      constants = new_wall_constants(wall, solver)
       motion%scale = scale
       motion%step = record%dt
       last = size(record%acceleration) - 1
       if (present(release)) motion%q = release
       motion%peak = motion%q
+      call motion%grip%begin(wall, motion%q)
       if (present(trace)) call add_row(motion, record, trace)
 
       ending = merge(record_over, at_rest, motion%q > 0.0_wp)
@@ -65,14 +73,18 @@ contains
             if (ending == at_rest) exit
          end if
          call motion%begin_rocking()
-         call rock(mechanism, constants, record, last, motion, ending, trace)
+         call rock(wall, constants, record, last, motion, ending, trace)
          call motion%end_rocking(record)
          if (ending /= at_rest) exit
          call cross_edge(record, motion, trace)
       end do
 
       motion%collapsed = ending == collapsed
-      if (ending == record_over) call motion%add_free_motion(mechanism, record, constants%limit, motion%q, motion%v)
+      if (motion%grip%exists) then
+         call finish_ties(wall, constants, record, ending == record_over, motion, trace)
+      else if (ending == record_over) then
+         call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v)
+      end if
       call motion%finish(constants, record, response, work)
       if (present(work)) then
          work%steps = work%steps + motion%steps
@@ -81,9 +93,10 @@ contains
       if (present(trace)) then
          if (ending == record_over) then
             last = last + ceiling(min(trace_after/record%dt, most_after))
-            call rock(mechanism, constants, record, last, motion, ending, trace)
+            call rock(wall, constants, record, last, motion, ending, trace)
          end if
          call trace%trim_rows()
+         if (.not. allocated(trace%ties)) allocate (trace%ties(0))
       end if
    end subroutine simulate_rk45
 
@@ -118,11 +131,40 @@ contains
       end do
    end subroutine wait
 
-   !> Rocking, until rest, collapse, or the end of the last interval
-   pure subroutine rock(mechanism, constants, record, last, motion, ending, trace)
-      class(mechanism_type), intent(in) :: mechanism
-      !> Constants of the wall
+   !> Add the free motion after the record of a wall with ties, and say what the history did to them
+   pure subroutine finish_ties(wall, constants, record, still_rocks, motion, trace)
+      !> The wall as its ties hold it
+      class(mechanism_type), intent(in) :: wall
+      !> Its constants
       type(wall_constants_type), intent(in) :: constants
+      type(record_type), intent(in) :: record
+      !> Does it rock when the record ends?
+      logical, intent(in) :: still_rocks
+      !> The history; its peak is that of all times afterwards
+      type(motion_type), intent(inout) :: motion
+      !> Gets what it did to each of the ties
+      type(trace_type), intent(inout), optional :: trace
+
+      class(mechanism_type), allocatable :: after
+      type(grip_type) :: grip
+      type(tail_type) :: tail
+
+      ! Copies: a trace goes on from the end of the record.
+      grip = motion%grip
+      if (still_rocks) then
+         allocate (after, source=wall)
+         call held_motion(after, grip, constants%limit, motion%q, motion%v, record%duration(), tail)
+         call motion%take_tail(tail, record)
+      end if
+      if (present(trace)) call grip%responses(wall, motion%peak, trace%ties)
+   end subroutine finish_ties
+
+   !> Rocking, until rest, collapse, or the end of the last interval
+   pure subroutine rock(wall, constants, record, last, motion, ending, trace)
+      !> The wall; its ties change
+      class(mechanism_type), intent(inout) :: wall
+      !> Constants of the wall; how it rests changes with its ties
+      type(wall_constants_type), intent(inout) :: constants
       type(record_type), intent(in) :: record
       !> Last interval to go through; beyond the record the ground is still
       integer, intent(in) :: last
@@ -137,7 +179,7 @@ contains
 
       call enter_interval(constants%solver, record, motion)
       motion%f = starting_acceleration(motion%q, motion%v, &
-         & angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v))
+         & angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v))
       ending = 0
       do while (motion%interval <= last)
          call look_for_interrupt(interrupted)
@@ -146,10 +188,10 @@ contains
             ending = broken_off
             return
          end if
-         call advance(mechanism, constants, record%dt, motion, event, sample_reached)
+         call advance(wall, constants, record%dt, motion, event, sample_reached)
          select case (event)
          case (impact)
-            call bounce(mechanism, constants, record, motion, ending, trace)
+            call bounce(wall, constants, record, motion, ending, trace)
          case (limit_reached)
             ending = collapsed
             motion%q = constants%limit
@@ -157,6 +199,7 @@ contains
             if (present(trace)) call add_row(motion, record, trace)
          case default
             if (motion%q > motion%peak) call set_peak(motion, record)
+            if (motion%grip%exists) call change_ties(wall, record, event, motion)
          end select
          if (sample_reached) then
             if (ending == collapsed) return
@@ -166,6 +209,26 @@ contains
       end do
       ending = record_over
    end subroutine rock
+
+   !> Change the forces of the ties where that is due
+   pure subroutine change_ties(wall, record, event, motion)
+      !> The wall
+      class(mechanism_type), intent(inout) :: wall
+      type(record_type), intent(in) :: record
+      !> The event that the last step ended on
+      integer, intent(in) :: event
+      type(motion_type), intent(inout) :: motion
+
+      select case (event)
+      case (level_above, level_below)
+         call motion%grip%cross(wall, motion%q, event == level_above, time_of(motion, record))
+      case default
+         ! A tie flows outwards only; rounding may end such a motion unseen.
+         if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
+         call motion%grip%turn(wall, motion%peak)
+      end select
+      motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
+   end subroutine change_ties
 
    !> Leave the edge of the trigger, where rounding undid a start at once
    pure subroutine cross_edge(record, motion, trace)
@@ -218,10 +281,11 @@ contains
    end subroutine aim
 
    !> An impact: lose speed, change side, and see whether the wall comes to rest
-   pure subroutine bounce(mechanism, constants, record, motion, ending, trace)
-      class(mechanism_type), intent(in) :: mechanism
-      !> Constants of the wall
-      type(wall_constants_type), intent(in) :: constants
+   pure subroutine bounce(wall, constants, record, motion, ending, trace)
+      !> The wall; its ties change
+      class(mechanism_type), intent(inout) :: wall
+      !> Constants of the wall; how it rests changes with its ties
+      type(wall_constants_type), intent(inout) :: constants
       type(record_type), intent(in) :: record
       type(motion_type), intent(inout) :: motion
       !> `at_rest` if it comes to rest, else 0
@@ -233,6 +297,7 @@ contains
 
       motion%v = min(motion%v, 0.0_wp)
       if (present(trace)) call add_row(motion, record, trace)
+      if (motion%grip%exists) call strike_ties(wall, constants, motion)
       v = motion%v
       call motion%strike(constants%rest, record, motion%excitation%start + motion%excitation%slope*motion%time, v, &
          & 1.0_wp, rests)
@@ -243,8 +308,24 @@ contains
          call add_row(motion, record, trace)
          if (.not. trace%lacks_memory) trace%after_impact(trace%rows) = .true.
       end if
-      motion%f = angular_acceleration(mechanism, motion%excitation, motion%time, motion%q, motion%v)
+      motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine bounce
+
+   !> Ties at an impact: those that have stretched are slack, and the wall rests in another way than before
+   pure subroutine strike_ties(wall, constants, motion)
+      !> The wall
+      class(mechanism_type), intent(inout) :: wall
+      !> Its constants
+      type(wall_constants_type), intent(inout) :: constants
+      type(motion_type), intent(inout) :: motion
+
+      logical :: changed
+
+      if (motion%grip%flows) call motion%grip%turn(wall, motion%peak)
+      changed = motion%grip%changed
+      call motion%grip%strike(wall)
+      if (changed) constants%rest = new_rest(wall)
+   end subroutine strike_ties
 
    !> The rotation is a new peak
    pure subroutine set_peak(motion, record)
@@ -252,8 +333,16 @@ contains
       type(record_type), intent(in) :: record
 
       motion%peak = motion%q
-      motion%time_of_peak = real(motion%interval - 1, wp)*record%dt + motion%time
+      motion%time_of_peak = time_of(motion, record)
    end subroutine set_peak
+
+   !> Time since the start of the record [s]
+   pure real(wp) function time_of(motion, record)
+      type(motion_type), intent(in) :: motion
+      type(record_type), intent(in) :: record
+
+      time_of = real(motion%interval - 1, wp)*record%dt + motion%time
+   end function time_of
 
    !> Add the present state to the time history
    pure subroutine add_row(motion, record, trace)

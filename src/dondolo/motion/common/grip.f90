@@ -1,0 +1,187 @@
+!> How the ties of a wall hold it in the course of a history.
+!>
+!> In each mode of its ties the motion is smooth. Modes change only at rotations that are known beforehand, levels, and where
+!> a motion outwards ends; what the ties remember is the largest rotation at which one did (docs/theory.md, section 4).
+module dondolo_grip
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_response, only : never, tie_response_type
+   use dondolo_tie, only : broken, elastic, flowing, slack, tie_type
+   implicit none
+   private
+
+   public :: grip_type
+
+   !> The ties of a wall at present
+   type :: grip_type
+      !> Are there any?
+      logical :: exists = .false.
+      !> Does one of them flow?
+      logical :: flows = .false.
+      !> Have their forces at rest changed since `strike` was called last?
+      logical :: changed = .false.
+      !> Nearest rotations above and below the present one at which a mode changes [rad]; huge and -huge: none
+      real(wp) :: above = huge(1.0_wp), below = -huge(1.0_wp)
+      !> Largest rotation at which a motion outwards has ended [rad]
+      real(wp), private :: reached = 0.0_wp
+      !> Mode, plastic elongation [m], rotation below which it is slack [rad] and times of yield and fracture [s] of each
+      integer, allocatable, private :: mode(:)
+      real(wp), allocatable, private :: set(:), slack_below(:), time_of_yield(:), time_of_fracture(:)
+   contains
+      !> The start of a history
+      procedure :: begin
+      !> A level is crossed
+      procedure :: cross
+      !> A motion outwards ends
+      procedure :: turn
+      !> The wall strikes its base
+      procedure :: strike
+      !> What the history did to the ties
+      procedure :: responses
+      procedure, private :: take_hold
+   end type grip_type
+
+contains
+
+   !> Begin a history: the wall is at rest, or was taken to a rotation
+   pure subroutine begin(self, wall, q)
+      class(grip_type), intent(inout) :: self
+      !> The wall; its ties get the forces that they have
+      class(mechanism_type), intent(inout) :: wall
+      !> Rotation, also the largest so far [rad]
+      real(wp), intent(in) :: q
+
+      integer :: ties
+
+      self%exists = allocated(wall%restraints)
+      if (.not. self%exists) return
+      ties = size(wall%restraints)
+      allocate (self%mode(ties), source=elastic)
+      allocate (self%set(ties), self%slack_below(ties), source=0.0_wp)
+      allocate (self%time_of_yield(ties), self%time_of_fracture(ties), source=never)
+      if (q > 0.0_wp) call self%cross(wall, q, .true., 0.0_wp)
+      call self%turn(wall, q)
+   end subroutine begin
+
+   !> Cross a level
+   pure subroutine cross(self, wall, q, outwards, time)
+      class(grip_type), intent(inout) :: self
+      !> The wall; its ties get the forces that they have from now on
+      class(mechanism_type), intent(inout) :: wall
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+      !> Does it move outwards?
+      logical, intent(in) :: outwards
+      !> Time [s]
+      real(wp), intent(in) :: time
+
+      integer :: i
+
+      do i = 1, size(self%mode)
+         associate (tie => wall%restraints(i))
+            if (.not. outwards) then
+               if (self%mode(i) == elastic .and. q <= self%slack_below(i)) self%mode(i) = slack
+               cycle
+            end if
+            if (self%mode(i) == slack .and. q >= self%slack_below(i)) self%mode(i) = elastic
+            if (self%mode(i) == elastic .and. q >= yields_at(self, tie)) then
+               self%mode(i) = flowing
+               if (tie%fracture > tie%yield .and. self%time_of_yield(i) < 0.0_wp) self%time_of_yield(i) = time
+            end if
+            if (self%mode(i) == flowing .and. q >= tie%fracture) then
+               self%mode(i) = broken
+               self%set(i) = tie%set(q)
+               self%time_of_fracture(i) = time
+               self%changed = .true.
+            end if
+         end associate
+      end do
+      call self%take_hold(wall)
+   end subroutine cross
+
+   !> End a motion outwards
+   pure subroutine turn(self, wall, q)
+      class(grip_type), intent(inout) :: self
+      !> The wall; its ties get the forces that they have from now on
+      class(mechanism_type), intent(inout) :: wall
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      integer :: i
+
+      self%reached = max(self%reached, q)
+      do i = 1, size(self%mode)
+         if (self%mode(i) /= flowing) cycle
+         self%mode(i) = elastic
+         self%set(i) = wall%restraints(i)%set(q)
+         self%slack_below(i) = wall%restraints(i)%slack_below(self%set(i))
+         self%changed = .true.
+      end do
+      call self%take_hold(wall)
+   end subroutine turn
+
+   !> Strike the base, with the forces that the ties have there
+   pure subroutine strike(self, wall)
+      class(grip_type), intent(inout) :: self
+      !> The wall; its ties get these forces
+      class(mechanism_type), intent(inout) :: wall
+
+      where (self%mode == elastic .and. self%slack_below > 0.0_wp) self%mode = slack
+      self%changed = .false.
+      call self%take_hold(wall)
+   end subroutine strike
+
+   !> What a history that is over did to the ties
+   pure subroutine responses(self, wall, peak, response)
+      class(grip_type), intent(in) :: self
+      class(mechanism_type), intent(in) :: wall
+      !> Largest rotation [rad]
+      real(wp), intent(in) :: peak
+      !> Of each tie
+      type(tie_response_type), allocatable, intent(out) :: response(:)
+
+      allocate (response(size(self%mode)))
+      associate (ties => wall%restraints)
+         response%plastic_elongation = ties%set(peak)
+         response%energy = ties%strength*response%plastic_elongation
+         response%broken = peak >= ties%fracture
+         response%time_of_yield = self%time_of_yield
+         response%time_of_fracture = self%time_of_fracture
+      end associate
+   end subroutine responses
+
+   !> Rotation at which an elastic tie yields [rad]
+   pure real(wp) function yields_at(self, tie)
+      type(grip_type), intent(in) :: self
+      type(tie_type), intent(in) :: tie
+
+      yields_at = max(tie%yield, self%reached)
+   end function yields_at
+
+   !> Give the wall the forces of its ties, and find the levels that come next
+   pure subroutine take_hold(self, wall)
+      class(grip_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
+
+      real(wp), dimension(size(self%mode)) :: force, stiffness
+      integer :: i
+
+      call wall%restraints%pull(self%mode, self%set, force, stiffness)
+      call wall%hold(force, stiffness)
+      self%flows = any(self%mode == flowing)
+      self%above = huge(self%above)
+      self%below = -huge(self%below)
+      do i = 1, size(self%mode)
+         select case (self%mode(i))
+         case (elastic)
+            self%above = min(self%above, yields_at(self, wall%restraints(i)))
+            if (self%slack_below(i) > 0.0_wp) self%below = max(self%below, self%slack_below(i))
+         case (flowing)
+            self%above = min(self%above, wall%restraints(i)%fracture)
+         case (slack)
+            self%above = min(self%above, self%slack_below(i))
+         end select
+      end do
+   end subroutine take_hold
+
+end module dondolo_grip

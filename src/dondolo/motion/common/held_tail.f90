@@ -1,0 +1,147 @@
+!> After the record: free motion of a wall with ties, from its energy.
+!>
+!> Between two levels of the ties E = 1/2 J q'^2 + V is constant, with the potential of the forces that they have there. A
+!> motion outwards that ends is followed by lower ones only, since ties give back at most what they took (docs/theory.md,
+!> section 4).
+module dondolo_held_tail
+   use dondolo_grip, only : grip_type
+   use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_tail, only : inertia, tail_type, time_between, turning_rotation
+   implicit none
+   private
+
+   public :: held_motion
+
+   !> Parts of the way between two levels in which a change of sign of the moment is looked for
+   integer, parameter :: parts = 64
+
+contains
+
+   !> The largest rotation after the end of the record
+   pure subroutine held_motion(wall, grip, limit, q, v, start, tail)
+      !> The wall; its ties change
+      class(mechanism_type), intent(inout) :: wall
+      type(grip_type), intent(inout) :: grip
+      !> Rotation that counts as collapse [rad]
+      real(wp), intent(in) :: limit
+      !> Rotation at the end of the record, less than the limit [rad]
+      real(wp), intent(in) :: q
+      !> Angular velocity, positive outwards [rad/s]
+      real(wp), intent(in) :: v
+      !> Duration of the record [s]
+      real(wp), intent(in) :: start
+      type(tail_type), intent(out) :: tail
+
+      real(wp) :: at, goal, kinetic
+      logical :: outwards, has_struck, turns
+
+      if (grip%flows .and. .not. v > 0.0_wp) call grip%turn(wall, q)
+      at = q
+      kinetic = 0.5_wp*inertia(wall, q)*v**2
+      outwards = v > 0.0_wp .or. (.not. v < 0.0_wp .and. moment(wall, q) < 0.0_wp)
+      has_struck = .false.
+      do
+         goal = max(0.0_wp, grip%below)
+         if (outwards) goal = min(limit, grip%above)
+         call go(wall, goal, at, kinetic, tail%delay, turns)
+         if (turns .and. .not. outwards) then
+            outwards = .true.
+         else if (turns) then
+            call grip%turn(wall, at)
+            tail%peak = at
+            return
+         else if (outwards .and. at >= limit) then
+            tail%peak = limit
+            tail%collapsed = .true.
+            return
+         else if (outwards .or. at > 0.0_wp) then
+            call grip%cross(wall, at, outwards, start + tail%delay)
+         else
+            kinetic = wall%restitution**2*kinetic
+            if (has_struck .or. .not. kinetic > 0.0_wp) return
+            has_struck = .true.
+            outwards = .true.
+            call grip%strike(wall)
+         end if
+      end do
+   end subroutine held_motion
+
+   !> Go to a rotation, or to where the motion turns before it
+   pure subroutine go(wall, goal, at, kinetic, time, turns)
+      class(mechanism_type), intent(in) :: wall
+      !> The rotation [rad]
+      real(wp), intent(in) :: goal
+      !> Rotation [rad] and kinetic energy [J] at the start; out: at the end
+      real(wp), intent(inout) :: at, kinetic
+      !> Time, added to [s]
+      real(wp), intent(inout) :: time
+      !> Does it turn?
+      logical, intent(out) :: turns
+
+      real(wp) :: energy, from, next, after
+      integer :: i
+
+      turns = .false.
+      from = at
+      energy = kinetic + wall%potential(at)
+      do i = 1, parts
+         next = from + (goal - from)*real(i, wp)/real(parts, wp)
+         if (i == parts) then
+            next = goal
+         else
+            ! The potential is monotone up to where the moment changes its sign.
+            after = from + (goal - from)*real(i + 1, wp)/real(parts, wp)
+            if (moment(wall, next) > 0.0_wp .eqv. moment(wall, after) > 0.0_wp) cycle
+            next = balance(wall, next, after)
+         end if
+         turns = wall%potential(next) > energy
+         if (turns) next = turning_rotation(wall, energy, next, at)
+         if (wall%potential(next) > wall%potential(at)) then
+            time = time + time_between(wall, max(energy, wall%potential(next)), next, at)
+         else if (abs(next - at) > 0.0_wp) then
+            time = time + time_between(wall, energy, at, next)
+         end if
+         at = next
+         if (turns) exit
+      end do
+      kinetic = max(0.0_wp, energy - wall%potential(at))
+      if (turns) kinetic = 0.0_wp
+   end subroutine go
+
+   !> Rotation at which the moment changes its sign, by bisection
+   pure real(wp) function balance(wall, one, other) result(q)
+      class(mechanism_type), intent(in) :: wall
+      !> Rotations with moments of different signs [rad]
+      real(wp), intent(in) :: one, other
+
+      real(wp) :: low, high
+      logical :: is_held
+
+      low = one
+      high = other
+      is_held = moment(wall, low) > 0.0_wp
+      do
+         q = 0.5_wp*(low + high)
+         if (q == low .or. q == high) exit
+         if (moment(wall, q) > 0.0_wp .eqv. is_held) then
+            low = q
+         else
+            high = q
+         end if
+      end do
+   end function balance
+
+   !> Restoring moment G - Q, ties included [N m]
+   pure real(wp) function moment(wall, q)
+      class(mechanism_type), intent(in) :: wall
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      real(wp) :: j, c, g, l, load
+
+      call wall%terms(q, j, c, g, l, load)
+      moment = g - load
+   end function moment
+
+end module dondolo_held_tail

@@ -1,0 +1,122 @@
+!> A tie that holds a wall back: linear up to its yield force, then plastic up to a strain at which it breaks. It cannot push.
+!>
+!> Its elongation D(q) only grows with the rotation, and it yields only in tension, thus only at a new largest D: its plastic
+!> set and whether it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2).
+module dondolo_tie
+   use dondolo_kinds, only : wp
+   use dondolo_travel, only : lever, rotation_after, travel
+   implicit none
+   private
+
+   public :: tie_type, tie_input_type, new_tie
+   public :: elastic, flowing, slack, broken
+
+   !> Modes of a tie, in each of which its force is smooth: T_0 + k (D - D_p), F_y, none for the time being, none any more
+   integer, parameter :: elastic = 1, flowing = 2, slack = 3, broken = 4
+
+   !> A tie as a user describes it
+   type :: tie_input_type
+      !> Place of its anchor: depth behind the outer face and height above the base [m]
+      real(wp) :: depth = 0.0_wp, height = 0.0_wp
+      !> Section per metre of wall [m2/m], and length that is free to stretch [m]
+      real(wp) :: area = 0.0_wp, length = 0.0_wp
+      !> Modulus of elasticity, yield stress and stress at rest [Pa]
+      real(wp) :: modulus = 0.0_wp, strength = 0.0_wp, preload = 0.0_wp
+      !> Strain at which it breaks, from the unstressed bar
+      real(wp) :: strain = 0.0_wp
+      !> Force at which its anchor breaks [N/m]; huge: it holds
+      real(wp) :: anchor_force = huge(1.0_wp)
+   end type tie_input_type
+
+   !> A tie, all per metre of wall
+   type :: tie_type
+      !> Anchor from the hinge, and radius of the edge that the wall rolls on [m]
+      real(wp) :: e = 0.0_wp, f = 0.0_wp, edge = 0.0_wp
+      !> Stiffness k [N/m per m], force at rest T_0 and largest force F_y [N/m]
+      real(wp) :: stiffness = 0.0_wp, preload = 0.0_wp, strength = 0.0_wp
+      !> Elongations from rest at which it yields, D_y, and breaks, D_u [m]
+      real(wp) :: yield_travel = 0.0_wp, fracture_travel = 0.0_wp
+      !> Rotations at which it does [rad]; huge: never
+      real(wp) :: yield = huge(1.0_wp), fracture = huge(1.0_wp)
+   contains
+      !> Plastic elongation D_p
+      procedure :: set
+      !> Rotation below which it is slack
+      procedure :: slack_below
+      !> Force as a constant and a stiffness
+      procedure :: pull
+   end type tie_type
+
+contains
+
+   !> Make a tie
+   pure function new_tie(input, hinge, edge) result(tie)
+      !> What is said of it, checked
+      type(tie_input_type), intent(in) :: input
+      !> Depth of the hinge, and radius of the edge [m]
+      real(wp), intent(in) :: hinge, edge
+      type(tie_type) :: tie
+
+      tie%e = input%depth - hinge
+      tie%f = input%height - edge
+      tie%edge = edge
+      tie%stiffness = input%modulus*input%area/input%length
+      tie%preload = input%preload*input%area
+      tie%strength = min(input%strength*input%area, input%anchor_force)
+      tie%yield_travel = (tie%strength - tie%preload)/tie%stiffness
+      tie%fracture_travel = input%strain*input%length - tie%preload/tie%stiffness
+      ! An anchor that gives way does so at once.
+      if (input%anchor_force < input%strength*input%area) tie%fracture_travel = tie%yield_travel
+      tie%yield = rotation_after(edge, tie%e, tie%f, tie%yield_travel)
+      tie%fracture = rotation_after(edge, tie%e, tie%f, tie%fracture_travel)
+   end function new_tie
+
+   !> Plastic elongation D_p after a largest rotation; of a broken tie that at which it broke [m]
+   elemental real(wp) function set(self, largest)
+      class(tie_type), intent(in) :: self
+      !> Largest rotation so far q_m [rad]
+      real(wp), intent(in) :: largest
+
+      set = 0.0_wp
+      if (largest >= self%fracture) then
+         set = self%fracture_travel - self%yield_travel
+      else if (largest > self%yield) then
+         set = max(0.0_wp, travel(self%edge, self%e, self%f, largest) - self%yield_travel)
+      end if
+   end function set
+
+   !> Rotation below which it is slack, 0 if it never is [rad]
+   elemental real(wp) function slack_below(self, set)
+      class(tie_type), intent(in) :: self
+      !> Plastic elongation D_p [m]
+      real(wp), intent(in) :: set
+
+      real(wp) :: distance
+
+      distance = set - self%preload/self%stiffness
+      slack_below = 0.0_wp
+      if (distance > 0.0_wp) slack_below = rotation_after(self%edge, self%e, self%f, distance)
+   end function slack_below
+
+   !> Its force as a constant and a stiffness: T = force + stiffness D
+   elemental subroutine pull(self, mode, set, force, stiffness)
+      class(tie_type), intent(in) :: self
+      !> One of the modes
+      integer, intent(in) :: mode
+      !> Plastic elongation D_p [m]
+      real(wp), intent(in) :: set
+      !> Constant part [N/m] and stiffness [N/m per m]
+      real(wp), intent(out) :: force, stiffness
+
+      force = 0.0_wp
+      stiffness = 0.0_wp
+      select case (mode)
+      case (elastic)
+         force = self%preload - self%stiffness*set
+         stiffness = self%stiffness
+      case (flowing)
+         force = self%strength
+      end select
+   end subroutine pull
+
+end module dondolo_tie

@@ -1,0 +1,51 @@
+!> Lists of a wall that go with one another, such as the heights of its loads with its loads.
+module dondolo_wall_lists
+   use dondolo_error, only : problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : to_text
+   use dondolo_wall_properties, only : wall_input_type
+   implicit none
+   private
+
+   public :: take
+
+contains
+
+   !> Values of a list that goes with another, one for each or one for all
+   subroutine take(input, problems, name, of, values, default)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> Name of the list that it goes with
+      character(len=*), intent(in) :: of
+      !> Its values, as many as that list has
+      real(wp), allocatable, intent(out) :: values(:)
+      !> Value where it is not given; absent: it must be given
+      real(wp), intent(in), optional :: default
+
+      real(wp), allocatable :: given(:)
+      integer :: needed
+
+      needed = size(input%list(of))
+      given = input%list(name)
+      allocate (values(needed), source=0.0_wp)
+      if (size(given) == 1 .and. needed > 0) then
+         values = given(1)
+      else if (size(given) > 0 .and. needed == 0) then
+         call problems%note(name//': only with '//of)
+      else if (size(given) == needed) then
+         values = given
+      else if (size(given) > 0) then
+         call problems%note(name//': has '//to_text(size(given))//' values, must have '//to_text(needed)//' as '//of// &
+            & ', or one for all')
+      else if (present(default)) then
+         values = default
+      else
+         call problems%note(name//': must be given with '//of)
+      end if
+   end subroutine take
+
+end module dondolo_wall_lists
