@@ -3,6 +3,7 @@ module dondolo_union_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
    use dondolo_check_input, only : state_names
+   use dondolo_check_lines, only : chance
    use dondolo_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
    use dondolo_fragility, only : fragility_type
@@ -125,7 +126,7 @@ contains
          do i = 1, min(verdicts%checked, shown_verdicts)
             associate (verdict => verdicts%first(i))
                write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width), right(rounded(verdict%multiplier), 10), &
-                  & (right(rounded(verdict%ratio(k)), 15), k=1, size(check_states)), chance(verdict%probability)
+                  & (right(rounded(verdict%ratio(k)), 15), k=1, size(check_states)), in_column(verdict%probability)
             end associate
          end do
          if (verdicts%checked > shown_verdicts) write (output_unit, '(a)') '... and '// &
@@ -142,13 +143,13 @@ contains
    contains
 
       !> A probability in its column, a dash where there is none
-      function chance(probability)
+      function in_column(probability) result(cell)
          real(wp), intent(in) :: probability
-         character(len=13) :: chance
+         character(len=13) :: cell
 
-         chance = right('-', len(chance))
-         if (probability >= 0.0_wp) chance = right(rounded(probability), len(chance))
-      end function chance
+         cell = right('-', len(cell))
+         if (probability >= 0.0_wp) cell = right(trim(chance(probability)), len(cell))
+      end function in_column
 
       !> Print the probability that a facade collapses at the peak acceleration of the site
       subroutine print_chance(union, pga)
@@ -163,7 +164,7 @@ contains
          if (.not. (union%curve(last)%has_fit() .and. union%product(last)%has_fit())) return
          probability = union%saturation*[union%curve(last)%probability(pga), union%product(last)%probability(pga)]
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
-            & rounded(probability(1))//'; taken as independent '//rounded(probability(2))
+            & trim(chance(probability(1)))//'; taken as independent '//trim(chance(probability(2)))
       end subroutine print_chance
 
    end subroutine print_verdict_rows
