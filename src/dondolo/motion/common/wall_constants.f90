@@ -35,11 +35,15 @@ contains
       !> Its constants
       type(wall_constants_type) :: constants
 
+      real(wp) :: part
+
       constants%rest = new_rest(mechanism)
       constants%solver = solver
       if (allocated(mechanism%restraints)) then
-         constants%solver%rtol = max(with_ties*solver%rtol, min(solver%rtol, least_rtol))
-         constants%solver%atol = max(with_ties*solver%atol, min(solver%atol, least_atol))
+         ! A run with halved steps, which estimates errors, has a 32nd of them.
+         part = 0.5_wp**(5*(solver%steps_per_sample - 1))
+         constants%solver%rtol = max(with_ties*solver%rtol, min(solver%rtol, part*least_rtol))
+         constants%solver%atol = max(with_ties*solver%atol, min(solver%atol, part*least_atol))
       end if
       constants%capacity = mechanism%capacity
       constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
