@@ -1,6 +1,8 @@
-"""Measure what docs/ties.md says: DONDOLO_RECORDS=FOLDER python docs/ties.py."""
+"""Measure what docs/ties.md says, and draw its figure of designs: DONDOLO_RECORDS=FOLDER python docs/ties.py."""
 
 import os
+import runpy
+from pathlib import Path
 
 import numpy as np
 
@@ -30,3 +32,7 @@ for name, more in cases.items():
     shares = " ".join(f"{share:.2f}" for share in broken)
     numbers = " ".join(f"{a / wall.gravity:.3f}" for a in statics)
     print(f"{name:20s} {numbers} {f.theta:.3f} {f.beta:.3f} {f.status} | broken at 0.5 g: {shares}")
+
+docs = Path(__file__).parent
+found = runpy.run_path(str(docs / "examples/which_tie.py"))["found"]
+found.plot()[0].figure.savefig(docs / "figures/which_tie.png", dpi=100)
