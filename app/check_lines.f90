@@ -9,7 +9,7 @@ module dondolo_check_lines
    implicit none
    private
 
-   public :: print_check, print_verdicts
+   public :: print_check, print_verdicts, chance
 
 contains
 

@@ -17,7 +17,7 @@ module dondolo_plan
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
    use dondolo_store, only : store_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_text, only : counted, rounded, to_text
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
@@ -123,10 +123,11 @@ contains
       integer :: i
 
       associate (survey => case%survey)
-         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+            & facade=case%facade)
          if (.not. allocated(error)) call reader%skip(survey%first - 1, error)
          if (allocated(error)) return
-         if (survey%walls < survey%rows) write (output_unit, '(a)') to_text(survey%walls)//' walls, with '// &
+         if (survey%walls < survey%rows) write (output_unit, '(a)') counted(survey%walls, 'wall')//', with '// &
             & to_text(survey%rows)//' mechanisms in all'
          if (survey%is_part) write (output_unit, '(a)') 'rows '// &
             & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)

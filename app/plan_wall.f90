@@ -4,6 +4,7 @@ module dondolo_plan_wall
    use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
    use dondolo_text, only : left, rounded
+   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_body, only : read_wall_body, wall_body_type
    use dondolo_wall_properties, only : wall_input_type
@@ -62,6 +63,8 @@ contains
       associate (input => wall%input)
          if (size(input%list('load')) > 0) text = '  loads '//rounded(sum(input%list('load')))//' N/m'
          if (size(input%list('thrust')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust')))//' N/m'
+         if (size(input%list('tie_height')) > 0) text = trim(text)//'  ties '//rounded(sum( &
+            & wall%mechanism%restraints%strength))//' N/m'
          if (input%number('overburden') > 0.0_wp) then
             half = 0.5_wp*input%number('thickness')
             text = '  load '//rounded(input%number('overburden'))//' N/m'
@@ -74,6 +77,8 @@ contains
                text = trim(text)//', on the centreline'
             end if
          end if
+         if (input%number('leaves') > 1.0_wp) text = trim(text)//'  '//rounded(input%number('leaves'))//' leaves of '// &
+            & rounded(input%number('thickness')/input%number('leaves'))//' m, one of which rocks'
          if (wall%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%hinge_depth)//' m deep'
          if (wall%mechanism%unseating < wall%mechanism%capacity) text = trim(text)//'  unseating at '// &
             & rounded(wall%mechanism%unseating)//' rad'
@@ -92,6 +97,7 @@ contains
          call print_one_block(wall)
       end if
       call print_hinge(wall)
+      if (allocated(wall%mechanism%restraints)) call print_ties(wall)
       call wall%mechanism%terms(0.0_wp, j, c, g, l, load)
       call print_line('trigger', rounded(wall%mechanism%trigger_acceleration()/wall%gravity)//' g: restoring moment '// &
          & rounded(g - load)//' N m/m over excitation lever '//rounded(l)//' kg m/m')
@@ -131,6 +137,35 @@ contains
             & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
       end associate
    end subroutine print_one_block
+
+   !> Print the ties of a wall and the accelerations that it withstands with them
+   subroutine print_ties(wall)
+      type(wall_type), intent(in) :: wall
+
+      integer :: i
+
+      do i = 1, size(wall%mechanism%restraints)
+         associate (tie => wall%mechanism%restraints(i))
+            call print_line('tie', 'stiffness '//rounded(tie%stiffness)//' N/m per m, at rest '//rounded(tie%preload)// &
+               & ' N/m, yields at '//rounded(tie%strength)//' N/m and '//trim(rotation(tie%yield))//', breaks at '// &
+               & trim(rotation(tie%fracture)))
+         end associate
+      end do
+      call print_line('statics', 'first motion at '//rounded(wall%mechanism%trigger_acceleration()/wall%gravity)// &
+         & ' g, greatest static acceleration '//rounded(greatest_acceleration(wall%mechanism)/wall%gravity)// &
+         & ' g, rigid-plastic '//rounded(plastic_acceleration(wall%mechanism)/wall%gravity)//' g (alpha_0 of design)')
+   end subroutine print_ties
+
+   !> A rotation that may never be reached
+   pure function rotation(q) result(text)
+      !> Rotation [rad]; huge: never
+      real(wp), intent(in) :: q
+      !> Filled up with blanks
+      character(len=40) :: text
+
+      text = 'no rotation'
+      if (q < huge(q)) text = rounded(q)//' rad'
+   end function rotation
 
    !> Print the blocks of a wall of two and its load
    subroutine print_two_blocks(wall)

@@ -3,21 +3,20 @@ module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
    use dondolo_check_lines, only : print_check, print_verdicts
-   use dondolo_clustered, only : fewest_clusters, parameter_intervals
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
    use dondolo_text, only : counted, right, rounded, to_text
-   use dondolo_typology, only : typology_type, whole_population
+   use dondolo_tie_rows, only : make_tie_sentence
+   use dondolo_typology, only : whole_population
+   use dondolo_union_lines, only : print_unions, print_verdict_rows
+   use dondolo_wall_properties, only : is_of_building
    implicit none
    private
 
    public :: print_summary
-
-   !> Widest bar of a table
-   integer, parameter :: bar_width = 40
 
 contains
 
@@ -33,6 +32,7 @@ contains
       integer, intent(in) :: threads
 
       integer :: i
+      logical :: on_floors
 
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
       select case (case%job%task)
@@ -52,9 +52,11 @@ contains
          if (allocated(results%typologies)) then
             call print_curves(case, results)
             call print_typology(case, results)
+            if (allocated(results%unions)) call print_unions(case, results)
             if (allocated(case%check)) then
                write (output_unit, '(a)') ''
                call print_verdicts(results%verdicts, case%check)
+               call print_verdict_rows(case, results)
             end if
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
@@ -64,7 +66,9 @@ contains
       end select
       if (case%suite%has_vertical()) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
-      if (allocated(case%wall%building)) then
+      on_floors = allocated(case%wall%building)
+      if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)
+      if (on_floors) then
          write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
@@ -142,6 +146,9 @@ contains
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
 
+      character(len=:), allocatable :: line
+      integer :: i
+
       associate (response => results%response, record => case%suite%records(case%history%record))
          write (output_unit, '(a)') 'record '''//record%name//''', scale '//rounded(case%history_scale())// &
             & ', peak acceleration '//rounded(abs(case%history_scale())*record%pga()/case%solver%gravity)//' g'
@@ -154,6 +161,10 @@ contains
          else
             write (output_unit, '(a)') 'no motion: EDP 0'
          end if
+         do i = 1, size(results%trace%ties)
+            call make_tie_sentence(i, results%trace%ties(i), line)
+            write (output_unit, '(a)') line
+         end do
          if (case%solver%solver%estimate_error) then
             if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
                write (output_unit, '(a)') 'with halved steps it collapses too'
@@ -197,82 +208,6 @@ contains
       if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
          & rounded(maxval(results%row%response%edp_error))
    end subroutine print_stripes
-
-   !> Print a curve, or why there is none
-   subroutine print_fit(case, curve)
-      type(case_type), intent(in) :: case
-      type(fragility_type), intent(in) :: curve
-
-      if (curve%has_fit()) then
-         write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
-            & ', beta = '//rounded(curve%beta)//', status '//trim(curve%status)
-         call print_errors(curve)
-         write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
-            & trim(fractiles(case, curve, 1.0_wp))
-      else
-         write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
-      end if
-   end subroutine print_fit
-
-   !> Print the standard errors and intervals of a curve, or why it has none
-   subroutine print_errors(curve)
-      type(fragility_type), intent(in) :: curve
-
-      real(wp) :: bounds(2, 2)
-
-      if (.not. curve%has_errors()) then
-         write (output_unit, '(a)') 'no standard errors: '//trim(why_none(curve))
-      else
-         bounds = parameter_intervals(curve)
-         write (output_unit, '(a)') 'standard errors: '//rounded(curve%se_ln_theta())//' of ln theta, '// &
-            & rounded(curve%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))//' to '// &
-            & rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2))), &
-            & '('//counted(curve%clusters, 'cluster')//' of records, '//to_text(curve%clusters - 1)// &
-            & ' degrees of freedom; naive standard errors, as if all histories were independent: '// &
-            & rounded(sqrt(curve%naive(1, 1)))//' and '//rounded(sqrt(curve%naive(2, 2)))//')'
-      end if
-   end subroutine print_errors
-
-   !> Why a curve has no standard errors, filled up with blanks
-   pure function why_none(curve) result(text)
-      type(fragility_type), intent(in) :: curve
-      character(len=80) :: text
-
-      select case (curve%errors)
-      case ('few_clusters')
-         text = counted(curve%clusters, 'cluster')//' of records, at least '//to_text(fewest_clusters)//' are needed'
-      case ('few_walls')
-         text = counted(curve%clusters, 'wall')//', one or at least '//to_text(fewest_clusters)//' are needed'
-      case ('one_wall')
-         text = 'one wall determines the curve'
-      case default
-         text = 'one cluster of records determines the curve'
-      end select
-   end function why_none
-
-   !> Levels at which 16, 50 and 84 % collapse
-   pure function fractiles(case, curve, saturation) result(text)
-      type(case_type), intent(in) :: case
-      type(fragility_type), intent(in) :: curve
-      !> Share that can collapse
-      real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse, and why; filled up with blanks
-      character(len=160) :: text
-
-      real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
-      integer :: i
-
-      text = ''
-      do i = 1, size(shares)
-         if (shares(i) < saturation) then
-            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))//','
-         else
-            text = trim(text)//' -,'
-         end if
-      end do
-      text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
-      if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
-   end function fractiles
 
    !> Print the curves of a population
    subroutine print_curves(case, results)
@@ -347,53 +282,5 @@ contains
          end do
       end do
    end subroutine print_typology
-
-   !> Print the standard errors of a curve of the population and their intervals, or why it has none
-   subroutine print_population_errors(typology)
-      type(typology_type), intent(in) :: typology
-
-      real(wp) :: bounds(2, 2)
-
-      associate (fit => typology%fit)
-         if (fit%has_errors()) then
-            bounds = parameter_intervals(fit)
-            write (output_unit, '(a)') '  standard errors over records and walls: '//rounded(fit%se_ln_theta())// &
-               & ' of ln theta, '//rounded(fit%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))// &
-               & ' to '//rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2)))
-         else
-            write (output_unit, '(a)') '  no standard errors: '//trim(why_none(fit))
-         end if
-      end associate
-   end subroutine print_population_errors
-
-   !> The upper end of an interval of beta, filled up with blanks
-   pure function upper_end(bound) result(text)
-      !> Huge if there is none
-      real(wp), intent(in) :: bound
-      character(len=24) :: text
-
-      text = 'no bound'
-      if (bound < huge(bound)) text = rounded(bound)
-   end function upper_end
-
-   !> A bar as long as a fraction
-   pure function bar(fraction)
-      !> Fraction, 0 to 1
-      real(wp), intent(in) :: fraction
-      !> Bar
-      character(len=nint(fraction*real(bar_width, wp))) :: bar
-
-      bar = repeat('#', len(bar))
-   end function bar
-
-   !> Make the head of a column of levels: the measure and its unit
-   pure subroutine make_head(case, head)
-      type(case_type), intent(in) :: case
-      !> Head, at least as wide as a number
-      character(len=:), allocatable, intent(out) :: head
-
-      head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
-      head = right(head, max(12, len(head) + 1))
-   end subroutine make_head
 
 end module dondolo_summary

@@ -155,7 +155,8 @@ contains
             call print_commented('! '//trim(table(i)%name), comment, 26)
          end do
       end do
-      call print_line('! Rows with one name are mechanisms of one wall.')
+      call print_line('! Rows with one name are mechanisms of one wall. A row with hinge_at, or hinge1_level, hinge2_level ...,')
+      call print_line('! is a facade: a wall for each hinge, in series. One facade alone: &wall with either, not &population.')
    end subroutine print_columns
 
    !> Print a line with a comment, which goes on in the lines below where it is long

@@ -34,6 +34,7 @@ def main() -> None:
     intensities()
     mechanisms()
     bearing()
+    ties()
     processing()
     pulses()
     overturning()
@@ -101,6 +102,30 @@ def bearing():
         ax.set_ylim(-0.05, 1.62)
         ax.set_title(title, loc="left")
     figure.savefig(figures / "bearing.png", dpi=100)
+
+
+def ties():
+    """Draw a facade with two ties, and their forces as it moves out, back, and out again."""
+    wall = dd.OneSidedWall(
+        9.0, 0.5, tie_height=[8.5, 5.5], tie_area=5e-5, tie_length=8.0, tie_preload=3e7, name="facade"
+    )
+    figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.0, 1.5))
+    wall.plot(axes[0], rotation=0.5 * wall.capacity_angle)
+    axes[0].set_title("ties, drawn with their plates", loc="left")
+    stiffness, strength, preload = 2.06e11 * 5e-5 / 8.0, 9e3, 1.5e3
+    yields, breaks, turns = (strength - preload) / stiffness, 0.02 * 8.0 - preload / stiffness, 0.09
+    slack = turns - yields - preload / stiffness
+    path = [(0.0, preload), (yields, strength), (turns, strength), (slack, 0.0), (0.0, 0.0), (slack, 0.0)]
+    path += [(turns, strength), (breaks, strength), (breaks, 0.0)]
+    travel, force = np.array(path).T
+    axes[1].plot(1e3 * travel, force / 1e3, color=style.BLUE, linewidth=1.8)
+    places = {"yields": (yields, strength), "turns": (turns, strength), "slack": (slack, 0.0)}
+    places["breaks"] = (breaks, strength)
+    for word, (x, y) in places.items():
+        axes[1].annotate(word, (1e3 * x, y / 1e3), (0, 5), textcoords="offset points", ha="center")
+    axes[1].set(xlabel="elongation from rest D [mm]", ylabel="force T [kN/m]", ylim=(-0.4, 10.5))
+    axes[1].set_title("one of them: out, back, and out again", loc="left")
+    figure.savefig(figures / "ties.png", dpi=100)
 
 
 def processing():

@@ -26,7 +26,6 @@ module dondolo
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_grip, only : tie_response_type
    use dondolo_ground_motion, only : ground_displacement, ground_velocity
    use dondolo_intensity, only : im_names, measure_type, new_measure
    use dondolo_kinds, only : wp
@@ -37,7 +36,7 @@ module dondolo
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
-   use dondolo_response, only : response_type, trace_type
+   use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_results, only : results_type
    use dondolo_roster, only : roster_type

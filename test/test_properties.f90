@@ -368,6 +368,12 @@ contains
       select case (what)
       case ('overburden')
          call input%set('overburden_inertia', 0.5_wp)
+      case ('hinge_level')
+         ! Several are for a population: test_facade
+         call input%set('hinge_level', [0.4_wp])
+      case ('hinge_at')
+         call input%set('section_height', [2.0_wp])
+         call input%set('section_thickness', [0.4_wp])
       case ('load_lifted')
          call input%set('load_pushed', [0.5_wp, 0.5_wp])
       case ('load_pushed')

@@ -5,18 +5,22 @@
 program test_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_error, only : error_type
-   use dondolo_grip, only : tie_response_type
+   use dondolo_grip, only : grip_type
+   use dondolo_held_tail, only : held_motion
    use dondolo_kinds, only : wp
+   use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
+   use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_simulate, only : check_history
    use dondolo_solver, only : solver_type
+   use dondolo_tail, only : tail_type
    use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use motion_inputs, only : accelerogram, stillness, tight
+   use motion_inputs, only : accelerogram, tight
    implicit none
 
    real(wp), parameter :: exact = 1.0e-12_wp, g = 9.81_wp
@@ -118,8 +122,23 @@ contains
       type(wall_type) :: wall
 
       wall = made(input)
-      call simulate_rk45(wall%mechanism, accelerogram(a, 0.1_wp), 1.0_wp, tight(1.0_wp), response, trace, ties=ties)
+      call simulate_rk45(wall%mechanism, accelerogram(a, 0.1_wp), 1.0_wp, tight(1.0_wp), response, trace)
+      ties = trace%ties
    end subroutine run
+
+   !> A history, and what it does to the ties
+   subroutine run_tied(wall, record, scale, solver, response, ties)
+      type(wall_type), intent(in) :: wall
+      type(record_type), intent(in) :: record
+      real(wp), intent(in) :: scale
+      type(solver_type), intent(in) :: solver
+      type(response_type), intent(out) :: response
+      type(tie_response_type), allocatable, intent(out) :: ties(:)
+      type(trace_type) :: trace
+
+      call simulate_rk45(wall%mechanism, record, scale, solver, response, trace)
+      ties = trace%ties
+   end subroutine run_tied
 
    !> Time of an impact and velocity just before it
    subroutine check_impact(trace, number, time, velocity)
@@ -127,7 +146,7 @@ contains
       !> Number of the impact
       integer, intent(in) :: number
       real(wp), intent(in) :: time
-      !> NaN-free marker: positive where it is not known
+      !> Negative; positive where it is not known
       real(wp), intent(in) :: velocity
       integer, allocatable :: rows(:)
       integer :: i
@@ -214,22 +233,274 @@ contains
       q = wall%mechanism%capacity
    end function made_capacity
 
+   !> Still ground, launched at q = 0 with 0.08 rad/s
    subroutine test_energy()
+      type(wall_type) :: wall
+      class(mechanism_type), allocatable :: held
+      type(grip_type) :: grip
+      type(tail_type) :: tail
+      type(tie_response_type), allocatable :: ties(:)
+      real(wp) :: at_rest, fall, level
+
+      call suite('energy')
+      wall = made(tied())
+      allocate (held, source=wall%mechanism)
+      call grip%begin(held, 0.0_wp)
+      call held_motion(held, grip, wall%mechanism%capacity, 0.0_wp, 0.08_wp, 0.0_wp, tail)
+      call check_close(tail%peak, 0.00761924908059266_wp, 0.0_wp, 'peak', exact)
+      call grip%responses(held, tail%peak, ties)
+      call check_close(ties(1)%plastic_elongation, 0.0589377478485007_wp, 0.0_wp, 'set', exact)
+      ! The wall comes back without what the tie has taken, but for what the tie had at rest.
+      at_rest = 1500.0_wp**2/(2.0_wp*1287500.0_wp)
+      call check_close(ties(1)%energy - at_rest, 529.565944228739_wp, exact, 'energy that the wall loses')
+      level = grip%below
+      fall = held%potential(tail%peak) - held%potential(level)
+      call grip%cross(held, level, .false., 0.0_wp)
+      fall = fall + held%potential(level) - held%potential(0.0_wp)
+      call check_close(sqrt(2.0_wp*fall/219375.0_wp), 0.0396490652059264_wp, 0.0_wp, 'speed at impact', exact)
    end subroutine test_energy
 
    subroutine test_limits()
+      type(wall_type) :: bare, wall, sprung
+      type(wall_input_type) :: input
+      type(record_type) :: record
+      type(response_type) :: one, other
+      real(wp) :: limit
+      integer :: i
+
+      call suite('limits')
+      bare = made(facade())
+      do i = 1, 8
+         record = shaking(i, 200)
+         ! Next to no tie
+         input = tied()
+         call input%set('tie_area', [1.0e-16_wp])
+         wall = made(input)
+         call simulate_rk45(bare%mechanism, record, 2.0_wp, tight(1.0_wp), one)
+         call simulate_rk45(wall%mechanism, record, 2.0_wp, tight(1.0_wp), other)
+         call check_close(other%edp, one%edp, 0.0_wp, 'a tie of no section', 1.0e-8_wp)
+         ! A tie that never yields is a spring; with the spring the wall falls at another rotation.
+         input = facade()
+         call input%set('tie_height', [8.5_wp])
+         call input%set('tie_area', [1.0e-6_wp])
+         call input%set('tie_length', [8.0_wp])
+         call input%set('tie_strength', [1.0e10_wp])
+         call input%set('tie_strain', [1.0_wp])
+         wall = made(input)
+         input = facade()
+         call input%set('spring', [25750.0_wp])
+         call input%set('spring_depth', [0.0_wp])
+         call input%set('spring_height', [8.5_wp])
+         sprung = made(input)
+         limit = 0.9_wp*min(1.0_wp, sprung%mechanism%capacity/wall%mechanism%capacity)
+         call simulate_rk45(wall%mechanism, record, 3.0_wp, tight(limit), one)
+         limit = limit*wall%mechanism%capacity/sprung%mechanism%capacity
+         call simulate_rk45(sprung%mechanism, record, 3.0_wp, tight(limit), other)
+         call check_close(other%edp*sprung%mechanism%capacity, one%edp*bare%mechanism%capacity, 0.0_wp, 'a spring', 1.0e-9_wp)
+         ! A tie stronger than all moments: the wall does not fall within its capacity.
+         input = tied()
+         call input%set('tie_area', [1.0e-3_wp])
+         call input%set('tie_strain', [1.0_wp])
+         wall = made(input)
+         call simulate_rk45(wall%mechanism, record, 4.0_wp, solver_type(), one)
+         call check(.not. one%collapsed, 'a strong tie holds')
+      end do
+      ! A stiff tie lets the wall withstand what the rigid-plastic mechanism does.
+      input = tied()
+      call input%set('tie_modulus', [1.0e12_wp])
+      call input%set('tie_length', [0.1_wp])
+      wall = made(input)
+      call check_close(greatest_acceleration(wall%mechanism), plastic_acceleration(wall%mechanism), 1.0e-3_wp, 'stiff tie')
    end subroutine test_limits
 
+   !> Pseudorandom pulses, 0.01 s, a zero at both ends
+   function shaking(number, samples) result(record)
+      integer, intent(in) :: number, samples
+      type(record_type) :: record
+      type(random_type) :: random
+      real(wp) :: a(samples), middle, width, height
+      integer :: i, pulse
+
+      random = new_random(number, 0)
+      a = 0.0_wp
+      do pulse = 1, 6
+         middle = real(samples, wp)*random%next()
+         width = 5.0_wp + 40.0_wp*random%next()
+         height = 6.0_wp*(random%next() - 0.5_wp)
+         a = a + height*exp(-(([(real(i, wp), i=1, samples)] - middle)/width)**2)
+      end do
+      a(1) = 0.0_wp
+      a(samples) = 0.0_wp
+      record = accelerogram(a, 0.01_wp)
+   end function shaking
+
+   !> Several ties: two halves are one, their order does not matter, and each has its own set
    subroutine test_several()
+      type(wall_type) :: one, two, three
+      type(wall_input_type) :: input
+      type(response_type) :: response, other
+      type(tie_response_type), allocatable :: ties(:), others(:)
+      integer :: i
+
+      call suite('several ties')
+      one = made(tied())
+      input = facade()
+      call input%set('tie_height', [8.5_wp, 8.5_wp])
+      call input%set('tie_area', [2.0e-5_wp, 3.0e-5_wp])
+      call input%set('tie_length', [8.0_wp])
+      call input%set('tie_preload', [3.0e7_wp])
+      two = made(input)
+      do i = 1, 10
+         call run_tied(one, shaking(i, 300), 2.0_wp, tight(1.0_wp), response, ties)
+         call run_tied(two, shaking(i, 300), 2.0_wp, tight(1.0_wp), other, others)
+         call check_close(other%edp, response%edp, 0.0_wp, 'two halves', 1.0e-10_wp)
+         call check_close(others(2)%plastic_elongation, ties(1)%plastic_elongation, 0.0_wp, 'set of a half', 1.0e-10_wp)
+         call check_close(sum(others%energy), ties(1)%energy, 0.0_wp, 'energy of both', 1.0e-5_wp)
+      end do
+      three = made(three_ties([1, 2, 3]))
+      two = made(three_ties([3, 1, 2]))
+      do i = 1, 10
+         call run_tied(three, shaking(i, 300), 3.0_wp, tight(1.0_wp), response, ties)
+         call run_tied(two, shaking(i, 300), 3.0_wp, tight(1.0_wp), other, others)
+         call check_close(other%edp, response%edp, 0.0_wp, 'another order', 1.0e-10_wp)
+         call check_close(sum(abs(others([2, 3, 1])%energy - ties%energy)), 0.0_wp, 0.0_wp, 'energies', 1.0e-5_wp)
+         call check_close(sum(abs(others([2, 3, 1])%time_of_yield - ties%time_of_yield)), 0.0_wp, 0.0_wp, 'times', 1.0e-9_wp)
+         associate (peak => response%edp*three%mechanism%capacity, of => three%mechanism%restraints)
+            call check(all(ties%broken .eqv. ties%time_of_fracture >= 0.0_wp), 'what is broken has a time of fracture')
+            call check(all(ties%broken .eqv. peak*(1.0_wp + 1.0e-14_wp) >= of%fracture), 'what breaks')
+            call check(all((ties%plastic_elongation > 0.0_wp) .eqv. ties%time_of_yield >= 0.0_wp), 'what yields')
+         end associate
+      end do
    end subroutine test_several
 
+   !> Three ties: a ductile one, one with little strain, one whose anchor is weak
+   function three_ties(order) result(input)
+      integer, intent(in) :: order(3)
+      type(wall_input_type) :: input
+      real(wp), parameter :: height(3) = [8.5_wp, 5.5_wp, 3.0_wp], area(3) = [5.0e-5_wp, 8.0e-5_wp, 3.0e-5_wp]
+      real(wp), parameter :: length(3) = [8.0_wp, 6.0_wp, 10.0_wp], preload(3) = [0.0_wp, 3.0e7_wp, 1.0e7_wp]
+      real(wp), parameter :: strain(3) = [0.05_wp, 0.004_wp, 0.02_wp], anchor(3) = [1.0e8_wp, 1.0e8_wp, 4.0e3_wp]
+
+      input = facade()
+      call input%set('tie_height', height(order))
+      call input%set('tie_area', area(order))
+      call input%set('tie_length', length(order))
+      call input%set('tie_preload', preload(order))
+      call input%set('tie_strain', strain(order))
+      call input%set('tie_anchor_force', anchor(order))
+   end function three_ties
+
+   !> A record that ends while the wall rocks, and the same with still ground after it, which is integrated
    subroutine test_after_the_record()
+      real(wp), parameter :: limits(4) = [1.0_wp, 0.6_wp, 1.7_wp, 3.0_wp]
+      type(wall_type) :: wall
+      type(response_type) :: response, other
+      type(tie_response_type), allocatable :: ties(:), others(:)
+      type(record_type) :: record, longer
+      type(solver_type) :: solver
+      integer :: i, samples, collapses, broken, late
+
+      call suite('after the record')
+      collapses = 0
+      broken = 0
+      late = 0
+      wall = made(three_ties([1, 2, 3]))
+      do i = 1, 60
+         solver = tight(limits(1 + modulo(i, 4)))
+         samples = 60 + 3*modulo(7*i, 31)
+         record = shaking(i, 150)
+         record%acceleration = record%acceleration(:samples)
+         record%acceleration(samples) = 0.0_wp
+         longer = record
+         longer%acceleration = [record%acceleration, spread(0.0_wp, 1, 3000)]
+         call run_tied(wall, record, 3.0_wp, solver, response, ties)
+         call run_tied(wall, longer, 3.0_wp, solver, other, others)
+         call check(response%collapsed .eqv. other%collapsed, 'flag')
+         call check_close(response%edp, other%edp, 0.0_wp, 'EDP', 1.0e-9_wp)
+         call check_close(response%time_of_peak, other%time_of_peak, 0.0_wp, 'time of the peak', 1.0e-5_wp)
+         call check(all(ties%broken .eqv. others%broken), 'what breaks')
+         call check_close(sum(abs(ties%plastic_elongation - others%plastic_elongation)), 0.0_wp, 0.0_wp, 'sets', 1.0e-9_wp)
+         call check_close(sum(abs(ties%time_of_yield - others%time_of_yield)), 0.0_wp, 0.0_wp, 'times of yield', 1.0e-7_wp)
+         call check_close(sum(abs(ties%time_of_fracture - others%time_of_fracture)), 0.0_wp, 0.0_wp, 'times of fracture', &
+            & 1.0e-7_wp)
+         if (response%collapsed) collapses = collapses + 1
+         broken = broken + count(ties%broken)
+         late = late + count(ties%time_of_fracture > record%duration())
+      end do
+      call check(collapses > 5 .and. collapses < 55 .and. broken > 20 .and. late > 3, 'all kinds of ends')
    end subroutine test_after_the_record
 
    subroutine test_engines()
+      type(wall_type) :: wall
+      type(normal_form_type) :: form
+      type(solver_type) :: solver
+      type(error_type), allocatable :: error
+
+      call suite('engines')
+      wall = made(tied())
+      form = new_normal_form(wall%mechanism, wall%mechanism%capacity)
+      call check(.not. form%exists, 'lanes do not know ties')
+      solver%engine = 'lanes'
+      call check_history(solver, wall%mechanism, .false., error)
+      call check_error(error, 'engine = ''lanes'': does not know ties; must be ''auto'' or ''rk45''', 'lanes')
    end subroutine test_engines
 
    subroutine test_wrong_input()
+      type(wall_input_type) :: input
+
+      call suite('wrong input')
+      input = tied()
+      call input%set('tie_preload', [1.8e8_wp])
+      call refuse(input, 'tie 1: its tie_preload = 180000000 must be less than its tie_strength = 180000000 Pa')
+      input = tied()
+      call input%set('tie_anchor_force', [1.0e3_wp])
+      call refuse(input, 'tie 1: its tie_preload = 30000000 must be less than 20000000 Pa, at which its anchor gives way')
+      input = tied()
+      call input%set('tie_height', [0.0_wp])
+      call refuse(input, 'tie 1: its tie_height = 0 must be above the hinge, 0 m, and at most 9 m, the top of the wall')
+      input = tied()
+      call input%set('edge_radius', 0.03_wp)
+      call input%set('tie_height', [0.03_wp])
+      call refuse(input, 'tie 1: its tie_height = 0.03 must be above the hinge, 0.03 m')
+      input = tied()
+      call input%set('tie_height', [9.5_wp])
+      call refuse(input, 'tie 1: its tie_height = 9.5 must be above the hinge, 0 m, and at most 9 m')
+      input = tied()
+      call input%set('tie_depth', [0.6_wp])
+      call refuse(input, 'tie 1: its tie_depth = 0.6 must lie between -0.1 and 0.5 m')
+      input = tied()
+      call input%set('tie_strain', [5.0e-4_wp])
+      call refuse(input, 'tie 1: its tie_strain = 0.0005 must be more than')
+      input = facade()
+      call input%set('tie_area', [5.0e-5_wp])
+      call refuse(input, 'tie_area: only with tie_height')
+      input = tied()
+      call input%clear('tie_length')
+      call refuse(input, 'tie_length: must be given with tie_height')
+      input = tied()
+      call input%set('tie_area', [5.0e-5_wp, 5.0e-5_wp])
+      call refuse(input, 'tie_area: has 2 values, must have 1 as tie_height, or one for all')
+      input = tied()
+      call input%set('mechanism', 'free_standing')
+      call refuse(input, 'tie_height = 8.5: only for mechanism = ''one_sided''')
+      input = tied()
+      call input%set('tie_area', [0.0_wp])
+      call refuse(input, 'tie_area = 0: must be positive')
+      input = tied()
+      call input%set('hinge_depth', 0.2_wp)
+      call input%set('tie_height', [1.0e-3_wp])
+      call refuse(input, 'tie 1: its tie_height is too low for the depth of the hinge')
    end subroutine test_wrong_input
+
+   !> Input that must be refused with a sentence
+   subroutine refuse(input, sentence)
+      type(wall_input_type), intent(in) :: input
+      character(len=*), intent(in) :: sentence
+      type(wall_type) :: wall
+      type(error_type), allocatable :: error
+
+      call new_wall(wall, input, error)
+      call check_error(error, sentence, 'wrong wall')
+   end subroutine refuse
 
 end program test_ties

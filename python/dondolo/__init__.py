@@ -57,6 +57,7 @@ from dondolo.risk.frequency import Risk, mean_annual_frequency
 from dondolo.risk.hazard import HazardCurve
 from dondolo.risk.uncertainty import RiskUncertainty
 from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
+from dondolo.walls.facade import facade
 from dondolo.walls.mechanisms import *  # noqa: F403
 from dondolo.walls.mechanisms import __all__ as _walls
 from dondolo.walls.population import Population, read_population
@@ -124,6 +125,7 @@ __all__ = [
     "compare_designs",
     "compare_intensities",
     "ec8_spectrum",
+    "facade",
     "fit_fragility",
     "incremental",
     "intensity_table",

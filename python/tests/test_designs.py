@@ -10,7 +10,6 @@ import pytest
 import dondolo as dd
 
 LEVELS = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
-SITE = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
 
 
 @pytest.fixture(scope="module")
@@ -24,9 +23,7 @@ def designs():
 
 @pytest.fixture(scope="module")
 def found(designs, records):
-    return dd.compare_designs(
-        designs, records, LEVELS, site=SITE, steel={"as it stands": 0.0, "thicker $t$": 4.0}, progress=False
-    )
+    return dd.compare_designs(designs, records, LEVELS, steel={"as it stands": 0.0, "thicker $t$": 4.0}, progress=False)
 
 
 def test_each_is_compared_with_the_first(found, designs, records):
@@ -44,16 +41,29 @@ def test_each_is_compared_with_the_first(found, designs, records):
         assert found.ratio_interval[same].tolist() == [1.0, 1.0]
 
 
-def test_steel_and_check(found, designs):
-    checks = [dd.check_ntc(wall, SITE) for wall in designs.values()]
-    stand = [check.capacities["nonlinear", "SLV"] for check in checks]
-    np.testing.assert_array_equal(found.check_ratio, np.divide(stand, stand[0]))
+def test_steel_and_forces(found, designs):
+    trigger = [wall.trigger_acceleration / wall.gravity for wall in designs.values()]
+    np.testing.assert_array_equal(found.alpha_0, trigger)
+    np.testing.assert_array_equal(found.static_ratio, np.divide(trigger, trigger[0]))
     assert found.gain_per_kg[1] == (found.ratio[1] - 1.0) / 4.0
     assert np.isnan(found.gain_per_kg[[0, 2]]).all()
+    assert found.steel.tolist() == [0.0, 4.0, 0.0]
     table = found.to_frame()
     assert table.design.tolist() == list(designs)
-    assert table.p_collapse_at_check[1] == found.curves[1](checks[1].pga)
-    assert table.check_pga.tolist() == stand
+    assert table.alpha_0.tolist() == trigger
+
+
+def test_ties(few):
+    """Steel of ties: area x length x density; static acceleration with all of them at yield."""
+    ties = {"tie_height": [2.8, 1.5], "tie_area": 2e-5, "tie_length": [8.0, 6.0], "tie_strength": 1.8e8}
+    designs = {"bare": dd.OneSidedWall(3.0, 0.25), "tied": dd.OneSidedWall(3.0, 0.25, **ties)}
+    found = dd.compare_designs(designs, few, LEVELS, progress=False)
+    assert found.steel[1] == pytest.approx(7850.0 * 2e-5 * 14.0, rel=1e-12)
+    wall = designs["bare"]
+    weight = wall.density * wall.height * wall.thickness * wall.gravity
+    held = wall.trigger_acceleration / wall.gravity + 1.8e8 * 2e-5 * 4.3 / (0.5 * weight * wall.height)
+    assert found.alpha_0[1] == pytest.approx(held, rel=1e-9)
+    assert found.ratio[1] > 1.0
 
 
 def test_shown_drawn_and_saved(found, tmp_path):
@@ -63,7 +73,7 @@ def test_shown_drawn_and_saved(found, tmp_path):
     assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")] == list(found.names)
     assert right.get_xlabel() == "ratio to 'as it stands'"
     diamonds = next(line for line in right.lines if line.get_marker() == "D")
-    np.testing.assert_array_equal(diamonds.get_xdata(), found.check_ratio)
+    np.testing.assert_array_equal(diamonds.get_xdata(), found.static_ratio)
     found.save(tmp_path / "designs.npz")
     again = dd.load(tmp_path / "designs.npz")
     assert again.to_frame().equals(found.to_frame())
@@ -74,7 +84,6 @@ def test_levels_of_their_own(designs, records):
     levels = {"as it stands": LEVELS, "thicker $t$": [0.5, 0.8, 1.1, 1.5]}
     own = dd.compare_designs(few, records, levels, progress=False)
     assert own.stripes[1].levels.tolist() == levels["thicker $t$"]
-    assert np.isnan(own.check_ratio).all()
     assert own.comparisons[1].pairing == "paired"
 
 
@@ -97,7 +106,6 @@ def test_a_design_without_a_curve(designs, few):
         ({"steel": {"a": -1.0}}, r"steel\['a'\] = -1: must not be negative"),
         ({"levels": {"b": [1.0]}}, "levels: none for the design 'a'"),
         ({"levels": {"a": [1.0], "b": [1.0]}}, "levels: 'b' is no design"),
-        ({"site": 5}, "site"),
         ({"confidence": 1.5}, "confidence"),
     ],
 )

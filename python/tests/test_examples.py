@@ -23,6 +23,8 @@ pytestmark = pytest.mark.slow
         ("sampled_population", ["sampled_population.png", "town.csv"]),
         ("site_risk", ["site_risk.png"]),
         ("code_check", ["code_check.png", "code_check.csv", "code_check.html"]),
+        ("facade", ["facade.png"]),
+        ("which_tie", ["which_tie.png"]),
         ("risk", ["incremental.png", "cloud.png", "risk.png", "parapet.xml"]),
     ],
 )

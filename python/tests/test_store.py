@@ -63,7 +63,7 @@ def run(folder, root, checkpoint, **options):
 def tables(folder):
     """All lines of the tables but comments."""
     files = sorted((folder / "out").glob("z_*.csv"))
-    assert len(files) == 4
+    assert len(files) == 5
     return {file.name: [line for line in file.read_text().splitlines() if line[:1] != "#"] for file in files}
 
 

@@ -21,7 +21,7 @@ contains
    !> reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history (with its sign), levels,
    !> thresholds, the values of the check with its confidence and behaviour factors, then walls with their weights and
    !> probabilities, and records; text: task, title, output, im, polarity, engine, states, soil and topography of the check,
-   !> then walls, their groups, and records, and how its tables were read, where there is something to say of it
+   !> then walls, their groups and facades, and records, and how its tables were read, where there is something to say of it
    subroutine read_case(path, sent, stat, message)
       character(len=*), intent(in) :: path
       integer(c_int64_t), intent(out) :: sent(4)
@@ -37,11 +37,12 @@ contains
       call load_case(path, case, error)
       if (.not. allocated(error)) then
          if (case%job%task == 'typology') then
-            call read_population(case%population_path(), members, error, case%solver%gravity)
+            call read_population(case%population_path(), members, error, case%solver%gravity, facade=case%facade)
          else
             allocate (members(1))
             members(1)%wall = case%wall
             members(1)%group = ''
+            members(1)%facade = ''
          end if
       end if
       if (.not. allocated(error)) call check_room(error, walls=size(members))

@@ -29,7 +29,7 @@ module histories
 contains
 
    !> One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
-   !> side and whether it is just after an impact
+   !> side and whether it is just after an impact. Times of yield and of fracture of the ties follow, negative for never
    subroutine simulate(walls, suite, number, scale, engine, settings, history, &
          & edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message)
       !f2py threadsafe
@@ -70,7 +70,8 @@ contains
       end if
       if (.not. allocated(error) .and. history == 1) call check_trace(trace, error)
       if (.not. allocated(error) .and. history == 1) then
-         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity]
+         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity, trace%ties%time_of_yield, &
+            & trace%ties%time_of_fracture]
          parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
       end if
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)

@@ -3,10 +3,12 @@ module dondolo_wall_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : check_room, next_line
    use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_mechanism, only : mechanism_type
    use dondolo_parcel, only : parcel_type
    use dondolo_population, only : member_type
    use dondolo_property, only : is_list, is_text, is_words
    use dondolo_text, only : to_text
+   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
    implicit none
@@ -79,11 +81,12 @@ contains
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e, u of
-      !> each wall, then all values of all walls; text: their texts, one a line
+      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e, u and
+      !> the greatest static and the rigid-plastic acceleration of each wall, then all values of all walls; text: their
+      !> texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 8
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 10
       integer(c_int), allocatable :: integers(:, :)
       real(c_double), allocatable :: reals(:, :), values(:)
       integer, allocatable :: lengths(:)
@@ -113,7 +116,7 @@ contains
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
             reals(:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
-               & mechanism%restitution, walls(i)%hinge_depth]
+               & mechanism%restitution, walls(i)%hinge_depth, with_ties(mechanism)]
          end associate
       end do
       call parcel%add(reshape(integers, [size(integers)]))
@@ -121,8 +124,19 @@ contains
       call parcel%add(values(:next - 1))
    end subroutine pack_walls
 
+   !> Greatest static acceleration and that of the rigid-plastic mechanism; the trigger acceleration twice without ties
+   pure function with_ties(mechanism) result(accelerations)
+      class(mechanism_type), intent(in) :: mechanism
+      !> Both [m/s2]
+      real(c_double) :: accelerations(2)
+
+      accelerations = mechanism%trigger_acceleration()
+      if (.not. allocated(mechanism%restraints)) return
+      accelerations = [greatest_acceleration(mechanism), plastic_acceleration(mechanism)]
+   end function with_ties
+
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
-   !> mechanisms; text: their groups
+   !> mechanisms; text: their groups, then their facades
    subroutine pack_members(members, parcel)
       !> The rows
       type(member_type), intent(in) :: members(:)
@@ -140,6 +154,9 @@ contains
       call parcel%add([members%weight, members%p_occ])
       do i = 1, size(members)
          call parcel%lines%add(members(i)%group)
+      end do
+      do i = 1, size(members)
+         call parcel%lines%add(members(i)%facade)
       end do
    end subroutine pack_members
 

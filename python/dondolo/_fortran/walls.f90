@@ -8,12 +8,13 @@ module walls
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population, only : member_type, read_population
    use dondolo_text, only : to_text
+   use dondolo_tie_statics, only : ties_after
    use dondolo_wall, only : wall_type
    use dondolo_wall_parcel, only : pack_members, pack_walls, set_walls
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, read_walls
+   public :: new_walls, describe_walls, wall_terms, tie_states, read_walls
 
 contains
 
@@ -84,6 +85,35 @@ contains
       end if
       call report(error, stat, message)
    end subroutine wall_terms
+
+   !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
+   !> rotations / capacity
+   subroutine tie_states(walls, edp, n, k, elongation, energy, broken, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: n, k
+      real(c_double), intent(in) :: edp(n)
+      real(c_double), intent(out) :: elongation(k, n), energy(k, n)
+      integer(c_int), intent(out) :: broken(k, n)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(error_type), allocatable :: error
+      logical :: is_broken(k)
+      integer :: i
+
+      elongation = 0
+      energy = 0
+      broken = 0
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         do i = 1, n
+            call ties_after(people(1)%mechanism, edp(i), elongation(:, i), is_broken)
+            energy(:, i) = people(1)%mechanism%restraints%strength*elongation(:, i)
+            broken(:, i) = merge(1, 0, is_broken)
+         end do
+      end if
+      call report(error, stat, message)
+   end subroutine tie_states
 
    !> Check that a mechanism can have rotations
    subroutine check_rotations(mechanism, rotation, error)

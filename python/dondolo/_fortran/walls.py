@@ -110,6 +110,15 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     return found
 
 
+def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """Plastic elongation and energy of each tie of a wall, and whether it is broken, of shape (*edp.shape, ties)."""
+    peaks = np.asarray(edp, dtype=np.float64)
+    elongation, energy, broken, stat, message = _core.walls.tie_states(wall.number, peaks.ravel(), ties)
+    check(stat, message)
+    shape = (*peaks.shape, ties)
+    return elongation.T.reshape(shape), energy.T.reshape(shape), broken.T.reshape(shape) == 1
+
+
 def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
     """Walls out of a parcel, from given places on."""
     words = len(WALL_TEXTS)
@@ -163,15 +172,16 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 def read_walls(
     path: str | os.PathLike[str], gravity: float | None
-) -> tuple[list[WallData], FloatArray, list[str], FloatArray]:
-    """Read a population: its walls, their weights and groups, and the probabilities of their mechanisms."""
+) -> tuple[list[WallData], FloatArray, list[str], FloatArray, list[str]]:
+    """Read a population: its walls, their weights and groups, the probabilities of their mechanisms, their facades."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(*_core.walls.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
     reals, _, groups = walls_end(parcel, count)
     weights, p_occ = parcel.reals[reals:].reshape(2, count)
-    warn_of_notes(parcel.lines[groups + count :])
-    return unpack_walls(parcel, count), weights, parcel.lines[groups : groups + count], p_occ
+    facades = groups + count
+    warn_of_notes(parcel.lines[facades + count :])
+    return unpack_walls(parcel, count), weights, parcel.lines[groups:facades], p_occ, parcel.lines[facades:][:count]
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
@@ -185,5 +195,5 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
 ) | frozenset(BUILDING_NAMES)
-_WALL_REALS = 8
+_WALL_REALS = 10
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

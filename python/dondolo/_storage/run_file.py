@@ -30,6 +30,8 @@ class HistoryResult:
     time_of_peak_s : float
     edp_error : float or None
         None if it was not estimated.
+    tie_times : tuple of pairs of float
+        When each tie first yields and when it breaks, NaN for never; empty for a wall without ties.
     """
 
     record: str
@@ -39,6 +41,7 @@ class HistoryResult:
     impacts: int
     time_of_peak_s: float
     edp_error: float | None = None
+    tie_times: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -185,9 +188,14 @@ def _written(content: Mapping[str, Any]) -> Written:
 def _history(content: Mapping[str, Any]) -> HistoryResult:
     """Result of a time history."""
     kinds = {"record": str, "collapsed": bool, "impacts": int}
-    values = {one.name: _member(content, one.name, kinds.get(one.name, float)) for one in fields(HistoryResult)[:-1]}
+    values = {one.name: _member(content, one.name, kinds.get(one.name, float)) for one in fields(HistoryResult)[:-2]}
     error = _member(content, "edp_error", float) if "edp_error" in content else None
-    return HistoryResult(**values, edp_error=error)
+    never = float("nan")
+    times = [
+        (_member(tie, "time_of_yield_s", float, never), _member(tie, "time_of_fracture_s", float, never))
+        for tie in _all(content, "ties", dict)
+    ]
+    return HistoryResult(**values, edp_error=error, tie_times=tuple(times))
 
 
 def _member(content: Mapping[str, Any], name: str, kind: type, default: Any = None) -> Any:

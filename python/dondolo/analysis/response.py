@@ -22,11 +22,15 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
+from dondolo.walls.ties import TieStates, number_of_ties, states_of_ties
 from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
+
+# What the head of `_history.csv` says of each tie
+_TIE = ("plastic_elongation_m", "energy_j_m", "broken", "time_of_yield_s", "time_of_fracture_s")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -58,6 +62,9 @@ class Response(Shown, Saved):
         after the end of the record are marked too, so that there may be more of them than `impacts`.
     edp_error : float or None
         Estimated error of `edp`; None unless asked for. 0 where both runs collapse, which says nothing of how closely.
+    tie_times : ndarray, shape (ties, 2), or None
+        When each tie first yields and when it breaks [s]; NaN for never. None for walls without ties and with
+        history=False.
     uplift : bool
         Whether the ground, scaled, accelerates downwards by g or more at some instant: the wall is without support
         there, which the model does not describe. No collapse.
@@ -78,6 +85,12 @@ class Response(Shown, Saved):
     side: np.ndarray[Any, np.dtype[np.int8]] | None = None
     after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
+    tie_times: FloatArray | None = None
+
+    @property
+    def ties(self) -> TieStates:
+        """What the motion leaves of the ties: plastic elongation, energy, whether broken, each of shape (ties,)."""
+        return states_of_ties(self.wall, self.edp)
 
     @property
     def uplift(self) -> bool:
@@ -220,6 +233,9 @@ class Response(Shown, Saved):
                 else ("estimated error of the EDP", f"{self.edp_error:.2g}")
             )
             facts.insert(4, fact)
+        for number, (elongation, energy, broken) in enumerate(zip(*self.ties, strict=True), 1):
+            end = "broken" if broken else "stretched for good" if elongation > 0.0 else "as it was"
+            facts.append((f"tie {number}", f"{end}, {elongation:.4g} m, {energy:.4g} J/m"))
         return facts
 
     def _table(self) -> tables.Table:
@@ -242,6 +258,11 @@ class Response(Shown, Saved):
         ]
         if self.edp_error is not None:
             comments.append(f"edp_error: {tables.cell(self.edp_error)}")
+        if self.tie_times is not None:
+            for number, (*state, times) in enumerate(zip(*self.ties, self.tie_times, strict=True), 1):
+                values = (*state[:2], int(state[2]), *times)
+                said = [f"{name} = {tables.cell(one)}" for name, one in zip(_TIE, values, strict=True) if one == one]
+                comments.append(f"tie {number}: {', '.join(said)}")
         tables.write_csv(path, self._table(), comments)
 
 
@@ -315,8 +336,12 @@ def simulate(
         parcel = receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
         names = ("time", "ground_acceleration", "rotation", "velocity")
-        motion = dict(zip(names, parcel.reals.reshape(4, -1), strict=True))
+        rows = parcel.reals[: 4 * len(side)]
+        motion = dict(zip(names, rows.reshape(4, -1), strict=True))
         motion |= {"side": side.astype(np.int8), "after_impact": after == 1}
+        if ties := number_of_ties(wall):
+            times = parcel.reals[-2 * ties :].reshape(2, ties).T
+            motion["tie_times"] = np.where(times < 0.0, np.nan, times)
     return Response(
         wall=wall,
         record=record,

@@ -27,6 +27,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import InputError
 from dondolo.walls.table import walls_table
+from dondolo.walls.ties import states_of_ties
 from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
@@ -148,6 +149,13 @@ class Stripes(Shown, Saved):
     def fraction(self) -> FloatArray:
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
+
+    @property
+    def broken_ties(self) -> FloatArray:
+        """Share of the histories of each stripe that break each tie, shape (levels, ties)."""
+        broken = states_of_ties(self.wall, np.where(self.ran, self.edp, 0.0)).broken
+        share: FloatArray = broken.sum(axis=1) / self.histories[:, None]
+        return share
 
     def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe that reach a threshold, shape (levels,).

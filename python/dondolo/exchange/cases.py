@@ -181,14 +181,15 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
     reals, integers, lines = walls_end(parcel, walls, *places)
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
-    groups = parcel.lines[lines : lines + walls]
-    motions = unpack_records(parcel, records, reals + 2 * walls, integers, lines + walls)
-    warn_of_notes(parcel.lines[records_end(parcel, records, integers, lines + walls) :])
+    groups, facades = parcel.lines[lines : lines + walls], parcel.lines[lines + walls : lines + 2 * walls]
+    lines += 2 * walls
+    motions = unpack_records(parcel, records, reals + 2 * walls, integers, lines)
+    warn_of_notes(parcel.lines[records_end(parcel, records, integers, lines) :])
     return Case(
         task=task,
         title=title,
         output=output,
-        population=Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ),
+        population=Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades)),
         records=tuple(as_record(data) for data in motions),
         im=im,
         polarity=polarity,

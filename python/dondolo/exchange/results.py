@@ -210,7 +210,8 @@ def _population(table: ResultFile, gravity: float) -> Population:
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
-    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ)
+    facades = tuple(table.texts("facade")) if "facade" in table else ("",) * len(walls)
+    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
 
 
 def _list(table: ResultFile, column: str, i: int) -> list[Any]:
@@ -254,6 +255,7 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
         side=table.counts("side", -1, 1).astype(np.int8),
         after_impact=table.numbers("after_impact") == 1.0,
         edp_error=result.edp_error,
+        tie_times=np.array(result.tie_times) if result.tie_times else None,
     )
 
 

@@ -65,11 +65,11 @@ def with_clustered_errors(typology: Typology, flags: Flags) -> Typology:
         mixed = np.flatnonzero((number > 1) | (people.p_occ[first[walls]] < 1.0))
         mixed = mixed[occurring[mixed] > 0.0]
         if len(mixed):
-            names = [people.walls[first[walls][i]].name for i in mixed]
+            names = [people.wholes[first[walls][i]] for i in mixed]
             counts = (part * whole[mixed, None] + moved[mixed]) / occurring[mixed, None, None]
             found = _clustered(levels, [combined[name] for name in names], counts, part)
             combined |= dict(zip(names, found, strict=True))
-        for name, i in ((people.walls[first[walls][i]].name, i) for i in np.flatnonzero(number == 1)):
+        for name, i in ((people.wholes[first[walls][i]], i) for i in np.flatnonzero(number == 1)):
             if people.p_occ[first[walls][i]] == 1.0:
                 combined[name] = curves[rows[0] + starts[i]]
         for one in sums:

@@ -72,6 +72,30 @@ def draw_combination(typology: Typology, ax: Axes | None, group: str) -> Axes:
     return curves.finish(ax, typology.im, grid, f"group {group}" if group else "population")
 
 
+def draw_union(typology: Typology, name: str, ax: Axes | None) -> Axes:
+    """Draw the curve of each mechanism of a facade, their product, and the union of the same histories."""
+    people = typology.population
+    rows = [i for i, whole in enumerate(people.wholes) if whole == name]
+    ax = curves.axes(ax, len(rows) + 3)
+    grid = curves.grid(typology.levels)
+    for i, row in enumerate(rows):
+        one = typology.curves[row]
+        if not one.has_fit:
+            continue
+        look = {"color": style.BLUE, "linestyle": curves.LINES[(i + 1) % len(curves.LINES)], "linewidth": 1.5}
+        ax.plot(grid, one(grid), label=f"{people[row].name}, {style.mechanism_name(people[row].mechanism)}", **look)
+    union, product = typology.unions[name], typology.combined[name]
+    for curve, word, color, width in (
+        (product, "independent", style.GREY, 1.6),
+        (union, "same histories", style.RED, 2.4),
+    ):
+        if curve.has_fit:
+            ax.plot(grid, curve(grid), color=color, linewidth=width, label=f"{word}: {parameters(curve)}")
+    fractions = union.saturation * union.collapses / union.histories
+    ax.plot(union.levels, fractions, color=style.RED, linestyle="none", marker="o", markersize=4, label="fractions")
+    return curves.finish(ax, typology.im, grid, name)
+
+
 def draw_groups(typology: Typology, ax: Axes | None, mechanism: str) -> Axes:
     """Draw the mean curve of each group beside that of the population."""
     import matplotlib.pyplot as plt

@@ -44,10 +44,10 @@ def has_curve_of_row(people: Population) -> np.ndarray[Any, np.dtype[np.bool_]]:
 
 
 def curves_of_walls(people: Population, rows: Sequence[Fragility], others: Iterable[Fragility]) -> dict[str, Fragility]:
-    """Curve of each wall by its name; `others` are those of the walls that have not the curve of a row, in order."""
+    """Curve of each wall or facade by its name; `others` are those that have not the curve of a row, in order."""
     rest = iter(others)
     alone = zip(people.first_rows.tolist(), has_curve_of_row(people).tolist(), strict=True)
-    return {people.walls[i].name: rows[i] if own else next(rest) for i, own in alone}
+    return {people.wholes[i]: rows[i] if own else next(rest) for i, own in alone}
 
 
 def packed(curves: Sequence[Fragility]) -> dict[str, Any]:

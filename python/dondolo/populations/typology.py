@@ -62,8 +62,8 @@ class Typology(Shown, Saved):
     curves : tuple of Fragility
         Curve of each row.
     combined : dict of str to Fragility
-        Curve of each wall by its name, mechanisms in series: that of its row, or where there are several or one that
-        may not occur, the lognormal fitted to the combined fractions.
+        Curve of each wall or facade by its name, mechanisms in series: that of its row, or where there are several or
+        one that may not occur, the lognormal fitted to the combined fractions.
     groups : tuple of Group
         The curves: those of the whole population, then those of each group, in the order they appear in; for each
         mechanism, and the last for all, if there are several or one that may not occur.
@@ -188,6 +188,49 @@ class Typology(Shown, Saved):
             self._states[value] = state
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
+
+    @functools.cached_property
+    def unions(self) -> dict[str, Fragility]:
+        """Curve of each facade, or wall with several mechanisms, counted in the same histories.
+
+        A history, of a record, polarity and level, counts if any of the mechanisms reaches the state in it; `combined`
+        takes them as independent of each other. Mechanisms that may not occur count with the probability that one that
+        reaches the state can. Standard errors are clustered by record.
+
+        Raises
+        ------
+        InputError
+            The results were read back, and do not tell which history is which.
+        """
+        from dondolo.populations.unions import unions_of
+
+        return unions_of(self)
+
+    def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
+        """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        name : str, optional
+            One of `unions`; must be given if there are several.
+
+        Returns
+        -------
+        Axes
+            Probability of collapse against intensity.
+
+        Raises
+        ------
+        InputError
+            There is no such facade, or the results were read back.
+        """
+        from dondolo.populations.plots import draw_union
+
+        chosen = next(iter(self.unions)) if name is None and len(self.unions) == 1 else name
+        one_of("name", chosen, self.unions)
+        return draw_union(self, str(chosen), ax)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curve of the whole population: ``typology["all"].plot()``.

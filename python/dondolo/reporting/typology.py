@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from dondolo._fortran.records import blank_unit
+from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
@@ -30,6 +32,8 @@ from dondolo.reporting.statuses import crossings
 
 # Samples of the bootstrap
 _SAMPLES = 500
+# Facades that are drawn one by one
+_FACADES = 6
 
 
 def summary(people: Typology) -> dict[str, Any]:
@@ -67,6 +71,13 @@ def curves(people: Typology) -> dict[str, Any]:
     if grouped := [curve for curve in combined(people) if curve.group]:
         alt = "Mean fragility curve of each group beside that of the population. " + _in_words(grouped)
         found["groups"] = figure(people.plot_groups, alt)
+    found["facades"] = []
+    for name, union in list(unions(people).items())[:_FACADES]:
+        if name not in people.population.facades:
+            continue
+        alt = f"Curves of the walls of facade {name}, their product and the union of the same histories. "
+        texts = _curve_in_words(f"facade {name}", union) + "."
+        found["facades"].append((name, figure(functools.partial(people.plot_union, name=name), alt + texts)))
     if len(people.edp_thresholds) > 1:
         alt = "Probability to reach each damage state. "
         alt += _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
@@ -97,13 +108,39 @@ def _in_words(curves: Sequence[Group]) -> str:
     texts = []
     for curve in curves:
         who = f"{curve.group or 'population'}, {mechanism_name(curve.mechanism)}"
-        fit = curve.fit
-        if fit.edp_threshold is not None and fit.has_fit:
-            numbers = f"median {fit.theta:.3g}{blank_unit(fit.im)}, dispersion {fit.beta:.3g}"
-            texts.append(f"{who}, EDP {fit.edp_threshold:g}: {numbers}")
-        else:
-            texts.append(f"{who}: no fit ({fit.status})")
+        texts.append(_curve_in_words(who, curve.fit))
     return "; ".join(texts) + "."
+
+
+def _curve_in_words(who: str, fit: Fragility) -> str:
+    """A curve in words."""
+    if fit.edp_threshold is not None and fit.has_fit:
+        numbers = f"median {fit.theta:.3g}{blank_unit(fit.im)}, dispersion {fit.beta:.3g}"
+        return f"{who}, EDP {fit.edp_threshold:g}: {numbers}"
+    return f"{who}: no fit ({fit.status})"
+
+
+def unions(people: Typology) -> dict[str, Fragility]:
+    """Facades and walls with several mechanisms in the same histories; none of results that were read back."""
+    return {} if people.flags is None else people.unions
+
+
+def _unions_table(people: Typology) -> Table | None:
+    """Parameters of the unions beside those of the products."""
+    if not (found := unions(people)):
+        return None
+    products = [people.combined[name] for name in found]
+    columns: dict[Piece, Sequence[Piece]] = {
+        "facade or wall": list(found),
+        "mechanisms": [whole(people.population.wholes.count(name)) for name in found],
+        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.theta) for curve in found.values()],
+        BETA: [parameter(curve.beta) for curve in found.values()],
+        "s.e. of ln θ": [parameter(curve.se_ln_theta) for curve in found.values()],
+        "status": [curve.status for curve in found.values()],
+        "θ, independent": [parameter(curve.theta) for curve in products],
+        "β, independent": [parameter(curve.beta) for curve in products],
+    }
+    return Table.of(columns, ("facade or wall", "status"))
 
 
 def numbers(people: Typology) -> dict[str, Any]:
@@ -111,6 +148,7 @@ def numbers(people: Typology) -> dict[str, Any]:
     limit, whole_population = float(people.edp_thresholds[-1]), people["all"]
     return {
         "curves": _curves_table(people),
+        "unions": _unions_table(people),
         "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp))) for edp in people.edp_thresholds[:-1]],
         "levels": [
             (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))

@@ -18,19 +18,17 @@ from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
-from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison, compare
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
-from dondolo.records.codes import Site
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from dondolo.figures.style import Panels
 
-# The capacity by formula that is shown beside the median
-_CHECKED = ("nonlinear", "SLV")
+# Of steel [kg/m3]
+_DENSITY = 7850.0
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -48,9 +46,10 @@ class DesignComparison(Shown, Saved):
     comparisons : tuple of Comparison or None
         Each design against the first, paired by records; None where one of the two has no curve or no standard errors.
     steel : ndarray, shape (designs,)
-        Mass of steel in each [kg per m of wall]; NaN where it is not known.
-    checks : tuple of CodeCheck
-        The kinematic check of each; () without a site.
+        Mass of steel in each [kg per m of wall].
+    alpha_0 : ndarray, shape (designs,)
+        Acceleration that each withstands statically with its ties at yield [g]: what the linear kinematic check of the
+        Italian code is proportional to.
     confidence : float
         Of the intervals.
     """
@@ -60,7 +59,7 @@ class DesignComparison(Shown, Saved):
     curves: tuple[Fragility, ...]
     comparisons: tuple[Comparison | None, ...]
     steel: FloatArray
-    checks: tuple[CodeCheck, ...]
+    alpha_0: FloatArray
     confidence: float
 
     @property
@@ -87,10 +86,9 @@ class DesignComparison(Shown, Saved):
         return gain
 
     @property
-    def check_ratio(self) -> FloatArray:
-        """Peak acceleration that each stands by the nonlinear kinematic check (SLV) / that of the first; else NaN."""
-        stand = self._stand()
-        ratio: FloatArray = stand / stand[0]
+    def static_ratio(self) -> FloatArray:
+        """Static acceleration `alpha_0` of each / that of the first: what a check by forces says of a design."""
+        ratio: FloatArray = self.alpha_0 / self.alpha_0[0]
         return ratio
 
     def plot(self, ax: Iterable[Any] | None = None) -> Panels:
@@ -104,8 +102,8 @@ class DesignComparison(Shown, Saved):
         Returns
         -------
         ndarray of two Axes
-            Probability of collapse against intensity; and the ratios with their intervals, beside those of the
-            kinematic check.
+            Probability of collapse against intensity; and the ratios with their intervals, beside those of the static
+            accelerations.
         """
         from dondolo.retrofit.plots import draw_designs
 
@@ -114,11 +112,6 @@ class DesignComparison(Shown, Saved):
     def to_frame(self) -> Any:
         """A row for each design as a pandas DataFrame."""
         return tables.frame(self._table())
-
-    def _stand(self) -> FloatArray:
-        if not self.checks:
-            return np.full(len(self.names), np.nan)
-        return np.array([check.capacities[_CHECKED] for check in self.checks])
 
     def _table(self) -> tables.Table:
         low, high = self.ratio_interval.T
@@ -133,14 +126,8 @@ class DesignComparison(Shown, Saved):
             "p_value": [np.nan if one is None else one.p_value for one in self.comparisons],
             "steel": self.steel,
             "gain_per_kg": self.gain_per_kg,
-            "check_pga": self._stand(),
-            "check_ratio": self.check_ratio,
-            "p_collapse_at_check": [
-                float(curve(check.pga)) if curve.has_fit else np.nan
-                for curve, check in zip(self.curves, self.checks, strict=True)
-            ]
-            if self.checks
-            else np.full(len(self.names), np.nan),
+            "alpha_0": self.alpha_0,
+            "static_ratio": self.static_ratio,
         }
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -163,8 +150,6 @@ def compare_designs(
     levels: ArrayLike | Mapping[str, ArrayLike],
     *,
     steel: Mapping[str, float] | None = None,
-    site: Site | None = None,
-    confidence_factor: float = 1.35,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
     confidence: float = 0.95,
@@ -186,11 +171,7 @@ def compare_designs(
     levels : array_like, or mapping of str to array_like
         Levels of intensity, as for `multiple_stripe`, for all designs or for each.
     steel : mapping of str to float, optional
-        Mass of steel in each design [kg per m of wall]; of a design that is not named, it is that of the wall's ties.
-    site : Site, optional
-        Hazard for the kinematic check by NTC 2018 beside the curves.
-    confidence_factor : float
-        Confidence factor FC of that check.
+        Mass of steel in each design [kg per m of wall]; of a design that is not named, that of the wall's ties.
     im, polarity, solver, threads, progress
         As for `multiple_stripe`.
     confidence : float
@@ -203,7 +184,7 @@ def compare_designs(
     Raises
     ------
     InputError
-        No designs, names without a design, and what `multiple_stripe` and `check_ntc` refuse.
+        No designs, names without a design, and what `multiple_stripe` refuses.
     Interrupted
         Ctrl-C.
 
@@ -229,8 +210,6 @@ def compare_designs(
     tails(confidence)
     masses = _masses(designs, steel)
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
-    # What is wrong with a check is said before anything runs.
-    checks = () if site is None else tuple(check_ntc(wall, site, confidence=confidence_factor) for wall in walls)
     stripes = tuple(
         multiple_stripe(
             wall, several, grid, im=im, polarity=polarity, solver=solver, threads=threads, progress=progress
@@ -244,7 +223,7 @@ def compare_designs(
         curves=curves,
         comparisons=tuple(_against(curve, curves[0], confidence) for curve in curves),
         steel=masses,
-        checks=checks,
+        alpha_0=np.array([wall.plastic_acceleration / wall.gravity for wall in walls]),
         confidence=float(confidence),
     )
 
@@ -267,7 +246,7 @@ def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> F
     for name in given:
         if name not in designs:
             raise InputError(f"steel: {name!r} is no design")
-    masses = np.array([as_number(f"steel[{name!r}]", given.get(name, np.nan)) for name in designs])
+    masses = np.array([as_number(f"steel[{name!r}]", given.get(name, _steel(wall))) for name, wall in designs.items()])
     for name, mass in zip(designs, masses, strict=True):
         if name in given and not 0.0 <= mass < np.inf:
             raise InputError(f"steel[{name!r}] = {mass:g}: must not be negative")
@@ -277,3 +256,10 @@ def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> F
 def _against(curve: Fragility, first: Fragility, confidence: float) -> Comparison | None:
     """A design against the first."""
     return compare(curve, first, confidence=confidence) if curve.has_errors and first.has_errors else None
+
+
+def _steel(wall: Wall) -> float:
+    """Mass of the ties of a wall [kg/m]."""
+    heights = np.ravel(getattr(wall, "tie_height", None) or ())
+    area, length = (np.ravel(getattr(wall, name, None) or 0.0) for name in ("tie_area", "tie_length"))
+    return float(_DENSITY * (area * length * np.ones(len(heights))).sum())

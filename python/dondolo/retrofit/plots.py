@@ -48,17 +48,16 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         capsize=3,
         label=f"median of the records, {100.0 * found.confidence:.4g} % intervals",
     )
-    if found.checks:
-        right.plot(
-            found.check_ratio,
-            rows,
-            linestyle="none",
-            marker="D",
-            markersize=6,
-            markerfacecolor="none",
-            color=style.RED,
-            label="kinematic check, nonlinear SLV",
-        )
+    right.plot(
+        found.static_ratio,
+        rows,
+        linestyle="none",
+        marker="D",
+        markersize=6,
+        markerfacecolor="none",
+        color=style.RED,
+        label="by forces: static acceleration, ties at yield",
+    )
     for name, row, mass in zip(found.names, rows, found.steel, strict=True):
         text = f"{name}\n{mass:.3g} kg/m of steel" if np.isfinite(mass) and mass > 0.0 else name
         right.annotate(

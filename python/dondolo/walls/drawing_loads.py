@@ -1,7 +1,8 @@
-"""What a wall carries, drawn on it: loads, masses, thrusts and springs, with their values.
+"""What a wall carries and what holds it, drawn on it: loads, masses, thrusts, springs and ties, with their values.
 
 Shapes tell them apart without colour: arrows down are loads, filled with a mass that the wall moves and open without
-one, arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs.
+one, arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs, dashed lines with a
+plate are ties.
 """
 
 from __future__ import annotations
@@ -62,10 +63,20 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
         _words(ax, np.subtract(at, (1.4 * size, 0.0)), f"{_with_prefix(thrust, 'N/m')} thrust", (0, 4), ha="center")
     for stiffness, depth, height in _things(wall, "spring", "depth", "height"):
         _spring(ax, wall, _place(wall, depth, height, rotation), size, _with_prefix(stiffness, "N/m²"))
+    for height, depth, area in _things(wall, "tie_height", "depth", "area"):
+        _tie(ax, _place(wall, depth or 0.0, height, rotation), size, f"tie {1e4 * area:.3g} cm²/m")
     for stiffness, depth, bottom, top in _things(wall, "bed", "depth", "bottom", "top"):
         for height in np.linspace(bottom, top, 5):
             words = f"{_with_prefix(stiffness, 'N/m³')}" if height == bottom else ""
             _spring(ax, wall, _place(wall, depth, float(height), rotation), size, words)
+
+
+def _tie(ax: Axes, at: Points, size: float, text: str) -> None:
+    """A tie from behind the wall, and the plate that anchors it."""
+    behind = np.subtract(at, (at[0] + 1.4 * size, 0.0))
+    ax.plot(*zip(behind, at, strict=True), color=style.BLACK, linewidth=1.4, linestyle=(0, (6, 2, 1, 2)), zorder=5)
+    ax.plot([at[0], at[0]], [at[1] - 0.25 * size, at[1] + 0.25 * size], color=style.BLACK, linewidth=3.0, zorder=5)
+    _words(ax, behind, text, (0, 3))
 
 
 def _things(wall: Wall, what: str, *more: str) -> list[tuple[Any, ...]]:

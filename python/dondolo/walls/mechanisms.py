@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import InitVar, dataclass, field
+from dataclasses import KW_ONLY, InitVar, dataclass
 from typing import ClassVar, Literal
 
 from dondolo._fortran.walls import WallData
@@ -97,6 +97,13 @@ class OneSidedWall(BlockWall):
         Width of each elevation at its bottom / width that values per metre refer to, 1 if not given.
     section_top_width : float or sequence of float, optional
         The same at its top, as at its bottom if not given; 0 for a gable.
+    leaves : float, optional
+        Number of equal leaves that nothing connects: each rocks alone with its part of the thickness.
+    hinge_level : float, optional
+        Heights of hinges: each makes a wall of what is above it [m]. A wall has one: it becomes the part of the facade
+        above that level; `facade` makes a wall of each of several.
+    hinge_at : {'storeys'}, optional
+        A hinge at the bottom of every section, instead of hinge_level, for `facade`.
     mass : float, optional
         Mass of the body, instead of its density [kg/m].
     centroid_depth : float, optional
@@ -211,15 +218,22 @@ class OneSidedWall(BlockWall):
 
     mechanism: ClassVar[str] = "one_sided"
 
-    tie_height: Values = field(default=None, kw_only=True)
-    tie_depth: Values = field(default=None, kw_only=True)
-    tie_area: Values = field(default=None, kw_only=True)
-    tie_length: Values = field(default=None, kw_only=True)
-    tie_modulus: Values = field(default=None, kw_only=True)
-    tie_strength: Values = field(default=None, kw_only=True)
-    tie_preload: Values = field(default=None, kw_only=True)
-    tie_strain: Values = field(default=None, kw_only=True)
-    tie_anchor_force: Values = field(default=None, kw_only=True)
+    _: KW_ONLY
+    tie_height: Values = None
+    tie_depth: Values = None
+    tie_area: Values = None
+    tie_length: Values = None
+    tie_modulus: Values = None
+    tie_strength: Values = None
+    tie_preload: Values = None
+    tie_strain: Values = None
+    tie_anchor_force: Values = None
+    leaves: float | None = None
+    hinge_level: InitVar[float | Sequence[float] | None] = None
+    hinge_at: InitVar[Literal["storeys"] | None] = None
+
+    def __post_init__(self, hinge_level: float | Sequence[float] | None, hinge_at: str | None) -> None:
+        self._understand(hinge_level=hinge_level, hinge_at=hinge_at)
 
 
 @part_of_results

@@ -41,8 +41,9 @@ Kind = Literal["mechanism", "group"]
 class Population(Shown):
     """Walls and how many of the kind each stands for.
 
-    Walls with the same name, one after the other, are mechanisms of one wall. Walls that were given no name are called
-    'wall' with the number of their row, or the next that no other wall is called by.
+    Walls with the same name, one after the other, are mechanisms of one wall; those of the same facade are mechanisms
+    of the facade, which collapses if any of its walls does (`facade` makes them). Walls that were given no name are
+    called 'wall' with the number of their row, or the next that no other wall is called by.
 
     Attributes
     ----------
@@ -54,6 +55,8 @@ class Population(Shown):
         Name of the group that each belongs to, for curves by group; empty if left out.
     p_occ : ndarray, shape (rows,)
         Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
+    facades : tuple of str
+        Name of the facade that each is part of; empty if left out, or if it is part of none.
     origin : tuple of str
         Where the walls come from, in lines for the head of a file.
 
@@ -88,6 +91,7 @@ class Population(Shown):
     _: KW_ONLY
     groups: tuple[str, ...] = None  # type: ignore[assignment]
     p_occ: FloatArray = None  # type: ignore[assignment]
+    facades: tuple[str, ...] = None  # type: ignore[assignment]
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -102,18 +106,13 @@ class Population(Shown):
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
         p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
-        groups = ("",) * len(walls) if self.groups is None else _several("groups", self.groups, "a name for each wall")
-        if len(groups) != len(walls):
-            raise InputError(f"{len(walls)} walls, {len(groups)} groups: must be as many")
-        for wall, group in zip(walls, groups, strict=True):
-            _on_one_line("group", group, wall)
-        # A table cannot tell blanks from nothing.
-        groups = tuple(group if group.strip(" ") else "" for group in groups)
+        groups, facades = (_words(name, getattr(self, name), walls) for name in ("groups", "facades"))
         origin = _several("origin", self.origin, "lines")
         for line in origin:
             as_text("origin", line)
-        _check_names(walls, weights, groups)
-        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "origin": origin}
+        _check_names(walls, weights, groups, facades)
+        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "facades": facades}
+        filled["origin"] = origin
         for name, value in filled.items():
             object.__setattr__(self, name, value)
 
@@ -126,7 +125,7 @@ class Population(Shown):
                 for name, column in columns.items()
             },
             "gravity": np.array([wall.gravity for wall in self.walls]),
-            **{name: getattr(self, name) for name in ("weights", "groups", "p_occ", "origin")},
+            **{name: getattr(self, name) for name in ("weights", "groups", "p_occ", "facades", "origin")},
         }
 
     @classmethod
@@ -134,9 +133,14 @@ class Population(Shown):
         return cls(tuple(map(wall_from, describe_walls(len(gravity), properties, gravity))), **more)
 
     @functools.cached_property
+    def wholes(self) -> tuple[str, ...]:
+        """Name of what collapses with each row: its facade, or its wall."""
+        return tuple(facade or wall.name for wall, facade in zip(self.walls, self.facades, strict=True))
+
+    @functools.cached_property
     def first_rows(self) -> NDArray[np.intp]:
-        """Where among the rows each wall begins: the rows of a wall stand one after the other."""
-        names = [wall.name for wall in self.walls]
+        """Where among the rows each wall or facade begins: its rows stand one after the other."""
+        names = self.wholes
         first = np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)
         first.flags.writeable = False
         return first
@@ -194,14 +198,17 @@ class Population(Shown):
         if not isinstance(other, Population):
             return NotImplemented
         names = {wall.name for wall in self.walls} - {_UNNAMED}
-        for wall in other.walls:
+        for wall, facade in zip(other.walls, other.facades, strict=True):
             if wall.name in names:
                 raise InputError(f"name = {wall.name!r}: both populations have a wall of this name")
+            if facade and facade in self.facades:
+                raise InputError(f"facade = {facade!r}: both populations have a facade of this name")
         return Population(
             self.walls + other.walls,
             np.concatenate([self.weights, other.weights]),
             groups=self.groups + other.groups,
             p_occ=np.concatenate([self.p_occ, other.p_occ]),
+            facades=self.facades + other.facades,
             origin=self.origin + other.origin,
         )
 
@@ -233,6 +240,7 @@ class Population(Shown):
             self.weights[index],
             groups=tuple(self.groups[i] for i in chosen),
             p_occ=self.p_occ[index],
+            facades=tuple(self.facades[i] for i in chosen),
             origin=self.origin,
         )
 
@@ -329,7 +337,7 @@ class Population(Shown):
         tables.write_lines(path, lines)
 
     def _table(self) -> tables.Table:
-        return walls_table(self.walls, self.weights, self.groups, self.p_occ)
+        return walls_table(self.walls, self.weights, self.groups, self.p_occ, self.facades)
 
 
 def read_population(path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
@@ -338,8 +346,8 @@ def read_population(path: str | os.PathLike[str], *, gravity: float | None = Non
     Parameters
     ----------
     path : path
-        A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group and
-        p_occ.
+        A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group,
+        p_occ and facade. A row with hinge levels becomes a wall for each, all of one facade.
     gravity : float, optional
         [m/s2], 9.81 if left out.
 
@@ -352,11 +360,10 @@ def read_population(path: str | os.PathLike[str], *, gravity: float | None = Non
     InputError
         The table or one of its walls is wrong.
     """
-    walls, weights, groups, p_occ = read_walls(path, gravity)
+    walls, weights, groups, p_occ, facades = read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)
-    return Population(
-        tuple(wall_from(data) for data in walls), weights, groups=tuple(groups), p_occ=p_occ, origin=origin
-    )
+    people = tuple(wall_from(data) for data in walls)
+    return Population(people, weights, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades), origin=origin)
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
@@ -364,6 +371,17 @@ def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
         raise InputError(f"{name} = {values!r}: must be {what}")
     return tuple(values)
+
+
+def _words(name: str, given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
+    """Names of groups or facades, one for each wall; empty where there is none."""
+    words = ("",) * len(walls) if given is None else _several(name, given, "a name for each wall")
+    if len(words) != len(walls):
+        raise InputError(f"{len(walls)} walls, {len(words)} {name}: must be as many")
+    for wall, word in zip(walls, words, strict=True):
+        _on_one_line(name.removesuffix("s"), word, wall)
+    # A table cannot tell blanks from nothing.
+    return tuple(word if word.strip(" ") else "" for word in words)
 
 
 def _named(walls: Sequence[Wall]) -> tuple[Wall, ...]:
@@ -402,25 +420,33 @@ def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest:
     return shares
 
 
-def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[str]) -> None:
-    """Walls with one name must be mechanisms of one wall."""
+def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[str], facades: Sequence[str]) -> None:
+    """Walls with one name must be mechanisms of one wall, and those of one facade must be on consecutive rows."""
     first: dict[str, int] = {}
-    for i, wall in enumerate(walls):
-        one = first.setdefault(wall.name, i)
-        if one == i:
-            continue
-        if walls[i - 1].name != wall.name:
+    first_of: dict[str, int] = {}
+    for i, (wall, facade) in enumerate(zip(walls, facades, strict=True)):
+        one, whole = first.setdefault(wall.name, i), "wall"
+        if one != i and (walls[i - 1].name != wall.name or facades[i - 1] != facade):
             raise InputError(
                 f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows"
             )
         if wall.mechanism in (other.mechanism for other in walls[one:i]):
             raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
+        if facade:
+            one, whole = first_of.setdefault(facade, i), "facade"
+            if one != i and facades[i - 1] != facade:
+                wrong = f"facade = {facade!r}: another facade has this name"
+                raise InputError(f"{wrong}; walls of one facade must be on consecutive rows")
         if weights[i] != weights[one] or groups[i] != groups[one]:
-            raise InputError(f"name = {wall.name!r}: mechanisms of one wall must have the same weight and group")
+            raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same weight and group")
+    for facade in first_of:
+        if facade in first and facades[first[facade]] != facade:
+            raise InputError(f"facade = {facade!r}: a wall that is no part of it has this name")
 
 
 def population_table(population: Population) -> tables.Table:
     """Columns of a population's table, as it is read."""
     names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
     table = property_columns(population.walls, names)
-    return table | {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
+    table |= {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
+    return table | ({"facade": population.facades} if any(population.facades) else {})

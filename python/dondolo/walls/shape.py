@@ -51,8 +51,16 @@ def shape(wall: Wall, rotation: float) -> Shape:
     if isinstance(wall, TwoBlockWall):
         blocks, hinges = _two_blocks(wall, q)
     else:
-        blocks = [moved(wall, storey, q) for storey in storeys(wall)]
-        hinges = np.array([[t - wall.base_hinge_depth + _edge(wall) * q, 0.0]])
+        outer = storeys(wall)
+        widths = [storey[1, 0] - storey[0, 0] for storey in outer]
+        leaves = range(int(getattr(wall, "leaves", None) or 1))
+        blocks = [
+            moved(wall, storey, q) - (leaf * width, 0.0)
+            for leaf in leaves
+            for storey, width in zip(outer, widths, strict=True)
+        ]
+        base = t - wall.base_hinge_depth + _edge(wall) * q
+        hinges = np.array([[base - leaf * widths[0], 0.0] for leaf in leaves])
     if side < 0.0:
         blocks = [_mirrored(block, t) for block in blocks]
         hinges = _mirrored(hinges, t)
@@ -60,7 +68,7 @@ def shape(wall: Wall, rotation: float) -> Shape:
 
 
 def storeys(wall: Wall) -> list[Points]:
-    """The storeys of one block at rest.
+    """The storeys of one block at rest, those of its outer leaf if it has several.
 
     Parameters
     ----------
@@ -73,6 +81,7 @@ def storeys(wall: Wall) -> list[Points]:
         Corners of each from the bottom [m], as in `Shape.blocks`.
     """
     heights = getattr(wall, "section_height", None) or (wall.height,)
+    leaves = getattr(wall, "leaves", None) or 1.0
     found = []
     bottom = 0.0
     for i, height in enumerate(heights):
@@ -83,6 +92,7 @@ def storeys(wall: Wall) -> list[Points]:
                 getattr(wall, "section_offset", None) or (0.0,),
             )
         )
+        thickness /= leaves
         left = wall.thickness - offset - thickness
         found.append(np.add(_rectangle(thickness, height), (left, bottom)))
         bottom += height

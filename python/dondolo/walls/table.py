@@ -39,8 +39,9 @@ def walls_table(
     weights: Iterable[float] = (1.0,),
     groups: Iterable[str] = ("",),
     p_occ: Iterable[float] = (1.0,),
+    facades: Sequence[str] = (),
 ) -> tables.Table:
-    """Columns of ``_walls.csv``."""
+    """Columns of ``_walls.csv``; that of facades only where there are some."""
 
     def column(what: str) -> list[Any]:
         return [getattr(wall, what, None) for wall in walls]
@@ -55,4 +56,5 @@ def walls_table(
         "weight": list(weights),
         "group": list(groups),
         "p_occ": list(p_occ),
+        **({"facade": list(facades)} if any(facades) else {}),
     }

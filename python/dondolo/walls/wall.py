@@ -51,7 +51,7 @@ class Terms(NamedTuple):
     excitation_lever : ndarray
         L [kg m].
     load_force : ndarray
-        Q, the generalised force of carried loads [N m]; 0 without an overburden.
+        Q, the generalised force of carried loads [N m]; 0 without any, ties that have not yielded included.
     """
 
     inertia: FloatArray
@@ -96,7 +96,11 @@ class Wall:
             # The library reads words in any case, as its files may have them; those of a program are exact.
             if row.choices and isinstance(word, str) and word != word.lower():
                 one_of(row.name, word, row.choices)
-        self._fill(describe_wall(properties, self.gravity))
+        data = describe_wall(properties, self.gravity)
+        if more.get("hinge_level") is not None:
+            # The wall above a hinge is on a floor of its own.
+            del self.__dict__["building"]
+        self._fill(data)
 
     def _properties(self) -> dict[str, Any]:
         """Its properties by their names, None where one does not apply."""
@@ -168,6 +172,16 @@ class Wall:
     def base_hinge_depth(self) -> float:
         """Depth of the hinge at the base behind the face [m]: given, of crushed masonry, or of a round edge; else 0."""
         return self._static(6)
+
+    @property
+    def greatest_acceleration(self) -> float:
+        """Greatest static acceleration that a wall with ties withstands [m/s2]; without ties the trigger."""
+        return self._static(7)
+
+    @property
+    def plastic_acceleration(self) -> float:
+        """Acceleration that moves a wall whose ties all yield, alpha_0 g of design [m/s2]; without ties the trigger."""
+        return self._static(8)
 
     @property
     def two_sided(self) -> bool:

@@ -92,9 +92,12 @@ contains
       end if
       allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0))
       if (allocated(wall%building)) then
-         kinematic%period = wall%building%period
-         kinematic%damping = wall%building%damping
-         kinematic%participation = wall%building%participation
+         ! Modes that do not move the level are not there: at the base of a building the demand is that of the ground.
+         associate (building => wall%building)
+            kinematic%period = pack(building%period, abs(building%participation) > 0.0_wp)
+            kinematic%damping = pack(building%damping, abs(building%participation) > 0.0_wp)
+            kinematic%participation = pack(building%participation, abs(building%participation) > 0.0_wp)
+         end associate
          if (.not. all(kinematic%damping > 0.0_wp)) then
             call raise_input(error, 'damping = 0: must be positive for the spectrum of a floor of the code')
             return

@@ -139,6 +139,10 @@ contains
       if (solver%engine /= 'lanes') return
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
+      if (allocated(mechanism%restraints)) then
+         call raise_input(error, 'engine = ''lanes'': does not know ties; must be ''auto'' or ''rk45''')
+         return
+      end if
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
          & 'must be ''auto'' or ''rk45'', or another edp_limit')
    end subroutine check_engine

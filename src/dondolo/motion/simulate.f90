@@ -6,7 +6,6 @@
 module dondolo_simulate
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
-   use dondolo_grip, only : tie_response_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
@@ -22,7 +21,7 @@ module dondolo_simulate
 contains
 
    !> The motion of a wall, at rest at the start
-   subroutine simulate(mechanism, record, scale, solver, response, trace, ties)
+   subroutine simulate(mechanism, record, scale, solver, response, trace)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -32,8 +31,6 @@ contains
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
-      !> What the motion does to each of the ties; none if there are none
-      type(tie_response_type), allocatable, intent(out), optional :: ties(:)
 
       type(response_type) :: other
       type(ensemble_type) :: ensemble
@@ -47,10 +44,9 @@ contains
          call new_suite(suite, records)
          call run_ensemble(ensemble, mechanism, suite, solver, 1)
          response = ensemble%response(1)
-         if (present(ties)) allocate (ties(0))
          return
       end if
-      call simulate_rk45(mechanism, record, scale, solver, response, trace, ties=ties)
+      call simulate_rk45(mechanism, record, scale, solver, response, trace)
       if (.not. solver%estimate_error) return
       call simulate_rk45(mechanism, record, perturbed(scale), refined(solver), other)
       response%edp_error = abs(other%edp - response%edp)

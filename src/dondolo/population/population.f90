@@ -1,12 +1,14 @@
-!> A population of walls: a CSV table with one row a mechanism of a wall, its columns those of &wall, and weight, group
-!> and p_occ.
+!> A population of walls: a CSV table with one row a mechanism of a wall, its columns those of &wall, and weight, group,
+!> p_occ and facade; or one facade alone, as &wall says it.
 !>
 !> A cell that is empty was not given. A wall without a name is called 'wall' with the number of its row. Rows with the
-!> same name are mechanisms of the same wall; they stand one after the other. Rows are read one by one, so that a table
-!> may be longer than the memory.
+!> same name are mechanisms of the same wall, rows of the same facade those of the facade; they stand one after the other.
+!> A row with hinge levels becomes a row for each: the walls 'NAME at Z m' of the facade NAME. Rows are read one by one, so
+!> that a table may be longer than the memory.
 module dondolo_population
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
+   use dondolo_hinge_level, only : find_hinge_levels, has_hinge_level
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_walls
    use dondolo_memory, only : check_room, raise_shortage
@@ -23,12 +25,14 @@ module dondolo_population
    public :: member_properties
 
    !> Columns besides the properties of a wall
-   type(property_type), target, protected :: member_properties(3) = [ &
+   type(property_type), target, protected :: member_properties(4) = [ &
       & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
       &   meaning='weight of the wall in its population, such as the number of walls like it'), &
       & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &
       & property_type('p_occ', default=1.0_wp, smallest=0.0_wp, largest=1.0_wp, &
-      &   meaning='probability that the mechanism can occur')]
+      &   meaning='probability that the mechanism can occur'), &
+      & property_type('facade', is_text, meaning='facade that the wall is part of: its walls, on consecutive rows, collapse '// &
+      &   'in series')]
 
    !> Memory that a row takes where all are kept, and what the index of names takes for it while it grows [bytes]
    real(wp), parameter :: bytes_of_row = 4000.0_wp, bytes_of_name = 72.0_wp
@@ -43,7 +47,9 @@ module dondolo_population
       real(wp) :: p_occ = 1.0_wp
       !> Group of the wall, empty if none was given
       character(len=:), allocatable :: group
-      !> Is it a further mechanism of the wall in the row before?
+      !> Facade that the wall is part of, empty if none
+      character(len=:), allocatable :: facade
+      !> Is it a further mechanism of the wall, or of the facade, in the row before?
       logical :: continues = .false.
       !> Was its name given? A wall without one has one row
       logical :: has_name = .false.
@@ -71,8 +77,19 @@ module dondolo_population
       type(name_index_type) :: names
       !> The wall of the row before, its first row
       type(member_type) :: wall
-      !> Its mechanisms, with a blank after each
-      character(len=:), allocatable :: mechanisms
+      !> Name of the row before, and the mechanisms that it has had, with a blank after each
+      character(len=:), allocatable :: name, mechanisms
+      !> Can a row become several?
+      logical :: has_hinges = .false.
+      !> What is read instead of a table; not allocated: the table
+      type(wall_input_type), allocatable :: facade
+      !> Path of what is read, for messages
+      character(len=:), allocatable :: file
+      !> What the row says, hinges that it has, and the number of the last that was given out
+      type(wall_input_type) :: input
+      type(member_type) :: own
+      real(wp), allocatable :: levels(:)
+      integer :: level = 0
    contains
       !> Open a population
       procedure :: open => open_population
@@ -80,6 +97,8 @@ module dondolo_population
       procedure :: next
       !> Pass over rows
       procedure :: skip
+      !> Where the row that was read last is
+      procedure :: place
       !> Close it before its end is reached
       procedure :: close => close_population
    end type population_reader_type
@@ -87,7 +106,7 @@ module dondolo_population
 contains
 
    !> Read all of a population
-   subroutine read_population(file, members, error, gravity, note)
+   subroutine read_population(file, members, error, gravity, note, facade)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
@@ -98,6 +117,8 @@ contains
       real(wp), intent(in), optional :: gravity
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
+      !> The facade that is the whole population; absent: the table
+      type(wall_input_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
@@ -105,7 +126,7 @@ contains
       logical :: found
       integer :: rows
 
-      call reader%open(file, error, gravity)
+      call reader%open(file, error, gravity, facade=facade)
       if (allocated(error)) return
       allocate (members(64))
       rows = 0
@@ -131,9 +152,9 @@ contains
    end subroutine read_population
 
    !> Open a population
-   subroutine open_population(self, file, error, gravity, is_checked)
+   subroutine open_population(self, file, error, gravity, is_checked, facade)
       class(population_reader_type), intent(inout) :: self
-      !> Path of the table
+      !> Path of the table, or of what says the facade
       character(len=*), intent(in) :: file
       !> No table, or a column that does not exist
       type(error_type), allocatable, intent(out) :: error
@@ -141,6 +162,8 @@ contains
       real(wp), intent(in), optional :: gravity
       !> Is the table as a whole to be checked? Yes if absent
       logical, intent(in), optional :: is_checked
+      !> The facade that is the whole population; absent: there is a table
+      type(wall_input_type), intent(in), optional :: facade
 
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
@@ -153,8 +176,14 @@ contains
       end do
       self%row = 0
       self%mechanisms = ''
+      self%name = ''
+      self%file = file
+      allocate (self%levels(0))
       if (present(gravity)) self%gravity = gravity
       if (present(is_checked)) self%is_checked = is_checked
+      self%has_hinges = present(facade)
+      if (present(facade)) self%facade = facade
+      if (present(facade)) return
       call self%table%open(file, error)
       if (allocated(error)) return
       self%items = reshape([integer ::], [3, 0])
@@ -172,6 +201,8 @@ contains
       call sort_items(self%items)
       self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
       self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      self%has_hinges = self%wall_columns(find_property(wall_properties, 'hinge_at')) > 0 &
+         & .or. any(self%items(1, :) == find_property(wall_properties, 'hinge_level'))
       call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
          & pack(self%member_columns, member_properties%kind /= is_text), &
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
@@ -204,30 +235,118 @@ contains
       !> Everything that is wrong with it, or at the end with the table
       type(error_type), allocatable, intent(out) :: error
 
-      call self%table%next(found, error)
+      found = self%level < size(self%levels)
+      if (.not. found) call read_next(self, found, error)
       if (.not. found) then
          if (.not. allocated(error)) call check_end(self, error)
          return
       end if
       self%row = self%row + 1
       if (self%row > most_walls) then
-         call raise_input(error, self%table%place()//': more than '//to_text(most_walls)//' rows')
+         call raise_input(error, self%place()//': more than '//to_text(most_walls)//' rows')
          found = .false.
          call self%close()
       end if
       self%is_right = self%is_right .and. .not. allocated(error)
       if (allocated(error)) return
-      call read_row(self, member, error)
+      call make_member(self, member, error)
       if (.not. allocated(error)) then
          call place_row(self, member, error)
       else if (self%wall%has_name) then
          ! Rows behind a wall that is wrong do not go on with the one before it.
-         self%wall%has_name = self%wall%wall%name() == member%wall%name()
+         self%wall%has_name = self%name == member%wall%name() .or. &
+            & (len(member%facade) > 0 .and. self%wall%facade == member%facade)
       end if
-      call add_place(error, self%table%place())
+      if (.not. allocated(self%facade)) call add_place(error, self%place())
       self%is_right = self%is_right .and. .not. allocated(error)
       self%has_weight = self%has_weight .or. member%weight > 0.0_wp
    end subroutine next
+
+   !> Read the next row of the table, or the facade once
+   subroutine read_next(self, found, error)
+      class(population_reader_type), intent(inout) :: self
+      !> Was there one?
+      logical, intent(out) :: found
+      !> It is no row
+      type(error_type), allocatable, intent(out) :: error
+
+      self%level = 0
+      self%levels = [real(wp) ::]
+      if (.not. allocated(self%facade)) then
+         call self%table%next(found, error)
+         return
+      end if
+      found = self%row == 0
+   end subroutine read_next
+
+   !> Make the next member: that of the row, or of the next hinge of the row before
+   subroutine make_member(self, member, error)
+      class(population_reader_type), intent(inout) :: self
+      !> The member: all but whether it continues the wall before
+      type(member_type), intent(inout) :: member
+      !> Everything that is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+      type(problems_type) :: problems
+      type(error_type), allocatable :: wrong
+
+      if (size(self%levels) == 0) then
+         call read_own(self, wrong)
+         call read_row(self, problems)
+         ! What cannot be read would be told of once more as missing
+         if (problems%count == 0 .and. has_hinge_level(self%input)) call find_levels(self)
+      end if
+      input = self%input
+      if (problems%count == 0 .and. size(self%levels) > 0) then
+         self%level = self%level + 1
+         call input%clear('hinge_at')
+         call input%set('hinge_level', [self%levels(self%level)])
+         call input%set('name', trim(input%word('name'))//' at '//to_text(self%levels(self%level))//' m')
+      end if
+      member = self%own
+      call member%wall%input%set('name', trim(input%word('name')))
+      if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
+      ! What is wrong with a facade is wrong with all of its walls: the others are not tried
+      if (allocated(error) .or. allocated(wrong) .or. problems%count > 0) self%levels = [real(wp) ::]
+      call problems%take(error)
+      call problems%take(wrong)
+      call problems%raise(error)
+   end subroutine make_member
+
+   !> Find the hinges of the row; none if they are wrong, which is said where the wall is made
+   subroutine find_levels(self)
+      class(population_reader_type), intent(inout) :: self
+
+      type(problems_type) :: problems
+
+      self%level = 0
+      call find_hinge_levels(self%input, problems, self%levels)
+      if (problems%count > 0) self%levels = [real(wp) ::]
+      if (len(self%own%facade) == 0) self%own%facade = trim(self%input%word('name'))
+      self%own%has_name = .true.
+   end subroutine find_levels
+
+   !> Length of the place
+   pure integer function place_length(self)
+      class(population_reader_type), intent(in) :: self
+
+      place_length = len(self%file)
+      if (.not. allocated(self%facade)) place_length = len(self%table%place())
+   end function place_length
+
+   !> Where the row that was read last is
+   pure function place(self)
+      class(population_reader_type), intent(in) :: self
+      !> File and line; of a facade the file
+      character(len=place_length(self)) :: place
+
+      if (allocated(self%facade)) then
+         place = self%file
+      else
+         place = self%table%place()
+      end if
+   end function place
 
    !> Check that there are walls, and that one of them has a weight
    subroutine check_end(self, error)
@@ -237,9 +356,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (self%row == 0) then
-         call raise_input(error, self%table%lines%file//': no walls under the header')
+         call raise_input(error, self%file//': no walls under the header')
       else if (self%is_checked .and. self%is_right .and. .not. self%has_weight) then
-         call raise_input(error, self%table%lines%file//': weight: must be positive for at least one wall')
+         call raise_input(error, self%file//': weight: must be positive for at least one wall')
       end if
    end subroutine check_end
 
@@ -256,45 +375,59 @@ contains
       integer :: i
 
       do i = 1, rows - 1
-         call self%table%next(found, error)
+         if (self%has_hinges) then
+            ! How many rows a row becomes is known once it is read
+            call self%next(member, found, error)
+         else
+            call self%table%next(found, error)
+            self%row = self%row + 1
+         end if
          if (allocated(error)) return
-         self%row = self%row + 1
       end do
       ! The row after may go on with the wall of the last
       if (rows > 0) call self%next(member, found, error)
    end subroutine skip
 
-   !> Read what a row says
-   subroutine read_row(self, member, error)
-      !> The reader, with a row
-      type(population_reader_type), intent(in) :: self
-      !> The row: all but whether it continues the wall before
-      type(member_type), intent(inout) :: member
+   !> Read what a row says of its wall
+   subroutine read_row(self, problems)
+      !> The reader, with a row: what it says is set
+      class(population_reader_type), intent(inout) :: self
+      !> Takes every cell that is not a number
+      type(problems_type), intent(inout) :: problems
+
+      self%input = wall_input_type()
+      self%own%has_name = .true.
+      if (allocated(self%facade)) then
+         self%input = self%facade
+         return
+      end if
+      call self%input%set('name', 'wall '//to_text(self%row))
+      self%own%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
+      call read_cells(self, self%wall_columns, self%input, problems)
+      call read_lists(self, self%input, problems)
+   end subroutine read_row
+
+   !> Read what a row says of its weight, its group, its mechanism and its facade
+   subroutine read_own(self, error)
+      !> The reader, with a row: all but what is said of its wall is set
+      class(population_reader_type), intent(inout) :: self
       !> Every cell that is not a number or out of range
       type(error_type), allocatable, intent(out) :: error
 
-      type(wall_input_type) :: input
       type(group_settings_type) :: own
       type(problems_type) :: problems
 
-      call input%set('name', 'wall '//to_text(self%row))
-      member%has_name = is_given(self, self%wall_columns(find_property(wall_properties, 'name')))
-      call read_cells(self, self%wall_columns, input, problems)
-      call read_lists(self, input, problems)
-      call member%wall%input%set('name', trim(input%word('name')))
-      ! A number that cannot be read would be told of once more as one that is missing
-      if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
-      call problems%take(error)
       call new_settings(own, member_properties)
-      call read_cells(self, self%member_columns, own, problems)
+      if (.not. allocated(self%facade)) call read_cells(self, self%member_columns, own, problems)
       call own%fill()
       call own%check(problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
-      member%weight = abs(own%number('weight'))
-      member%p_occ = abs(own%number('p_occ'))
-      member%group = own%word('group')
+      self%own%weight = abs(own%number('weight'))
+      self%own%p_occ = abs(own%number('p_occ'))
+      self%own%group = own%word('group')
+      self%own%facade = trim(own%word('facade'))
       call problems%raise(error)
-   end subroutine read_row
+   end subroutine read_own
 
    !> Has the row something in a column? Blanks alone are nothing
    logical function is_given(reader, column)
@@ -381,7 +514,7 @@ contains
       end do
    end subroutine read_lists
 
-   !> Place a row among those before it: a further mechanism of the wall before, or a new wall
+   !> Place a row among those before it: a further mechanism of the wall or the facade before, or a new one
    subroutine place_row(self, member, error)
       !> The reader; it remembers the wall
       type(population_reader_type), intent(inout) :: self
@@ -390,38 +523,69 @@ contains
       !> The name stands elsewhere too, or what is said of the wall differs
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: name, mechanism
-      integer :: line
+      character(len=:), allocatable :: name, mechanism, what
+      logical :: repeats
 
       name = member%wall%name()
       mechanism = member%wall%mechanism_name()
-      if (self%wall%has_name .and. member%has_name) member%continues = self%wall%wall%name() == name
+      what = 'wall'
+      if (len(member%facade) > 0) what = 'facade'
+      repeats = self%wall%has_name .and. member%has_name .and. self%name == name
+      if (len(member%facade) > 0) then
+         member%continues = self%wall%has_name .and. self%wall%facade == member%facade
+      else if (repeats) then
+         member%continues = len(self%wall%facade) == 0
+      end if
       if (.not. member%continues) then
-         line = 0
-         if (self%is_checked) call self%names%note(name, self%table%line, line)
-         if (self%names%lacks_memory) then
-            call raise_shortage(bytes_of_name*real(self%row, wp), error)
-            return
-         end if
-         if (line > 0) then
-            call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
-               & '); mechanisms of one wall must be on consecutive rows')
-            return
-         end if
+         if (len(member%facade) > 0) call note_name(self, 'facade', member%facade, error)
+         if (.not. allocated(error)) call note_name(self, 'name', name, error)
+         if (allocated(error)) return
          self%wall = member
+         self%wall%has_name = member%has_name .or. len(member%facade) > 0
+         self%name = name
          self%mechanisms = mechanism//' '
-      else if (index(self%mechanisms, mechanism//' ') > 0) then
+      else if (repeats .and. index(self%mechanisms, mechanism//' ') > 0) then
          call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
       else if (abs(self%wall%weight - member%weight) > 0.0_wp) then
          call raise_input(error, 'weight = '//to_text(member%weight)//': must be '//to_text(self%wall%weight)// &
-            & ' as in the row before, which is of the same wall')
+            & ' as in the row before, which is of the same '//what)
       else if (self%wall%group /= member%group) then
          call raise_input(error, 'group = '''//member%group//''': must be '''//self%wall%group// &
-            & ''' as in the row before, which is of the same wall')
-      else
+            & ''' as in the row before, which is of the same '//what)
+      else if (repeats) then
          self%mechanisms = self%mechanisms//mechanism//' '
+      else
+         call note_name(self, 'name', name, error)
+         self%name = name
+         self%mechanisms = mechanism//' '
       end if
    end subroutine place_row
+
+   !> Note the name of a wall or a facade, which no other has; a wall may have that of its facade
+   subroutine note_name(self, property, name, error)
+      type(population_reader_type), intent(inout) :: self
+      !> What it is the name of: 'name' or 'facade'
+      character(len=*), intent(in) :: property
+      !> The name
+      character(len=*), intent(in) :: name
+      !> Another has it
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: line
+
+      if (.not. self%is_checked) return
+      line = 0
+      call self%names%note(property//' '//name, max(self%table%line, 1), line)
+      if (self%names%lacks_memory) then
+         call raise_shortage(bytes_of_name*real(self%row, wp), error)
+      else if (line > 0 .and. property == 'name') then
+         call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
+            & '); mechanisms of one wall must be on consecutive rows')
+      else if (line > 0) then
+         call raise_input(error, 'facade = '''//name//''': another facade has this name (line '//to_text(line)// &
+            & '); walls of one facade must be on consecutive rows')
+      end if
+   end subroutine note_name
 
    !> Close it before its end is reached
    subroutine close_population(self)

@@ -44,6 +44,8 @@ module dondolo_population_sums
       type(sums_type), allocatable :: mechanism(:)
       !> Is there a wall with a mechanism that may not occur?
       logical :: uncertain = .false.
+      !> Is there a wall with several mechanisms, even if they have one name?
+      logical :: several = .false.
    contains
       !> Has it a curve of all mechanisms, beside that of its only one?
       procedure :: has_all
@@ -64,6 +66,7 @@ contains
       integer :: m, place
 
       f = wall%fractions()
+      group%several = group%several .or. size(wall%p_occ) > 1
       do m = 1, size(wall%p_occ)
          if (wall%p_occ(m) < 1.0_wp) group%uncertain = .true.
          ! A product too small for a number counts as none.
@@ -115,7 +118,7 @@ contains
    pure logical function has_all(self)
       class(group_type), intent(in) :: self
 
-      has_all = size(self%mechanism) > 1 .or. self%uncertain
+      has_all = size(self%mechanism) > 1 .or. self%uncertain .or. self%several
    end function has_all
 
    !> Add a group

@@ -38,6 +38,8 @@ module dondolo_row_result
    contains
       !> Set the flags
       procedure :: set_flags
+      !> The flags one by one
+      procedure :: unpack_flags
       !> Histories that reach each state
       procedure :: reached
       !> Histories that reach a state, and those that were run, of each cluster of records
@@ -104,6 +106,25 @@ contains
       end do
       if (bit < 8) self%flags(byte + 1:byte + 1) = char(value)
    end subroutine set_flags
+
+   !> The flags one by one
+   pure subroutine unpack_flags(self, flags)
+      class(row_result_type), intent(in) :: self
+      !> Does a history reach a state (histories, levels, states)?
+      logical, intent(out) :: flags(:, :, :)
+
+      integer :: i, j, k, flag
+
+      flag = 0
+      do k = 1, size(flags, 3)
+         do j = 1, size(flags, 2)
+            do i = 1, size(flags, 1)
+               flags(i, j, k) = btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))
+               flag = flag + 1
+            end do
+         end do
+      end do
+   end subroutine unpack_flags
 
    !> Histories that reach each state
    pure function reached(self, shape)

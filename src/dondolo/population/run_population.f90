@@ -12,6 +12,7 @@ module dondolo_run_population
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_threads, only : team_of
+   use dondolo_wall_properties, only : wall_input_type
    implicit none
    private
 
@@ -26,7 +27,7 @@ module dondolo_run_population
 contains
 
    !> Run the rows that a store lacks
-   subroutine run_population(study, table, gravity, store, histories, error, progress)
+   subroutine run_population(study, table, gravity, store, histories, error, progress, facade)
       !> What the walls are tried with
       type(study_type), intent(in) :: study
       !> Path of the table of walls, which was checked
@@ -41,6 +42,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
+      !> The facade that is the whole population; absent: the table
+      type(wall_input_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type), allocatable :: members(:)
@@ -49,7 +52,7 @@ contains
       integer :: block
 
       block = block_size(study, histories, store%identity%last - store%identity%first + 1)
-      call reader%open(table, error, gravity, is_checked=.false.)
+      call reader%open(table, error, gravity, is_checked=.false., facade=facade)
       do while (.not. allocated(error))
          call read_block(reader, table, store, block, members, numbers, error)
          if (allocated(error) .or. size(members) == 0) exit

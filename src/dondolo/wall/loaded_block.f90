@@ -1,4 +1,4 @@
-!> One rigid body with a hinge at some depth and with what it carries and what holds it: loads, pushed masses, thrusts, springs, ties.
+!> One rigid body with a hinge at some depth, what it carries and what holds it: loads, pushed masses, thrusts, springs, ties.
 !>
 !> A point at depth d and height z, e = d - u and f = z - a from the hinge, moves by (docs/theory.md, section 2)
 !>

@@ -1,5 +1,6 @@
-!> Accelerations that a wall with ties withstands statically: at which it begins to move, the greatest of all, and that of a
-!> mechanism whose ties all yield at once, which design calls alpha_0 g (docs/theory.md, section 2).
+!> What follows from a wall with ties without a history: what a largest rotation does to them, and the accelerations that the
+!> wall withstands statically: at which it begins to move, the greatest of all, and that of a mechanism whose ties all yield
+!> at once, which design calls alpha_0 g (docs/theory.md, section 2).
 module dondolo_tie_statics
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -8,7 +9,7 @@ module dondolo_tie_statics
    implicit none
    private
 
-   public :: greatest_acceleration, plastic_acceleration
+   public :: greatest_acceleration, plastic_acceleration, ties_after
 
    !> Parts of the rotation between two events in which a maximum is looked for
    integer, parameter :: parts = 64
@@ -63,6 +64,27 @@ contains
          from = to
       end do
    end function greatest_acceleration
+
+   !> What a history leaves of the ties: all of it follows from its largest rotation
+   pure subroutine ties_after(mechanism, edp, elongation, is_broken)
+      !> Has ties
+      class(mechanism_type), intent(in) :: mechanism
+      !> Largest rotation / capacity
+      real(wp), intent(in) :: edp
+      !> Plastic elongation of each tie [m]
+      real(wp), intent(out) :: elongation(:)
+      !> Whether it is broken
+      logical, intent(out) :: is_broken(:)
+
+      ! A load that loses its seat ends a history at less than the limit that is its EDP.
+      associate (ties => mechanism%restraints, peak => min(edp, mechanism%unseating/mechanism%capacity))
+         ! A division by the capacity made the EDP; the same division keeps the order of the rotations to the bit.
+         is_broken = peak >= ties%fracture/mechanism%capacity
+         elongation = ties%set(peak*mechanism%capacity)
+         where (is_broken) elongation = ties%set(ties%fracture)
+         where (peak <= ties%yield/mechanism%capacity) elongation = 0.0_wp
+      end associate
+   end subroutine ties_after
 
    !> Greatest acceleration between two rotations, by parts and the golden section of the best of them
    pure real(wp) function greatest_between(mechanism, from, to) result(greatest)

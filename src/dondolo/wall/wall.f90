@@ -5,6 +5,7 @@ module dondolo_wall
    use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
    use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
+   use dondolo_hinge_level, only : cut_wall, find_hinge_levels, has_hinge_level
    use dondolo_kinds, only : wp
    use dondolo_loaded_block, only : loaded_block_type, new_loaded_block
    use dondolo_loaded_impact, only : one_sided_impulse, two_sided_impulse
@@ -91,10 +92,46 @@ contains
 
       type(problems_type) :: problems
       type(wall_body_type) :: body
-      character(len=:), allocatable :: mechanism, allowed
+      type(wall_input_type) :: above
+      real(wp), allocatable :: levels(:)
 
       if (present(gravity)) wall%gravity = gravity
+      call understand(wall, input, problems, body)
+      if (problems%count == 0 .and. has_hinge_level(input)) then
+         call find_hinge_levels(wall%input, problems, levels)
+         if (problems%count == 0 .and. size(levels) > 1) call problems%note('hinge_level: has '//to_text(size(levels))// &
+            & ' values, a wall has one; a facade with several is a population, task = ''typology''')
+         above = input
+         if (problems%count == 0) call cut_wall(above, levels(1), problems)
+         if (problems%count == 0) call understand(wall, above, problems, body)
+      end if
+      call problems%raise(error)
+      if (allocated(error)) return
+      if (wall%mechanism_name() == 'two_block') then
+         call build_two_block(wall, error)
+      else if (is_bare(wall%input)) then
+         call build_mechanism(wall, error)
+      else
+         call build_loaded(wall, body, error)
+      end if
+   end subroutine new_wall
+
+   !> Fill in defaults and check all that is said of a wall, but whether it stands
+   subroutine understand(wall, input, problems, body)
+      !> The wall: all but its mechanism is set
+      type(wall_type), intent(inout) :: wall
+      !> What is said of it
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Sections and actions, of one block that is more than a rectangle
+      type(wall_body_type), intent(out) :: body
+
+      character(len=:), allocatable :: mechanism, allowed
+
       wall%input = input
+      wall%hinge_depth = 0.0_wp
+      if (allocated(wall%building)) deallocate (wall%building)
       mechanism = input%word('mechanism')
       if (.not. any(mechanism == mechanism_names)) mechanism = ''
       if (mechanism /= 'two_block') call take_sections(problems, wall%input)
@@ -110,25 +147,15 @@ contains
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
       if (mechanism == 'two_block') call check_load(problems, wall%input)
-      if (problems%count == 0) then
-         if (wall%bears) call replace_bearing(wall%input)
-         if (mechanism == 'two_block') then
-            call read_hinges(wall%input, wall%gravity, problems, wall%hinge_depth)
-         else if (.not. is_bare(wall%input)) then
-            call read_wall_body(wall%input, wall%gravity, problems, body)
-            wall%hinge_depth = body%actions%hinge
-         end if
-      end if
-      call problems%raise(error)
-      if (allocated(error)) return
+      if (problems%count > 0) return
+      if (wall%bears) call replace_bearing(wall%input)
       if (mechanism == 'two_block') then
-         call build_two_block(wall, error)
-      else if (is_bare(wall%input)) then
-         call build_mechanism(wall, error)
-      else
-         call build_loaded(wall, body, error)
+         call read_hinges(wall%input, wall%gravity, problems, wall%hinge_depth)
+      else if (.not. is_bare(wall%input)) then
+         call read_wall_body(wall%input, wall%gravity, problems, body)
+         wall%hinge_depth = body%actions%hinge
       end if
-   end subroutine new_wall
+   end subroutine understand
 
    !> The depth of the hinges of a wall of two blocks: those at base and top and the intermediate one
    subroutine read_hinges(input, gravity, problems, depth)

@@ -88,6 +88,7 @@ contains
       integer :: before
 
       before = problems%count
+      call check_leaves(input, problems)
       call read_sections(input, problems, wall%sections)
       call read_loads(input, gravity, problems, wall%actions%carried)
       call read_thrusts(input, wall%sections, problems, wall%actions%thrusts)
@@ -121,13 +122,13 @@ contains
       call take(input, problems, 'section_base_width', 'section_height', base, 1.0_wp)
       call take(input, problems, 'section_top_width', 'section_height', top, -1.0_wp)
       if (.not. input%has('section_height')) then
-         sections = [section_type(input%number('height'), input%number('thickness'))]
+         sections = [section_type(input%number('height'), input%number('thickness')/leaves_of(input))]
          return
       end if
       where (top < 0.0_wp) top = base
       allocate (sections(size(thickness)))
       sections%height = input%list('section_height')
-      sections%thickness = thickness
+      sections%thickness = thickness/leaves_of(input)
       sections%fill = fill
       sections%offset = offset
       sections%base_width = base
@@ -137,6 +138,36 @@ contains
       if (abs(offset(1)) > 0.0_wp) call problems%note('section_offset = '//to_text(offset(1))// &
          & ': must be 0 for the lowest section, from whose outer face depths are measured')
    end subroutine read_sections
+
+   !> Number of leaves; equal ones rock with nearly the same rotation, so that one of them is as good as all
+   pure real(wp) function leaves_of(input)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+
+      leaves_of = 1.0_wp
+      if (input%has('leaves')) leaves_of = input%number('leaves')
+   end function leaves_of
+
+   !> Check that several leaves carry nothing, which one of them would carry alone
+   subroutine check_leaves(input, problems)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+
+      character(len=*), parameter :: names(6) = [character(len=12) :: 'load', 'inertia_mass', 'thrust', 'spring', 'bed', 'mass']
+      real(wp) :: leaves
+      integer :: i
+
+      leaves = leaves_of(input)
+      if (abs(leaves - anint(leaves)) > 0.0_wp) call problems%note('leaves = '//to_text(leaves)// &
+         & ': must be a whole number')
+      if (.not. leaves > 1.0_wp) return
+      do i = 1, size(names)
+         if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not with leaves = '//to_text(leaves)// &
+            & ', it acts on one leaf; describe each leaf as a wall of its own thickness, both in one facade')
+      end do
+   end subroutine check_leaves
 
    !> Mass and centroid where they are given
    subroutine read_mass(input, problems, body)

@@ -5,7 +5,8 @@
 module dondolo_wall_properties
    use dondolo_building, only : building_rows
    use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, find_property, is_list, is_text, is_words, most_choices, property_type
+   use dondolo_property, only : blank, choices_length, find_property, is_integer, is_list, is_text, is_words, most_choices, &
+      & property_type
    use dondolo_restitution, only : restitution_models
    use dondolo_settings, only : settings_type
    implicit none
@@ -38,7 +39,7 @@ module dondolo_wall_properties
    character(len=choices_length), parameter :: one_block(most_choices) = &
       & reshape([character(len=choices_length) :: 'one_sided', 'free_standing'], [most_choices], pad=blank)
 
-   !> Owners of what only a wall that falls to one side has
+   !> Owners of what only a wall against transverse walls has
    character(len=choices_length), parameter :: one_sided(most_choices) = &
       & reshape([character(len=choices_length) :: 'one_sided'], [most_choices], pad=blank)
 
@@ -76,6 +77,16 @@ module dondolo_wall_properties
       &   meaning='width of each elevation at its bottom / width that values per metre refer to, 1 if not given'), &
       & property_type('section_top_width', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0e3_wp, &
       &   example='1.0, 0.0', meaning='the same at its top, as at its bottom if not given; 0 for a gable'), &
+      & property_type('leaves', is_integer, owners=one_sided, optional=.true., smallest=1.0_wp, largest=10.0_wp, &
+      &   example='2', meaning='number of equal leaves that nothing connects: each rocks alone with its part of the '// &
+      &   'thickness'), &
+      & property_type('hinge_level', is_list, unit='m', owners=one_sided, optional=.true., replaced=.true., &
+      &   smallest=0.0_wp, largest=1.0e3_wp, example='0.0, 4.0, 7.5', &
+      &   meaning='heights of hinges: each makes a wall of what is above it', &
+      &   more='one for a single wall, several for a facade in a population'), &
+      & property_type('hinge_at', is_text, owners=one_sided, optional=.true., replaced=.true., &
+      &   choices=reshape([character(len=choices_length) :: 'storeys'], [most_choices], pad=blank), example='storeys', &
+      &   meaning='a hinge at the bottom of every section, instead of hinge_level'), &
       & property_type('mass', unit='kg/m', owners=one_block, optional=.true., positive=.true., &
       &   smallest=1.0e-3_wp, largest=1.0e9_wp, example='1350.0', meaning='mass of the body, instead of its density'), &
       & property_type('centroid_depth', unit='m', owners=one_block, optional=.true., smallest=0.0_wp, &

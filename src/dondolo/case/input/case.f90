@@ -18,7 +18,7 @@ module dondolo_case
    use dondolo_suite, only : suite_type
    use dondolo_survey, only : survey_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : own_properties, wall_properties
+   use dondolo_wall_properties, only : is_of_building, own_properties, wall_input_type, wall_properties
    implicit none
    private
 
@@ -30,8 +30,10 @@ module dondolo_case
       character(len=:), allocatable :: file
       !> What is to be done
       type(job_type) :: job
-      !> Path of the population as it was given; not allocated: the case has one wall
+      !> Path of the population as it was given; not allocated: the case has one wall, or one facade
       character(len=:), allocatable :: population_file
+      !> The facade that is the population; not allocated: there is a table, or one wall
+      type(wall_input_type), allocatable :: facade
       !> The wall, unless the task is 'typology'
       type(wall_type) :: wall
       !> What there is in the population, if the task is 'typology'
@@ -118,17 +120,19 @@ contains
       !> The case, its task 'typology'
       class(case_type), intent(in) :: self
 
-      path_length = len(beside(self%population_file, self%file))
+      path_length = len(self%file)
+      if (allocated(self%population_file)) path_length = len(beside(self%population_file, self%file))
    end function path_length
 
    !> Path of the population
    pure function population_path(self) result(path)
       !> The case, its task 'typology'
       class(case_type), intent(in) :: self
-      !> Path, relative to the current folder
+      !> Path, relative to the current folder; that of the case, which describes a facade
       character(len=path_length(self)) :: path
 
-      path = beside(self%population_file, self%file)
+      path = self%file
+      if (allocated(self%population_file)) path = beside(self%population_file, self%file)
    end function population_path
 
    !> The case as namelist text: every value in force, and no group that the task does not use
@@ -143,6 +147,11 @@ contains
       if (allocated(self%population_file)) then
          call put_population(self%population_file, settings)
          call echo_settings('population', settings, echoed)
+      else if (allocated(self%facade)) then
+         call echo_settings('wall', self%facade, echoed, last='restitution_factor', &
+            & rows=wall_properties(:own_properties))
+         if (self%facade%gives(is_of_building)) call echo_settings('building', self%facade, echoed, &
+            & rows=building_properties)
       else
          call echo_settings('wall', self%wall%input, echoed, last='restitution_factor', &
             & rows=wall_properties(:own_properties))

@@ -14,6 +14,7 @@ module dondolo_read_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
+   use dondolo_population, only : member_type, population_reader_type
    use dondolo_population_group, only : read_population_group
    use dondolo_property_tables, only : group_names
    use dondolo_record, only : largest_acceleration, record_type
@@ -81,6 +82,9 @@ contains
       if (.not. allocated(error)) call measure_case(namelist, case, error)
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
+      if (case%job%task == 'stripes') then
+         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'wall '''//case%wall%name()//''' has ties')
+      end if
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
       else if (present(rows)) then
@@ -106,9 +110,11 @@ contains
       range = [1, huge(1)]
       if (present(rows)) range = rows
       call case%make_study(study)
-      call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error)
+      call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error, case%facade)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
+      if (case%survey%tied > 0) call note_ties(case, to_text(case%survey%tied)//' of '//to_text(case%survey%rows)// &
+         & ' rows have ties, wall '''//case%survey%first_tied//''' the first')
       case%survey%is_part = present(rows)
       if (.not. present(rows) .or. case%survey%last == range(2)) return
       note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
@@ -120,6 +126,16 @@ contains
       end if
    end subroutine survey
 
+   !> Note which walls the engine lanes leaves to rk45
+   subroutine note_ties(case, which)
+      type(case_type), intent(inout) :: case
+      !> The walls
+      character(len=*), intent(in) :: which
+
+      if (case%solver%solver%engine == 'auto') call case%notes%add(which//': the engine rk45 computes their histories, '// &
+         & 'lanes does not know ties')
+   end subroutine note_ties
+
    !> Check that the groups suit the task
    subroutine check_task(namelist, task, error)
       type(namelist_type), intent(in) :: namelist
@@ -130,6 +146,7 @@ contains
 
       character(len=10) :: needed, other
       type(group_type) :: group
+      logical :: has_facade
 
       needed = 'wall'
       other = 'population'
@@ -137,17 +154,19 @@ contains
          needed = 'population'
          other = 'wall'
       end if
+      group = namelist%group('wall')
+      has_facade = task == 'typology' .and. (group%has('hinge_level') .or. group%has('hinge_at'))
       group = namelist%group(trim(needed))
-      if (group%line == 0) then
+      if (group%line == 0 .and. .not. has_facade) then
          group = namelist%group('job')
          call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &
             & group%in_line('task'))
          return
       end if
-      group = namelist%group(trim(other))
+      if (group%line > 0) group = namelist%group(trim(other))
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = '''//task//''', which takes &'//trim(needed))
-      if (allocated(error) .or. task /= 'typology') return
+      if (allocated(error) .or. task /= 'typology' .or. has_facade) return
       group = namelist%group('building')
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = ''typology'', each wall of which has its own, in columns of &population')
@@ -165,13 +184,17 @@ contains
 
       type(group_type) :: group
 
-      if (case%job%task == 'typology') then
+      group = namelist%group('wall')
+      if (case%job%task == 'typology' .and. group%line > 0) then
+         call make_facade(input, case, error)
+         call group%locate(error)
+         return
+      else if (case%job%task == 'typology') then
          group = namelist%group('population')
          call read_population_group(group, case%population_file, error)
          if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
          return
       end if
-      group = namelist%group('wall')
       call new_wall(case%wall, input, error, case%solver%gravity)
       call group%locate(error)
       if (allocated(error)) return
@@ -183,6 +206,28 @@ contains
       call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall
+
+   !> Take a facade, and make all of its walls to check them
+   subroutine make_facade(input, case, error)
+      !> What is said of it
+      type(wall_input_type), intent(in) :: input
+      !> The case: its facade is set
+      type(case_type), intent(inout) :: case
+      !> What is wrong with it or one of its walls
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      logical :: found
+
+      case%facade = input
+      if (.not. case%facade%has('name')) call case%facade%set('name', 'facade')
+      call reader%open(case%file, error, case%solver%gravity, facade=case%facade)
+      found = .not. allocated(error)
+      do while (found .and. .not. allocated(error))
+         call reader%next(member, found, error)
+      end do
+   end subroutine make_facade
 
    !> Read the check by a building code
    subroutine read_check(namelist, case, error)

@@ -17,7 +17,7 @@ module dondolo_survey
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : wall_input_type, wall_properties
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private
@@ -30,6 +30,8 @@ module dondolo_survey
       integer :: rows = 0
       !> Walls
       integer :: walls = 0
+      !> Is one of them part of a facade?
+      logical :: has_facades = .false.
       !> Rows that are to be run
       integer :: first = 1, last = 0
       !> Were rows asked for, even if they are all of them?
@@ -46,6 +48,9 @@ module dondolo_survey
       type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
+      !> Rows of walls with ties, and the name of the first
+      integer :: tied = 0
+      character(len=:), allocatable :: first_tied
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -53,7 +58,7 @@ module dondolo_survey
 contains
 
    !> Survey a population
-   subroutine survey_population(survey, file, study, gravity, rows, error)
+   subroutine survey_population(survey, file, study, gravity, rows, error, facade)
       !> What is found
       type(survey_type), intent(out) :: survey
       !> Path of the table
@@ -66,6 +71,8 @@ contains
       integer, intent(in) :: rows(2)
       !> Everything that is wrong with the table, or the first level that asks too much
       type(error_type), allocatable, intent(out) :: error
+      !> The facade that is the whole population; absent: the table
+      type(wall_input_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type) :: member
@@ -73,10 +80,11 @@ contains
       type(problems_type) :: problems
       logical :: found
 
-      call reader%open(file, error, gravity)
+      call reader%open(file, error, gravity, facade=facade)
       if (allocated(error)) return
       survey%first = rows(1)
-      survey%note = reader%table%note()
+      survey%note = ''
+      if (.not. present(facade)) survey%note = reader%table%note()
       allocate (survey%lengths(size(wall_properties)), source=0)
       do
          call reader%next(member, found, error)
@@ -84,18 +92,21 @@ contains
          survey%rows = reader%row
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
+            survey%has_facades = survey%has_facades .or. len(member%facade) > 0
             call survey%roster%add(member)
             survey%lengths = max(survey%lengths, member%wall%input%lengths())
             call add_wall(survey%walls_fingerprint, member%wall)
+            if (allocated(member%wall%mechanism%restraints)) survey%tied = survey%tied + 1
+            if (survey%tied == 1 .and. .not. allocated(survey%first_tied)) survey%first_tied = member%wall%name()
             if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)
-            call add_place(error, reader%table%place())
+            call add_place(error, reader%place())
          end if
          if (.not. allocated(error)) then
             call plan_stripes(plan, member%wall, study, error)
             if (allocated(error)) then
-               call add_place(error, reader%table%place())
+               call add_place(error, reader%place())
                call reader%close()
                return
             end if
@@ -110,7 +121,7 @@ contains
       survey%last = min(rows(2), survey%rows)
       call problems%take(error)
       call problems%raise(error)
-      if (.not. allocated(error)) call fingerprint_lines(file, survey%fingerprint, error)
+      if (.not. (allocated(error) .or. present(facade))) call fingerprint_lines(file, survey%fingerprint, error)
    end subroutine survey_population
 
    !> Refuse a group that is one too many

@@ -16,7 +16,7 @@ module dondolo_check_rows
    private
 
    public :: check_wall, make_check_row, verdicts_type
-   public :: check_row_head, check_methods, check_states
+   public :: check_row_head, check_methods, check_states, shown_verdicts
 
    !> The kinematic checks: method and limit state
    character(len=*), parameter :: check_methods(4) = [character(len=9) :: 'linear', 'linear', 'nonlinear', 'nonlinear'], &
@@ -27,6 +27,21 @@ module dondolo_check_rows
       & 'linear_sld_g,linear_sld_ratio,linear_slv_g,linear_slv_ratio,nonlinear_slv_g,nonlinear_slv_ratio,'// &
       & 'nonlinear_slc_g,nonlinear_slc_ratio,probability_site,probability_nonlinear_slv,note'
 
+   !> Rows that are shown one by one
+   integer, parameter :: shown_verdicts = 20
+
+   !> What came of the check of a row; no name: it was not checked
+   type :: verdict_type
+      !> Name of the wall
+      character(len=:), allocatable :: name
+      !> Multiplier alpha_0
+      real(wp) :: multiplier = 0.0_wp
+      !> Capacity / demand of each check
+      real(wp) :: ratio(size(check_states)) = 0.0_wp
+      !> Probability of collapse at the peak acceleration of the site; negative: none
+      real(wp) :: probability = -1.0_wp
+   end type verdict_type
+
    !> What came of the checks of a population
    type :: verdicts_type
       !> Rows that were checked, and others
@@ -34,6 +49,8 @@ module dondolo_check_rows
       !> Of the first, those that each check verifies, and the least capacity / demand
       integer :: verified(size(check_states)) = 0
       real(wp) :: least(size(check_states)) = huge(1.0_wp)
+      !> The first rows, one by one
+      type(verdict_type) :: first(shown_verdicts)
    end type verdicts_type
 
 contains
@@ -91,8 +108,16 @@ contains
             row = row//','//to_table(sheet%value(check_methods(i), check_states(i), 'capacity_pga'))//','//to_table(ratio)
             if (ratio >= 1.0_wp) verdicts%verified(i) = verdicts%verified(i) + 1
             verdicts%least(i) = min(verdicts%least(i), ratio)
+            if (verdicts%checked <= shown_verdicts) verdicts%first(verdicts%checked)%ratio(i) = ratio
          end associate
       end do
+      if (verdicts%checked <= shown_verdicts) then
+         associate (verdict => verdicts%first(verdicts%checked))
+            verdict%name = member%wall%name()
+            verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
+            verdict%probability = sheet%value('site', 'SLV', 'probability')
+         end associate
+      end if
       row = row//','//trim(chance('site'))//','//trim(chance('nonlinear'))//','
 
    contains

@@ -9,12 +9,14 @@ module dondolo_report_rows
    use dondolo_response, only : response_type
    use dondolo_text, only : to_table, to_text
    use dondolo_typology, only : typology_type
+   use dondolo_unions, only : union_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : is_extra, wall_properties
    implicit none
    private
 
    public :: make_wall_head, make_wall_row, stripes_head, make_stripes_row, fragility_head, make_fragility_row
+   public :: union_head, make_union_row
    public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
@@ -27,6 +29,8 @@ module dondolo_report_rows
       & 'naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta', &
       & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
       & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,'//error_columns, &
+      & union_head = 'wall,group,mechanisms,im,im_level,histories,collapses,fraction,independent_fraction,'// &
+      & 'edp_threshold,theta,beta,se_ln_theta,se_beta,status,errors,clusters,independent_theta,independent_beta', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
 
 contains
@@ -43,9 +47,11 @@ contains
    end subroutine make_wall_cells
 
    !> Names of the columns of a wall: its properties, and what follows from them
-   subroutine make_wall_head(lengths, head)
+   subroutine make_wall_head(lengths, has_facades, head)
       !> How many values each property has at most; as many columns has a list
       integer, intent(in) :: lengths(:)
+      !> Are there walls that are part of a facade?
+      logical, intent(in) :: has_facades
       !> Names
       character(len=:), allocatable, intent(out) :: head
 
@@ -64,14 +70,17 @@ contains
          head = head//trim(column_name(wall_properties(i)))
       end do
       head = head//wall_tail
+      if (has_facades) head = head//',facade'
    end subroutine make_wall_head
 
    !> A wall: its properties, empty cells for those that it does not have, and its static quantities
-   subroutine make_wall_row(member, lengths, is_safe, row)
+   subroutine make_wall_row(member, lengths, has_facades, is_safe, row)
       !> The wall, one mechanism of it
       type(member_type), intent(in) :: member
       !> How many values each property has at most
       integer, intent(in) :: lengths(:)
+      !> Are there walls that are part of a facade?
+      logical, intent(in) :: has_facades
       !> Are texts to be no formulas in a spreadsheet?
       logical, intent(in) :: is_safe
       !> Row
@@ -109,6 +118,7 @@ contains
             & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
             & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','// &
             & text_cell(member%group, is_safe)//','//to_table(member%p_occ)
+         if (has_facades) row = row//','//text_cell(member%facade, is_safe)
       end associate
    end subroutine make_wall_row
 
@@ -205,6 +215,47 @@ contains
          & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)// &
          & ','//errors
    end subroutine make_typology_row
+
+   !> A wall with several mechanisms, or a mean, at a level; cells are empty where a mean has no counts, and without a fit
+   pure subroutine make_union_row(union, im, level, number, state, threshold, is_safe, row)
+      type(union_type), intent(in) :: union
+      !> Intensity measure
+      character(len=*), intent(in) :: im
+      !> Level, and its number
+      real(wp), intent(in) :: level
+      integer, intent(in) :: number
+      !> Number of the damage state
+      integer, intent(in) :: state
+      !> Its EDP threshold
+      real(wp), intent(in) :: threshold
+      !> Are texts to be no formulas in a spreadsheet?
+      logical, intent(in) :: is_safe
+      !> Row
+      character(len=:), allocatable, intent(out) :: row
+
+      character(len=:), allocatable :: counts, fit, product
+
+      counts = ',,'
+      associate (curve => union%curve(state), other => union%product(state))
+         if (union%rows(1) > 0) counts = to_text(nint(union%histories(number)))//','// &
+            & to_table(union%histories(number)*union%fraction(number, state))//','
+         fit = ',,,'
+         if (curve%has_fit()) then
+            fit = to_table(curve%theta)//','//to_table(curve%beta)//',,'
+            if (union%rows(1) > 0 .and. curve%has_errors()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
+               & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())
+         end if
+         fit = fit//','//trim(curve%status)//','
+         if (union%rows(1) > 0 .and. curve%has_fit()) fit = fit//trim(curve%errors)//','//to_text(curve%clusters)
+         if (.not. (union%rows(1) > 0 .and. curve%has_fit())) fit = fit//','
+         product = ','
+         if (other%has_fit()) product = to_table(other%theta)//','//to_table(other%beta)
+      end associate
+      row = text_cell(union%name, is_safe)//','//text_cell(union%group, is_safe)//','
+      if (union%rows(1) > 0) row = row//to_text(union%rows(2) - union%rows(1) + 1)
+      row = row//','//im//','//to_table(level)//','//counts//to_table(union%fraction(number, state))//','// &
+         & to_table(union%independent(number, state))//','//to_table(threshold)//','//fit//','//product
+   end subroutine make_union_row
 
    !> A history
    pure subroutine make_history_row(cells, record, polarity, im, level, scale, response, row)

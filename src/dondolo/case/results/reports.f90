@@ -6,13 +6,14 @@ module dondolo_reports
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_report_rows, only : make_typology_row, typology_head
+   use dondolo_report_rows, only : make_typology_row, make_union_row, typology_head, union_head
    use dondolo_result_files, only : check_output, result_files_type, run_suffix
    use dondolo_results, only : results_type
    use dondolo_row_reports, only : write_one_row, write_rows
    use dondolo_run_file, only : shape_names, shape_of, write_run
    use dondolo_echo, only : echo_type
    use dondolo_text, only : to_table, to_text
+   use dondolo_tie_rows, only : make_tie_comment
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names
    implicit none
@@ -48,11 +49,15 @@ contains
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
             & run_suffix]
+         if (allocated(case%wall%mechanism%restraints)) names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', &
+            & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_check.csv', run_suffix]]
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
+            & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
       end select
    end function suffixes
@@ -99,6 +104,8 @@ contains
 
       if (name == '_typology.csv') then
          call write_typology(case, results, files)
+      else if (name == '_unions.csv') then
+         call write_unions(case, results, files)
       else if (name == '_check.csv') then
          call write_check(results, files)
       else if (name == '_history.csv') then
@@ -184,6 +191,27 @@ contains
       end do
    end subroutine write_typology
 
+   !> Walls with several mechanisms, of the same histories
+   subroutine write_unions(case, results, files)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i, j, k
+
+      call files%line(union_head)
+      do i = 1, size(results%unions)
+         do k = 1, size(case%stripes%thresholds)
+            do j = 1, size(case%stripes%levels)
+               call make_union_row(results%unions(i), case%stripes%scaling%name, case%stripes%levels(j), j, k, &
+                  & case%stripes%thresholds(k), case%job%spreadsheet_safe, line)
+               call files%line(line)
+            end do
+         end do
+      end do
+   end subroutine write_unions
+
    !> The sheet of the check
    subroutine write_check(results, files)
       type(results_type), intent(in) :: results
@@ -205,6 +233,7 @@ contains
       type(results_type), intent(in) :: results
       type(result_files_type), intent(inout) :: files
 
+      character(len=:), allocatable :: line
       real(wp) :: capacity
       integer :: i
 
@@ -216,6 +245,10 @@ contains
          call files%line('# impacts: '//to_text(response%impacts))
          call files%line('# time_of_peak_s: '//to_table(response%time_of_peak))
          if (case%solver%solver%estimate_error) call files%line('# edp_error: '//to_table(response%edp_error))
+         do i = 1, size(results%trace%ties)
+            call make_tie_comment(i, results%trace%ties(i), line)
+            call files%line(line)
+         end do
          call files%line('time_s,ground_acceleration_m_s2,rotation_rad,velocity_rad_s,edp,side,after_impact')
          capacity = case%wall%mechanism%capacity
          do i = 1, trace%rows

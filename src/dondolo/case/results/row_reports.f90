@@ -14,6 +14,7 @@ module dondolo_row_reports
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_table
+   use dondolo_tie_rows, only : make_tie_row, tie_head
    implicit none
    private
 
@@ -40,7 +41,8 @@ contains
       logical :: found
 
       call write_names(case, name, files)
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+         & facade=case%facade)
       associate (population => results%population)
          do i = 1, population%rows() + 1
             if (allocated(error)) exit
@@ -104,6 +106,7 @@ contains
 
       member%wall = case%wall
       member%group = ''
+      member%facade = ''
       call write_names(case, name, files)
       call write_row(case, member, row, name, files, error)
    end subroutine write_one_row
@@ -119,7 +122,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_head(list_lengths(case), line)
+         call make_wall_head(list_lengths(case), case%survey%has_facades, line)
          call files%line(line)
       case ('_histories.csv')
          if (case%solver%solver%estimate_error) then
@@ -131,6 +134,8 @@ contains
          call files%line(stripes_head)
       case ('_fragility.csv')
          call files%line(fragility_head)
+      case ('_ties.csv')
+         call files%line(tie_head)
       case ('_checks.csv')
          call files%line(check_row_head)
       end select
@@ -164,7 +169,7 @@ contains
 
       select case (name)
       case ('_walls.csv')
-         call make_wall_row(member, list_lengths(case), case%job%spreadsheet_safe, line)
+         call make_wall_row(member, list_lengths(case), case%survey%has_facades, case%job%spreadsheet_safe, line)
          call files%line(line)
       case ('_histories.csv')
          call write_histories(case, member, row, files, error)
@@ -172,6 +177,8 @@ contains
          call write_stripes(case, member, row, files)
       case ('_fragility.csv')
          call write_fragility(case, member, row, files)
+      case ('_ties.csv')
+         call write_ties(case, member, row, files, error)
       end select
    end subroutine write_row
 
@@ -205,6 +212,33 @@ contains
          end do
       end do
    end subroutine write_histories
+
+   !> What the histories of a wall do to its ties
+   subroutine write_ties(case, member, row, files, error)
+      type(case_type), intent(in), target :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      type(result_files_type), intent(inout) :: files
+      !> The histories cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      type(study_type) :: study
+      type(stripes_type) :: plan
+      character(len=:), allocatable :: cells, line
+      integer :: i, j
+
+      call case%make_study(study)
+      call plan_stripes(plan, member%wall, study, error)
+      if (allocated(error)) return
+      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
+      do j = 1, size(plan%levels)
+         do i = 1, size(member%wall%mechanism%restraints)
+            call make_tie_row(cells, plan%im, plan%levels(j), member%wall%mechanism, i, &
+               & pack(row%response(:, j), plan%ran(:, j)), line)
+            call files%line(line)
+         end do
+      end do
+   end subroutine write_ties
 
    !> Histories of a row that reach each threshold at every level
    subroutine write_stripes(case, member, row, files)

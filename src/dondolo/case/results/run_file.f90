@@ -14,6 +14,7 @@ module dondolo_run_file
    use dondolo_results, only : results_type
    use dondolo_echo, only : echo_type
    use dondolo_version, only : dondolo_version_text
+   use dondolo_tie_rows, only : put_tie
    use dondolo_warning_sentence, only : put_warnings
    use dondolo_work, only : work_names
    implicit none
@@ -218,6 +219,8 @@ contains
       type(results_type), intent(in) :: results
       type(json_type), intent(inout) :: json
 
+      integer :: i
+
       associate (response => results%response)
          call json%open_object('history')
          call json%put('record', case%suite%records(case%history%record)%name)
@@ -227,6 +230,13 @@ contains
          call json%put('impacts', response%impacts)
          call json%put('time_of_peak_s', response%time_of_peak)
          if (case%solver%solver%estimate_error) call json%put('edp_error', response%edp_error)
+         if (size(results%trace%ties) > 0) then
+            call json%open_array('ties')
+            do i = 1, size(results%trace%ties)
+               call put_tie(results%trace%ties(i), json)
+            end do
+            call json%close_array()
+         end if
          call json%close_object()
       end associate
    end subroutine put_history

@@ -11,6 +11,7 @@ module dondolo_combine_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_study, only : study_type
    use dondolo_typology, only : combine_population, typology_type
+   use dondolo_unite_rows, only : unite_rows
    use dondolo_warnings, only : fit_warning_type, warn_of_records
    implicit none
    private
@@ -46,6 +47,7 @@ contains
       end do
       call set_errors(results, study, error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
+      if (.not. allocated(error)) call unite_rows(case, results, study, error)
       if (allocated(error)) return
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
@@ -149,7 +151,8 @@ contains
       logical :: found
 
       allocate (results%shown(min(shown_rows, case%survey%rows)))
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+         & facade=case%facade)
       do i = 1, case%survey%rows
          if (.not. allocated(error)) call reader%next(member, found, error)
          if (.not. allocated(error) .and. .not. found) then

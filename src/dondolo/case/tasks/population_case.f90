@@ -49,7 +49,7 @@ contains
          call case%make_study(study, team)
          study%floors => floors
          call run_population(study, case%population_path(), case%solver%gravity, store, int(case%survey%histories), &
-            & error, progress)
+            & error, progress, case%facade)
          call store%close()
          if (.not. allocated(error)) call check_table(case, store, error)
          if (allocated(error)) return
@@ -209,6 +209,7 @@ contains
 
       type(fingerprint_type) :: now
 
+      if (allocated(case%facade)) return
       call fingerprint_lines(case%population_path(), now, error)
       if (allocated(error)) return
       if (now%text() == case%survey%fingerprint%text()) return

@@ -109,7 +109,8 @@ contains
       end if
       call check_size(case%population_path(), case%survey%histories, error)
       if (.not. allocated(error)) then
-         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false.)
+         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+            & facade=case%facade)
       end if
       if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))

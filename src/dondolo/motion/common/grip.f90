@@ -5,24 +5,12 @@
 module dondolo_grip
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_response, only : never, tie_response_type
    use dondolo_tie, only : broken, elastic, flowing, slack, tie_type
    implicit none
    private
 
-   public :: grip_type, tie_response_type
-
-   !> Time of what has not happened
-   real(wp), parameter :: never = -1.0_wp
-
-   !> What a history does to a tie
-   type :: tie_response_type
-      !> Largest plastic elongation [m] and energy that it dissipates [J/m]
-      real(wp) :: plastic_elongation = 0.0_wp, energy = 0.0_wp
-      !> Does it break?
-      logical :: broken = .false.
-      !> When it first yields and when it breaks [s]; negative: never
-      real(wp) :: time_of_yield = never, time_of_fracture = never
-   end type tie_response_type
+   public :: grip_type
 
    !> The ties of a wall at present
    type :: grip_type
@@ -149,13 +137,9 @@ contains
       class(mechanism_type), intent(in) :: wall
       !> Largest rotation [rad]
       real(wp), intent(in) :: peak
-      !> Of each tie; none if there are none
+      !> Of each tie
       type(tie_response_type), allocatable, intent(out) :: response(:)
 
-      if (.not. self%exists) then
-         allocate (response(0))
-         return
-      end if
       allocate (response(size(self%mode)))
       associate (ties => wall%restraints)
          response%plastic_elongation = ties%set(peak)

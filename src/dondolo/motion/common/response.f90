@@ -4,8 +4,8 @@ module dondolo_response
    implicit none
    private
 
-   public :: response_type, trace_type
-   public :: largest_sure_error
+   public :: response_type, tie_response_type, trace_type
+   public :: largest_sure_error, never
 
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
@@ -34,6 +34,19 @@ module dondolo_response
       procedure :: is_unsure
    end type response_type
 
+   !> Time of what has not happened
+   real(wp), parameter :: never = -1.0_wp
+
+   !> What a history does to a tie
+   type :: tie_response_type
+      !> Largest plastic elongation [m] and energy that it dissipates [J/m]
+      real(wp) :: plastic_elongation = 0.0_wp, energy = 0.0_wp
+      !> Does it break?
+      logical :: broken = .false.
+      !> When it first yields and when it breaks [s]; negative: never
+      real(wp) :: time_of_yield = never, time_of_fracture = never
+   end type tie_response_type
+
    !> Time history: rows at every sample and before and after every impact
    type :: trace_type
       !> Number of rows
@@ -52,6 +65,8 @@ module dondolo_response
       real(wp), allocatable :: side(:)
       !> Whether the row is the one just after an impact; the row before it, of the same time, is just before it
       logical, allocatable :: after_impact(:)
+      !> What the motion does to each of the ties; none for a wall without ties
+      type(tie_response_type), allocatable :: ties(:)
    contains
       !> Add a row
       procedure :: add

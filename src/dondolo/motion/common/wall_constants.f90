@@ -13,7 +13,7 @@ module dondolo_wall_constants
    type :: wall_constants_type
       !> The wall at rest
       type(rest_type) :: rest
-      !> Tolerances and limit
+      !> Tolerances of a step, and limit
       type(solver_type) :: solver
       !> Capacity q_c and rotation that counts as collapse [rad]
       real(wp) :: capacity, limit
@@ -22,6 +22,10 @@ module dondolo_wall_constants
       !> Velocity p q_c, the unit of the absolute tolerance [rad/s]
       real(wp) :: velocity_unit
    end type wall_constants_type
+
+   !> Factor on the tolerances for walls with ties, and what it does not tighten them beyond. They vibrate on their ties
+   !> between many impacts, each of which enlarges errors
+   real(wp), parameter :: with_ties = 1.0e-4_wp, least_rtol = 1.0e-12_wp, least_atol = 1.0e-14_wp
 
 contains
 
@@ -33,8 +37,16 @@ contains
       !> Its constants
       type(wall_constants_type) :: constants
 
+      real(wp) :: part
+
       constants%rest = new_rest(mechanism)
       constants%solver = solver
+      if (allocated(mechanism%restraints)) then
+         ! A run with halved steps, which estimates errors, has a 32nd of them.
+         part = 0.5_wp**(5*(solver%steps_per_sample - 1))
+         constants%solver%rtol = max(with_ties*solver%rtol, min(solver%rtol, part*least_rtol))
+         constants%solver%atol = max(with_ties*solver%atol, min(solver%atol, part*least_atol))
+      end if
       constants%capacity = mechanism%capacity
       constants%gravity = mechanism%gravity
       constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)

@@ -1,8 +1,8 @@
 !> One accepted step of the engine rk45: to the next sample, less where the error asks for it, or to the first
 !> event on the way.
 !>
-!> Events - impact, turning point, limit, a level of the ties - are found on the dense output of a step; the step is then taken again so
-!> that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
+!> Events - impact, turning point, limit, a level of the ties - are found on the dense output of a step; the step is then
+!> taken again so that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_adaptive_step
    use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond, state_type
@@ -104,7 +104,7 @@ contains
       motion%q = next%q
       motion%v = next%v
       motion%f = next%f
-      motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
+      if (motion%grip%exists) motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
       if (event /= no_event) motion%longest = longest_step(constants%solver%steps_per_sample, dt, motion%time)
    end subroutine advance
 

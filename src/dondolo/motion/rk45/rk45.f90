@@ -7,7 +7,7 @@ module dondolo_rk45
    use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_events, only : impact, level_above, level_below, limit_reached, turning
-   use dondolo_grip, only : grip_type, tie_response_type
+   use dondolo_grip, only : grip_type
    use dondolo_held_tail, only : held_motion
    use dondolo_history, only : starting_acceleration
    use dondolo_interrupt, only : look_for_interrupt
@@ -35,7 +35,7 @@ module dondolo_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work, ties)
+   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -49,8 +49,6 @@ contains
       real(wp), intent(in), optional :: release
       !> Counts, added to
       type(work_type), intent(inout), optional :: work
-      !> What the history does to each of the ties; none if there are none
-      type(tie_response_type), allocatable, intent(out), optional :: ties(:)
 
       class(mechanism_type), allocatable :: wall
       type(wall_constants_type) :: constants
@@ -83,10 +81,9 @@ contains
 
       motion%collapsed = ending == collapsed
       if (motion%grip%exists) then
-         call finish_ties(wall, constants, record, ending == record_over, motion, ties)
-      else
-         if (ending == record_over) call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v)
-         if (present(ties)) allocate (ties(0))
+         call finish_ties(wall, constants, record, ending == record_over, motion, trace)
+      else if (ending == record_over) then
+         call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v)
       end if
       call motion%finish(constants, record, response, work)
       if (present(work)) then
@@ -99,6 +96,7 @@ contains
             call rock(wall, constants, record, last, motion, ending, trace)
          end if
          call trace%trim_rows()
+         if (.not. allocated(trace%ties)) allocate (trace%ties(0))
       end if
    end subroutine simulate_rk45
 
@@ -134,7 +132,7 @@ contains
    end subroutine wait
 
    !> Add the free motion after the record of a wall with ties, and say what the history did to them
-   pure subroutine finish_ties(wall, constants, record, still_rocks, motion, ties)
+   pure subroutine finish_ties(wall, constants, record, still_rocks, motion, trace)
       !> The wall as its ties hold it
       class(mechanism_type), intent(in) :: wall
       !> Its constants
@@ -144,8 +142,8 @@ contains
       logical, intent(in) :: still_rocks
       !> The history; its peak is that of all times afterwards
       type(motion_type), intent(inout) :: motion
-      !> What it did to each of the ties
-      type(tie_response_type), allocatable, intent(out), optional :: ties(:)
+      !> Gets what it did to each of the ties
+      type(trace_type), intent(inout), optional :: trace
 
       class(mechanism_type), allocatable :: after
       type(grip_type) :: grip
@@ -158,7 +156,7 @@ contains
          call held_motion(after, grip, constants%limit, motion%q, motion%v, record%duration(), tail)
          call motion%take_tail(tail, record)
       end if
-      if (present(ties)) call grip%responses(wall, motion%peak, ties)
+      if (present(trace)) call grip%responses(wall, motion%peak, trace%ties)
    end subroutine finish_ties
 
    !> Rocking, until rest, collapse, or the end of the last interval

@@ -1,0 +1,172 @@
+!> What is printed of facades and walls with several mechanisms, and of the checks of their rows.
+module dondolo_union_lines
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_case, only : case_type
+   use dondolo_check_input, only : state_names
+   use dondolo_check_lines, only : chance
+   use dondolo_check_rows, only : check_methods, check_states, shown_verdicts
+   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
+   use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
+   use dondolo_results, only : results_type, shown_rows
+   use dondolo_text, only : counted, left, right, rounded, to_text
+   use dondolo_unions, only : union_type
+   implicit none
+   private
+
+   public :: print_unions, print_verdict_rows
+
+   !> Width of the column of names
+   integer, parameter :: name_width = 30
+
+contains
+
+   !> Print what the same histories say of walls with several mechanisms, beside their product
+   subroutine print_unions(case, results)
+      type(case_type), intent(in) :: case
+      !> Results with unions
+      type(results_type), intent(in) :: results
+
+      integer :: i, state, walls
+
+      state = size(case%stripes%thresholds)
+      walls = count(results%unions%rows(1) > 0)
+      write (output_unit, '(a)') ''
+      if (walls == 1 .and. case%survey%walls == 1) then
+         call print_one(case, results%unions(1), state)
+         return
+      end if
+      write (output_unit, '(a)') 'in series, counted in the same histories and by the product of independent mechanisms:'
+      do i = 1, size(results%unions)
+         if (i <= shown_rows .or. results%unions(i)%rows(1) == 0) call print_line(case, results%unions(i), state)
+         if (i == shown_rows .and. walls > shown_rows) write (output_unit, '(a)') '... and '// &
+            & to_text(walls - shown_rows)//' more'
+      end do
+   end subroutine print_unions
+
+   !> Print the one facade of a population
+   subroutine print_one(case, union, state)
+      type(case_type), intent(in) :: case
+      type(union_type), intent(in) :: union
+      !> Number of the damage state
+      integer, intent(in) :: state
+
+      character(len=:), allocatable :: head
+      character(len=120) :: line
+      integer :: j, k
+
+      write (output_unit, '(a)') ''''//union%name//''', '//counted(union%rows(2) - union%rows(1) + 1, 'mechanism')// &
+         & ' in series: a history counts if one of them collapses in it; independent: 1 - product (1 - P)'
+      call make_head(case, head)
+      write (output_unit, '(a, a12, a10, a13)') head, 'collapses', 'fraction', 'independent'
+      do j = 1, size(case%stripes%levels)
+         associate (fraction => union%fraction(j, state))
+            write (line, '(a, a12, f10.3, f13.3, 2x, a)') right(rounded(case%stripes%levels(j)), len(head)), &
+               & rounded(fraction*union%histories(j))//'/'//to_text(nint(union%histories(j))), fraction, &
+               & union%independent(j, state), bar(fraction)
+            write (output_unit, '(a)') trim(line)
+         end associate
+      end do
+      write (output_unit, '(a)') ''
+      do k = 1, state
+         if (k < state) write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
+         if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
+         call print_fit(case, union%curve(k))
+      end do
+      write (output_unit, '(a)') 'taken as independent: '//trim(parameters(case, union%product(state), union%saturation))
+   end subroutine print_one
+
+   !> Print a wall or a mean in one line
+   subroutine print_line(case, union, state)
+      type(case_type), intent(in) :: case
+      type(union_type), intent(in) :: union
+      !> Number of the damage state
+      integer, intent(in) :: state
+
+      character(len=:), allocatable :: who
+
+      if (len(union%name) > 0) then
+         who = union%name
+      else if (len(union%group) > 0) then
+         who = 'group '''//union%group//''''
+      else
+         who = 'population'
+      end if
+      write (output_unit, '(a)') who//': '//trim(parameters(case, union%curve(state), union%saturation))// &
+         & '; independent: '//trim(parameters(case, union%product(state), union%saturation))
+   end subroutine print_line
+
+   !> Parameters of a curve
+   function parameters(case, curve, saturation) result(text)
+      type(case_type), intent(in) :: case
+      type(fragility_type), intent(in) :: curve
+      !> Share that can collapse
+      real(wp), intent(in) :: saturation
+      !> In words, filled up with blanks
+      character(len=300) :: text
+
+      text = 'no fragility curve, status '//curve%status
+      if (curve%has_fit()) text = 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()//', beta = '// &
+         & rounded(curve%beta)//', at 16, 50, 84 % '//trim(fractiles(case, curve, saturation))
+   end function parameters
+
+   !> Print the checks of the first rows, and the probabilities of collapse at the peak acceleration of the site
+   subroutine print_verdict_rows(case, results)
+      !> The case, with a check
+      type(case_type), intent(in) :: case
+      !> Its results, with verdicts
+      type(results_type), intent(in) :: results
+
+      integer :: i, k
+
+      associate (verdicts => results%verdicts)
+         if (verdicts%checked == 0) return
+         write (output_unit, '(a, a10, 4a15, a13)') left('capacity / demand', name_width), 'alpha_0', &
+            & (right(trim(check_methods(k))//' '//check_states(k), 15), k=1, size(check_states)), 'P at a_g S'
+         do i = 1, min(verdicts%checked, shown_verdicts)
+            associate (verdict => verdicts%first(i))
+               write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width), right(rounded(verdict%multiplier), 10), &
+                  & (right(rounded(verdict%ratio(k)), 15), k=1, size(check_states)), in_column(verdict%probability)
+            end associate
+         end do
+         if (verdicts%checked > shown_verdicts) write (output_unit, '(a)') '... and '// &
+            & to_text(verdicts%checked - shown_verdicts)//' more'
+      end associate
+      if (.not. allocated(results%unions) .or. case%stripes%scaling%name /= 'pga') return
+      associate (spectrum => case%check%spectrum(2))
+         do i = 1, min(size(results%unions), shown_rows)
+            if (results%unions(i)%rows(1) == 0) cycle
+            call print_chance(results%unions(i), spectrum%pga)
+         end do
+      end associate
+
+   contains
+
+      !> A probability in its column, a dash where there is none
+      function in_column(probability) result(cell)
+         real(wp), intent(in) :: probability
+         character(len=13) :: cell
+
+         cell = right('-', len(cell))
+         if (probability >= 0.0_wp) cell = right(trim(chance(probability)), len(cell))
+      end function in_column
+
+      !> Print the probability that a facade collapses at the peak acceleration of the site
+      subroutine print_chance(union, pga)
+         type(union_type), intent(in) :: union
+         !> a_g S of SLV [g]
+         real(wp), intent(in) :: pga
+
+         real(wp) :: probability(2)
+         integer :: last
+
+         last = size(union%curve)
+         if (.not. (union%curve(last)%has_fit() .and. union%product(last)%has_fit())) return
+         probability = union%saturation*[union%curve(last)%probability(pga), union%product(last)%probability(pga)]
+         write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
+            & trim(chance(probability(1)))//'; taken as independent '//trim(chance(probability(2)))
+      end subroutine print_chance
+
+   end subroutine print_verdict_rows
+
+end module dondolo_union_lines

@@ -1,0 +1,68 @@
+"""Facades: the walls above their hinges, which share their records."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+
+from dondolo._base.arguments import as_array, instance_of
+from dondolo._fortran.walls import describe_wall
+from dondolo.errors import InputError
+from dondolo.walls.mechanisms import OneSidedWall, wall_from
+from dondolo.walls.population import Population
+
+
+def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
+    """Make the walls of a facade that can turn out about several hinges.
+
+    Parameters
+    ----------
+    wall : OneSidedWall
+        The whole facade, its hinge at the base.
+    hinge_level : sequence of float or 'storeys'
+        Heights of the hinges above the base [m]; 'storeys' for the bottom of each section.
+
+    Returns
+    -------
+    Population
+        One facade: for each hinge the wall 'NAME at Z m' of what is above it, with the sections, loads, thrusts and
+        springs there, on the floor of the building at its level. The walls are in series.
+
+    Raises
+    ------
+    InputError
+        A hinge that the wall does not have, or a wall that does not stand.
+
+    Notes
+    -----
+    docs/theory.md, section 2. `Typology.unions` has the curve of the facade counted in the same histories,
+    `Typology.combined` that of the product.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> whole = dd.OneSidedWall(section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], name="front")
+    >>> [wall.name for wall in dd.facade(whole)]
+    ['front at 0 m', 'front at 4 m', 'front at 7.5 m']
+    """
+    instance_of("wall", wall, OneSidedWall, "no one-sided wall")
+    if isinstance(hinge_level, str):
+        if hinge_level != "storeys":
+            raise InputError(f"hinge_level = {hinge_level!r}: must be heights or 'storeys'")
+        heights = wall.section_height
+        if heights is None:
+            raise InputError("hinge_level = 'storeys': only with section_height, the heights of the storeys")
+        levels = np.append(0.0, np.cumsum(np.atleast_1d(heights))[:-1])
+    else:
+        levels = as_array("hinge_level", hinge_level)
+    if len(levels) == 0:
+        raise InputError("hinge_level: must be given")
+    if np.any(np.diff(levels) <= 0.0):
+        raise InputError("hinge_level: must increase")
+    properties, walls = wall._properties(), []
+    for level in levels.tolist():
+        own = {"hinge_level": [level], "name": f"{wall.name} at {np.format_float_positional(level, trim='-')} m"}
+        walls.append(wall_from(describe_wall(properties | own, wall.gravity)))
+    return Population(tuple(walls), facades=(wall.name,) * len(walls))

@@ -1,0 +1,260 @@
+"""Facades: the walls above their hinges, and their union of the same histories."""
+
+import csv
+import itertools
+import subprocess
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+BUILDING = dd.Building(0.3, storeys=3, level=0.0, building_height=10.5)
+STOREYS = {"section_height": [4.0, 3.5, 3.0], "section_thickness": [0.60, 0.45, 0.30], "name": "front"}
+FLOORS = {"load": [12e3, 12e3, 6e3], "load_height": [4.0, 7.5, 10.5], "load_depth": [0.5, 0.35, 0.2]}
+CASE = """&job task = 'typology', output = 'out', histories = .true. /
+&wall name = 'front', mechanism = 'one_sided', section_height = 4.0, 3.5, 3.0, section_thickness = 0.6, 0.45, 0.3,
+   load = 12e3, 12e3, 6e3, load_height = 4.0, 7.5, 10.5, load_depth = 0.5, 0.35, 0.2, load_inertia = 'both',
+   hinge_at = 'storeys' /
+&building period = 0.3, storeys = 3, level = 0.0, building_height = 10.5 /
+&records catalogue = '{catalogue}', polarity = 'both' /
+&stripes levels = 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, edp_thresholds = 0.3 /
+&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B' /
+"""
+TABLE = """name,mechanism,height,thickness,hinge1_level,hinge2_level,p_occ,weight
+a,one_sided,6,0.5,0,3,1,2
+b,one_sided,3,0.25,,,0.8,1
+b,two_block,3,0.25,,,0.5,1
+c,one_sided,3,0.3,,,1,1
+"""
+
+
+def whole(**more):
+    return dd.OneSidedWall(**STOREYS, **FLOORS, load_inertia="both", building=BUILDING, **more)
+
+
+def rows(path):
+    """Rows of a table of results."""
+    with path.open() as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def test_levels():
+    """Section 7 of the mechanics: trigger with the masses, and capacity, at three hinges."""
+    found = dd.facade(whole())
+    assert [wall.name for wall in found] == ["front at 0 m", "front at 4 m", "front at 7.5 m"]
+    assert found.wholes == ("front",) * 3
+    assert list(found.first_rows) == [0]
+    triggers = [wall.trigger_acceleration / wall.gravity for wall in found]
+    assert triggers == pytest.approx([0.0556394616924816, 0.0671416144998685, 0.0856590731458974], rel=1e-12)
+    capacities = [wall.capacity_angle for wall in found]
+    assert capacities == pytest.approx([0.0555821528209993, 0.0670409951295991, 0.0854504835372323], rel=1e-12)
+    assert [wall.building.level for wall in found] == [0.0, 4.0, 7.5]
+    assert found[2].load == (6e3,)
+    assert found[0].terms(0.01) == whole().terms(0.01)
+
+
+def test_one_hinge():
+    wall = whole(hinge_level=7.5)
+    assert (wall.name, wall.height, wall.thickness, wall.building.level) == ("front", 3.0, 0.3, 7.5)
+    assert wall.terms(0.01) == dd.facade(whole(), hinge_level=[7.5])[0].terms(0.01)
+
+
+def test_leaves():
+    wall = dd.OneSidedWall(3.0, 0.25, leaves=2)
+    assert wall.slenderness_angle == pytest.approx(0.0416425790985884, rel=1e-12)
+    assert wall.thickness == 0.25
+    ax = wall.plot()
+    assert len(ax.patches) == 4
+    assert "leaves=2" in repr(wall)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: dd.facade(dd.FreeStandingWall(3.0, 0.5)), "no one-sided wall"),
+        (lambda: dd.facade(dd.OneSidedWall(3.0, 0.5)), "only with section_height"),
+        (lambda: dd.facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),
+        (lambda: dd.facade(whole(), hinge_level=[]), "must be given"),
+        (lambda: dd.facade(whole(), hinge_level=[4.0, 4.0]), "must increase"),
+        (lambda: dd.facade(whole(), hinge_level=[12.0]), "must be less than the height of the wall, 10.5 m"),
+        (lambda: whole(hinge_level=[0.0, 4.0]), "hinge_level: has 2 values"),
+        (lambda: whole(leaves=2), "load: not with leaves = 2"),
+        (lambda: dd.Population(tuple(dd.facade(whole())), facades=("f", "", "f")), "facade = 'f': another facade"),
+        (
+            lambda: dd.facade(whole()) + dd.facade(whole(), hinge_level=[1.0]),
+            "both populations have a facade of this name",
+        ),
+        (lambda: dd.Population(tuple(dd.facade(whole())), [1, 2, 1], facades=("f",) * 3), "of one facade must have"),
+    ],
+)
+def test_wrong(make, message):
+    with pytest.raises(dd.InputError, match=message.replace("(", r"\(")):
+        make()
+
+
+@pytest.fixture(scope="module")
+def ran(executable, root, tmp_path_factory):
+    """Folder of the executable's results of the case, and what it printed."""
+    folder = tmp_path_factory.mktemp("facade")
+    (folder / "case.nml").write_text(CASE.format(catalogue=root / "data/records/synthetic44.csv"))
+    done = subprocess.run([executable, "case.nml"], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder, done.stdout
+
+
+def test_union_of_histories(ran):
+    """A history of the table counts once if any hinge collapses in it."""
+    folder, printed = ran
+    histories = rows(folder / "out_histories.csv")
+    for threshold in (0.3, 1.0):
+        reached = {}
+        for row in histories:
+            key = float(row["im_level"]), row["record"], row["polarity"]
+            reached[key] = max(reached.get(key, 0.0), float(row["edp"]))
+        unions = [row for row in rows(folder / "out_unions.csv") if float(row["edp_threshold"]) == threshold]
+        assert len(unions) == 6
+        for row in unions:
+            level = float(row["im_level"])
+            own = [edp >= threshold for key, edp in reached.items() if key[0] == level]
+            assert (int(row["histories"]), float(row["collapses"])) == (88, sum(own))
+            parts = [
+                np.mean([float(one["edp"]) >= threshold for one in histories if (one["wall"], one["im_level"]) == pair])
+                for pair in itertools.product(sorted({one["wall"] for one in histories}), [row["im_level"]])
+            ]
+            assert float(row["independent_fraction"]) == pytest.approx(1.0 - np.prod(1.0 - np.array(parts)), rel=1e-12)
+            assert float(row["fraction"]) <= float(row["independent_fraction"]) + 1e-12
+    assert "'front', 3 mechanisms in series" in printed
+    assert "'front': probability of collapse at a_g S = 0.24 g" in printed
+
+
+def test_executable_and_python(ran, root):
+    folder, _ = ran
+    result = dd.run_case(folder / "case.nml", progress=False).typology
+    stored = dd.read_results(folder / "out")
+    assert stored.population.facades == ("front",) * 3
+    assert [wall.building.level for wall in stored.population] == [0.0, 4.0, 7.5]
+    assert stored.typology.combined["front"].theta == pytest.approx(result.combined["front"].theta, rel=1e-12)
+    with pytest.raises(dd.InputError, match="read back"):
+        stored.typology.unions  # noqa: B018
+    for threshold in (0.3, 1.0):
+        curve = result.at(threshold).unions["front"]
+        row = next(row for row in rows(folder / "out_unions.csv") if float(row["edp_threshold"]) == threshold)
+        product = result.at(threshold).combined["front"].theta
+        found = [curve.theta, curve.beta, curve.se_ln_theta, curve.se_beta, product]
+        names = ["theta", "beta", "se_ln_theta", "se_beta", "independent_theta"]
+        assert found == pytest.approx([float(row[name]) for name in names], rel=1e-9)
+
+
+def test_population_of_facades(run, root, tmp_path, records):
+    """Hinges as columns, mechanisms that may not occur, and walls of one mechanism, in the executable and in Python."""
+    (tmp_path / "walls.csv").write_text(TABLE)
+    people = dd.read_population(tmp_path / "walls.csv")
+    assert people.wholes == ("a", "a", "b", "b", "c")
+    people.to_csv(tmp_path / "again.csv")
+    again = dd.read_population(tmp_path / "again.csv")
+    assert again.facades == ("a", "a", "", "", "")
+    assert [wall.height for wall in again] == [6.0, 3.0, 3.0, 3.0, 3.0]
+    levels = [0.2, 0.4, 0.6, 0.8, 1.2, 1.6]
+    result = dd.typology(people, records, levels, polarity="both", progress=False)
+    assert list(result.unions) == ["a", "b"]
+    assert list(result.combined) == ["a", "b", "c"]
+    flags = result.flags
+    union, own = result.unions["b"], [flags.of([i])[0, -1] for i in (2, 3)]
+    expected = 1.0 - (1.0 - 0.8 * own[0]) * (1.0 - 0.5 * np.tile(own[1], 2))
+    assert union.saturation == pytest.approx(0.9)
+    assert union.collapses * union.saturation == pytest.approx(expected.sum(axis=1), rel=1e-12)
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}', polarity = 'both' /\n"
+        f"&stripes levels = {', '.join(map(str, levels))} /\n"
+    )
+    done = run("case.nml")
+    assert done.returncode == 0, done.stderr
+    table = rows(tmp_path / "out_unions.csv")
+    assert list(dict.fromkeys(row["wall"] for row in table)) == ["a", "b", ""]
+    for name in ("a", "b"):
+        first = next(row for row in table if row["wall"] == name)
+        assert float(first["theta"]) == pytest.approx(result.unions[name].theta, rel=1e-9)
+    means = [float(row["fraction"]) for row in table if not row["wall"]]
+    fractions = {name: curve.saturation * curve.collapses / curve.histories for name, curve in result.unions.items()}
+    alone = result.combined["c"].collapses / result.combined["c"].histories
+    assert means == pytest.approx((2 * fractions["a"] + fractions["b"] + alone) / 4.0, rel=1e-9)
+    assert "a: theta = " in done.stdout
+    assert "population: theta = " in done.stdout
+
+
+def test_saved(tmp_path, few):
+    result = dd.typology(dd.facade(whole()), few, [0.2, 0.3, 0.5], progress=False)
+    result.save(tmp_path / "facade.npz")
+    again = dd.load(tmp_path / "facade.npz")
+    assert again.population.facades == ("front",) * 3
+    assert again.unions["front"].theta == result.unions["front"].theta
+
+
+def test_plot(ran):
+    result = dd.run_case(ran[0] / "case.nml", progress=False).typology
+    ax = result.plot_union()
+    words = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert words[0] == "front at 0 m, one-sided"
+    assert any(word.startswith("same histories: θ = ") for word in words)
+    with pytest.raises(dd.InputError, match="name = 'back'"):
+        result.plot_union(name="back")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("hinge_at = 'storeys'", "hinge_level = 0.0, 11.0", "case.nml: &wall: hinge_level = 11: must be less than"),
+        ("hinge_at = 'storeys'", "density = 1800", "&population: must be given for task = 'typology'"),
+        ("task = 'typology'", "task = 'stripes'", "case.nml: &wall: hinge_level: has 3 values"),
+        ("hinge_at = 'storeys'", "hinge_at = 'floors'", "hinge_at = 'floors': must be one of 'storeys'"),
+        ("section_thickness = 0.6, 0.45, 0.3", "section_thickness = 0.6, 0.45", "section_thickness: has 2 values"),
+    ],
+)
+def test_wrong_case(run, root, tmp_path, old, new, message):
+    text = CASE.format(catalogue=root / "data/records/synthetic44.csv").replace(", histories = .true.", "")
+    assert old in text
+    (tmp_path / "case.nml").write_text(text.replace(old, new))
+    done = run("case.nml")
+    assert done.returncode != 0
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_report(ran, tmp_path):
+    result = dd.run_case(ran[0] / "case.nml", progress=False).typology
+    dd.report(result, tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text()
+    assert "Facade front: its walls above each hinge" in text
+    assert "Facades and walls with several mechanisms, collapse in the same histories." in text
+    assert f"{result.unions['front'].theta:.4g}"[:5] in text
+
+
+def test_check_says_leaves(run, root, tmp_path):
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'stripes', output = 'out' /\n"
+        "&wall mechanism = 'one_sided', height = 3, thickness = 0.25, leaves = 2 /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n&stripes levels = 0.1, 0.2, 0.4 /\n"
+    )
+    assert "2 leaves of 0.125 m, one of which rocks" in run("--check", "case.nml").stdout
+    done = run("case.nml")
+    assert "2 leaves of 0.125 m" in done.stdout
+    (row,) = rows(tmp_path / "out_walls.csv")
+    assert float(row["leaves"]) == 2.0
+    assert float(row["alpha_rad"]) == pytest.approx(0.0416425790985884, rel=1e-12)
+    assert dd.read_results(tmp_path / "out").stripes.wall.leaves == 2.0
+
+
+def test_ties_above_a_hinge():
+    """Those below it, and at it, hold nothing of what is above."""
+    ties = {"tie_area": 5e-5, "tie_length": [8.0, 8.0, 6.0], "tie_depth": 0.0, "tie_strain": [0.02, 0.02, 0.05]}
+    above = dd.OneSidedWall(9.0, 0.5, tie_height=[2.5, 4.0, 8.5], hinge_level=4.0, **ties)
+    alone = dd.OneSidedWall(5.0, 0.5, tie_height=4.5, tie_area=5e-5, tie_length=6.0, tie_depth=0.0, tie_strain=0.05)
+    assert above.trigger_acceleration == pytest.approx(alone.trigger_acceleration, rel=1e-12)
+    pulse = dd.pulses.ricker(4.0, 0.8)
+    motions = [dd.simulate(wall, pulse, scale=1.0) for wall in (above, alone)]
+    assert motions[0].edp == pytest.approx(motions[1].edp, rel=1e-9)
+    assert 0.0 < motions[0].edp < 1.0
+    none = dd.OneSidedWall(9.0, 0.5, tie_height=2.5, hinge_level=4.0, tie_area=5e-5, tie_length=8.0)
+    assert none.trigger_acceleration == dd.OneSidedWall(5.0, 0.5).trigger_acceleration

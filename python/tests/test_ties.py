@@ -1,0 +1,159 @@
+"""Ties of walls: statics and histories against values computed elsewhere, tables, populations, refusals."""
+
+import json
+
+import matplotlib
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+matplotlib.use("Agg")
+
+TIE = {"tie_height": 8.5, "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
+SHAKING = np.array([0.0, -3.5, -3.5, -3.5, -1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def facade():
+    return dd.OneSidedWall(9.0, 0.5, **TIE, name="facade")
+
+
+@pytest.fixture(scope="module")
+def record():
+    return dd.Record(SHAKING, 0.1, name="shaking")
+
+
+def test_statics(facade):
+    g = facade.gravity
+    assert facade.trigger_acceleration / g == pytest.approx(0.0912124606200946, rel=1e-12)
+    assert facade.greatest_acceleration / g == pytest.approx(0.268801428900375, rel=1e-12)
+    assert facade.plastic_acceleration / g == pytest.approx(0.26949698594279, rel=1e-12)
+    bare = dd.OneSidedWall(9.0, 0.5)
+    assert bare.greatest_acceleration == bare.plastic_acceleration == bare.trigger_acceleration
+    assert facade.capacity_angle == pytest.approx(bare.capacity_angle, rel=1e-12)
+    assert facade.frequency_parameter == pytest.approx(bare.frequency_parameter, rel=1e-12)
+
+
+def test_a_history(facade, record, tmp_path):
+    response = dd.simulate(facade, record)
+    assert response.edp * facade.capacity_angle == pytest.approx(0.012578250461766, rel=1e-9)
+    assert response.ties.plastic_elongation == pytest.approx([0.101087067012615], rel=1e-9)
+    assert response.ties.energy == pytest.approx([9000.0 * 0.101087067012615], rel=1e-9)
+    assert not response.ties.broken.any()
+    assert response.tie_times[0, 0] == pytest.approx(0.120984878596056, rel=1e-9)
+    assert np.isnan(response.tie_times[0, 1])
+    assert "tie 1 stretched for good" in repr(response)
+    path = tmp_path / "history.csv"
+    response.to_csv(path)
+    (line,) = (line for line in path.read_text().splitlines() if line.startswith("# tie 1"))
+    assert "time_of_yield_s" in line
+    assert "time_of_fracture_s" not in line
+    response.save(tmp_path / "response.npz")
+    again = dd.load(tmp_path / "response.npz")
+    assert np.array_equal(again.tie_times, response.tie_times, equal_nan=True)
+    assert again.ties.energy == response.ties.energy
+    alone = dd.simulate(facade, record, history=False)
+    assert alone.edp == response.edp
+    assert alone.tie_times is None
+    assert alone.ties.energy == response.ties.energy
+    bare = dd.simulate(dd.OneSidedWall(9.0, 0.5), record)
+    assert bare.tie_times is None
+    assert bare.ties.energy.shape == (0,)
+
+
+def test_stripes(record):
+    wall = dd.OneSidedWall(9.0, 0.5, **TIE | {"tie_height": [8.5, 4.0]})
+    stripes = dd.multiple_stripe(wall, [record], [0.1, 0.3, 0.6, 1.2], polarity="both", progress=False)
+    assert stripes.broken_ties.shape == (4, 2)
+    for i, level in enumerate(stripes.levels):
+        ends = [dd.simulate(wall, record, sign * level * 9.81 / 3.5).ties.broken for sign in (1, -1)]
+        assert stripes.broken_ties[i] == pytest.approx(np.mean(ends, axis=0))
+    assert stripes.broken_ties[0].max() == 0.0
+    assert stripes.broken_ties[-1].min() > 0.0
+    assert np.all(np.diff(stripes.broken_ties[:, 0]) >= 0.0)
+
+
+def test_default_tolerances_are_enough(records):
+    """rk45 at its defaults against tight tolerances: walls on ties enlarge errors, so that their steps are tighter."""
+    wall = dd.OneSidedWall(9.0, 0.5, tie_height=[8.5, 4.5], tie_area=5e-5, tie_length=8.0, tie_preload=2e7)
+    levels = [0.2, 0.5, 0.8]
+    usual = dd.multiple_stripe(wall, records, levels, polarity="both", progress=False)
+    tight = dd.multiple_stripe(
+        wall, records, levels, polarity="both", progress=False, solver=dd.Solver(rtol=1e-13, atol=1e-15)
+    )
+    assert np.array_equal(usual.collapsed, tight.collapsed)
+    assert np.mean(np.abs(usual.edp - tight.edp) > 1e-6) <= 0.01
+
+
+def test_population(facade, record, tmp_path):
+    other = dd.OneSidedWall(3.0, 0.25, name="other")
+    two = dd.OneSidedWall(9.0, 0.5, **TIE | {"tie_height": [8.5, 4.0]}, tie_strain=[0.02, 0.1], name="two")
+    population = dd.Population([other, facade, two])
+    frame = population.to_frame()
+    assert list(frame["tie2_height_m"].fillna(0.0)) == [0.0, 0.0, 4.0]
+    path = tmp_path / "walls.csv"
+    population.to_csv(path)
+    again = dd.read_population(path)
+    assert again.walls[2].tie_strain == (0.02, 0.1)
+    assert again.walls[1].tie_area == (5e-5,)
+    curves = dd.typology(population, [record], [0.2, 0.5], progress=False)
+    alone = dd.multiple_stripe(facade, [record], [0.2, 0.5], progress=False)
+    assert np.array_equal(curves.curves[1].collapses, alone.collapses)
+
+
+def test_what_the_executable_says(run, tmp_path, facade, record):
+    catalogue = tmp_path / "records.csv"
+    (tmp_path / "shaking.txt").write_text("\n".join(map(str, SHAKING)))
+    catalogue.write_text("file,dt_s,units\nshaking.txt,0.1,m/s2\n")
+    wall = "mechanism = 'one_sided', height = 9.0, thickness = 0.5, name = 'facade', tie_height = 8.5, tie_area = 5e-5,"
+    wall += " tie_length = 8.0, tie_preload = 3e7"
+    case = tmp_path / "case.nml"
+    case.write_text(
+        f"&job task = 'stripes' output = '{tmp_path}/out' /\n&wall {wall} /\n&records catalogue = 'records.csv' /\n"
+        "&stripes levels = 0.2, 0.6 /\n"
+    )
+    plan = run("--check", case).stdout
+    assert "first motion at 0.09121 g, greatest static acceleration 0.2688 g, rigid-plastic 0.2695 g" in plan
+    ran = run(case)
+    assert "wall 'facade' has ties: the engine rk45 computes their histories" in ran.stdout + ran.stderr
+    lines = [line for line in (tmp_path / "out_ties.csv").read_text().splitlines() if not line.startswith("#")]
+    assert lines[0].split(",")[3:8] == ["im_level", "tie", "histories", "yielded", "broken"]
+    assert [line.split(",")[6:8] for line in lines[1:]] == [["1", "0"], ["1", "1"]]
+    results = dd.read_results(tmp_path / "out")
+    assert results.stripes.broken_ties.tolist() == [[0.0], [1.0]]
+    case.write_text(
+        f"&job task = 'history' output = '{tmp_path}/one' /\n&wall {wall} /\n&records catalogue = 'records.csv' /\n"
+        "&history record = 1, scale = 1.0 /\n"
+    )
+    assert "tie 1: yields at 0.121 s, stretches by 0.1011 m for good and dissipates 909.8 J/m" in run(case).stdout
+    (tie,) = json.loads((tmp_path / "one_run.json").read_text())["history"]["ties"]
+    assert tie["broken"] is False
+    assert "time_of_fracture_s" not in tie
+    assert np.isnan(dd.read_results(tmp_path / "one").response.tie_times[0, 1])
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        ({"tie_preload": 1.8e8}, "tie 1: its tie_preload = 180000000 must be less than its tie_strength"),
+        ({"tie_height": 0.0}, "tie 1: its tie_height = 0 must be above the hinge"),
+        ({"tie_height": 9.1}, "tie 1: its tie_height = 9.1 must be above the hinge, 0 m, and at most 9 m"),
+        ({"tie_depth": 0.51}, "tie 1: its tie_depth = 0.51 must lie between -0.1 and 0.5 m"),
+        ({"tie_height": None}, "tie_area: only with tie_height"),
+        ({"tie_strain": 1e-5}, "tie 1: its tie_strain = 1e-5 must be more than 0.0008738, at which it yields"),
+    ],
+)
+def test_refusals(change, sentence):
+    with pytest.raises(dd.InputError, match=sentence.replace("(", r"\(")):
+        dd.OneSidedWall(9.0, 0.5, **TIE | change)
+
+
+def test_lanes_and_check_decline(facade, record):
+    with pytest.raises(dd.InputError, match="does not know ties"):
+        dd.multiple_stripe(facade, [record], [0.5], solver=dd.Solver(engine="lanes"), progress=False)
+
+
+def test_drawing(facade):
+    axes = facade.plot()
+    assert any("tie 0.5" in text.get_text() for text in axes.texts)

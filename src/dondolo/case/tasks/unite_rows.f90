@@ -1,0 +1,114 @@
+!> Walls and facades with several mechanisms, counted in the same histories, out of what the stores of a population hold.
+module dondolo_unite_rows
+   use dondolo_case, only : case_type
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
+   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_results, only : results_type
+   use dondolo_row_result, only : row_result_type
+   use dondolo_study, only : study_type
+   use dondolo_unions, only : mean_unions, union_builder_type, union_type, wall_union
+   implicit none
+   private
+
+   public :: unite_rows
+
+contains
+
+   !> Unions of the walls with several mechanisms, one wall in memory at a time, and their means
+   subroutine unite_rows(case, results, study, error)
+      type(case_type), intent(in) :: case
+      !> Its results: curves are there, unions are set
+      type(results_type), intent(inout) :: results
+      type(study_type), intent(in) :: study
+      !> A store has changed, or the table, or what cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      type(union_builder_type) :: builder
+      type(union_type), allocatable :: means(:)
+      type(row_result_type) :: row
+      logical :: runs(size(study%suite%clusters), size(study%levels))
+      integer :: i, k, wall, number
+
+      associate (population => results%population)
+         number = count(population%first(2:) - population%first(:population%walls()) > 1)
+         if (number == 0) return
+         call check_room(real(number, wp)*real(size(study%levels)*16*(size(population%curve, 1) + 1), wp), error)
+         if (allocated(error)) return
+         allocate (results%unions(number))
+         runs = runs_of(study)
+         wall = 1
+         number = 0
+         do k = 1, size(results%stores)
+            associate (store => results%stores(k))
+               do i = store%identity%first, store%identity%last
+                  if (i == population%first(wall + 1)) wall = wall + 1
+                  if (population%first(wall + 1) - population%first(wall) == 1) cycle
+                  call store%read(i, row, error)
+                  if (allocated(error)) exit
+                  call builder%add(row, population%p_occ(i), store%identity%shape)
+                  if (i < population%first(wall + 1) - 1) cycle
+                  number = number + 1
+                  call wall_union(results%unions(number), builder, population, wall, study%suite%clusters, runs, error)
+                  if (allocated(error)) exit
+                  deallocate (builder%survival)
+               end do
+               call store%close()
+               if (allocated(error)) return
+            end associate
+         end do
+         call name_unions(case, results%unions, error)
+         if (allocated(error) .or. population%walls() == 1) return
+         call mean_unions(means, results%unions, population, results%typologies, error)
+         if (.not. allocated(error)) results%unions = [results%unions, means]
+      end associate
+   end subroutine unite_rows
+
+   !> Name the unions after their facades, or after their walls
+   subroutine name_unions(case, unions, error)
+      type(case_type), intent(in) :: case
+      !> Unions of walls, in the order of rows: name and group are set
+      type(union_type), intent(inout) :: unions(:)
+      !> The table has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      integer :: i, next
+      logical :: found
+
+      next = 1
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
+         & facade=case%facade)
+      do i = 1, unions(size(unions))%rows(1)
+         if (.not. allocated(error)) call reader%next(member, found, error)
+         if (.not. allocated(error) .and. .not. found) then
+            call raise_failure(error, case%population_path()//': has changed while it was read')
+         end if
+         if (allocated(error)) exit
+         if (unions(next)%rows(1) /= i) cycle
+         unions(next)%name = member%wall%name()
+         if (len(member%facade) > 0) unions(next)%name = member%facade
+         unions(next)%group = member%group
+         next = next + 1
+      end do
+      call reader%close()
+   end subroutine name_unions
+
+   !> Whether each record runs at each level
+   function runs_of(study) result(runs)
+      type(study_type), intent(in) :: study
+      !> An answer for each (records, levels)
+      logical :: runs(size(study%suite%clusters), size(study%levels))
+
+      integer :: i, j
+
+      do j = 1, size(runs, 2)
+         do i = 1, size(runs, 1)
+            runs(i, j) = study%runs(i, j)
+         end do
+      end do
+   end function runs_of
+
+end module dondolo_unite_rows

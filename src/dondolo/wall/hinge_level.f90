@@ -1,0 +1,262 @@
+!> Walls above a hinge that is not at their base: the part of a facade that turns out while what is below it stays.
+!>
+!> It is a wall like any other: sections, loads, thrusts, springs, beds and ties above the hinge, heights measured from it,
+!> depths from the outer face there, and the floor of the building at its level (docs/theory.md, section 2).
+module dondolo_hinge_level
+   use dondolo_error, only : problems_type
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : number_of_words, word_of
+   use dondolo_text, only : rounded, to_text
+   use dondolo_wall_properties, only : is_of_building, wall_input_type
+   implicit none
+   private
+
+   public :: has_hinge_level, find_hinge_levels, cut_wall
+
+   !> What asks for a hinge at the bottom of every section
+   character(len=*), parameter :: storeys = 'storeys'
+
+   !> Heights that differ by this part of the wall are the same
+   real(wp), parameter :: same = 1.0e-9_wp
+
+contains
+
+   !> Is a hinge asked for, at the base or above?
+   pure logical function has_hinge_level(input)
+      !> What is said of the wall
+      class(wall_input_type), intent(in) :: input
+
+      has_hinge_level = input%has('hinge_level') .or. input%has('hinge_at')
+   end function has_hinge_level
+
+   !> Heights of the hinges that are asked for
+   subroutine find_hinge_levels(input, problems, levels)
+      !> What is said of the wall, ranges checked
+      class(wall_input_type), intent(in) :: input
+      !> Takes levels that the wall does not have
+      type(problems_type), intent(inout) :: problems
+      !> Heights above the base [m], increasing
+      real(wp), allocatable, intent(out) :: levels(:)
+
+      real(wp), allocatable :: heights(:)
+      real(wp) :: tall
+      integer :: i
+
+      heights = input%list('section_height')
+      if (size(heights) == 0) heights = [input%number('height')]
+      tall = sum(heights)
+      if (.not. input%has('hinge_at')) then
+         levels = input%list('hinge_level')
+      else
+         levels = [(sum(heights(:i)), i=0, size(heights) - 1)]
+         if (input%has('hinge_level')) call problems%note('hinge_at: give either hinge_at or hinge_level')
+         if (input%word('hinge_at') /= storeys) call problems%note('hinge_at: must be '//storeys)
+         if (.not. input%has('section_height')) call problems%note('hinge_at = '''//input%word('hinge_at')// &
+            & ''': only with section_height, the heights of the storeys')
+      end if
+      do i = 1, size(levels)
+         if (.not. levels(i) < tall*(1.0_wp - same)) call problems%note('hinge_level = '//to_text(levels(i))// &
+            & ': must be less than the height of the wall, '//rounded(tall)//' m')
+         if (i == 1) cycle
+         if (.not. levels(i) > levels(i - 1)) call problems%note('hinge_level = '//to_text(levels(i))// &
+            & ': must be more than '//to_text(levels(i - 1))//' before it')
+      end do
+   end subroutine find_hinge_levels
+
+   !> The wall above a hinge
+   subroutine cut_wall(input, level, problems)
+      !> What is said of the whole wall, checked; out: of what is above the hinge
+      class(wall_input_type), intent(inout) :: input
+      !> Height of the hinge above the base, less than that of the wall [m]
+      real(wp), intent(in) :: level
+      !> Takes what cannot be cut
+      type(problems_type), intent(inout) :: problems
+
+      real(wp) :: face
+
+      call input%clear('hinge_level')
+      call input%clear('hinge_at')
+      if (.not. level > 0.0_wp) return
+      if (input%has('mass')) call problems%note('hinge_level = '//to_text(level)// &
+         & ': not with mass, which does not say how much of it is above')
+      if (input%gives(is_of_building)) then
+         if (input%has('participation')) call problems%note('participation: not with hinge_level = '//to_text(level)// &
+            & ', give storeys, level and building_height, from which every hinge takes its own')
+         call input%set('level', input%number('level') + level)
+      end if
+      if (problems%count > 0) return
+      call cut_sections(input, level, face)
+      call keep_above(input, level, face, 'load', 'load', [character(len=11) :: 'load_lifted', 'load_pushed', 'load_seat'])
+      call keep_above(input, level, face, 'inertia_mass', 'inertia', [character(len=12) ::])
+      call keep_above(input, level, face, 'thrust', 'thrust', [character(len=12) :: 'thrust_decay'])
+      call keep_above(input, level, face, 'spring', 'spring', [character(len=12) ::])
+      call keep_above(input, level, face, 'tie_height', 'tie', [character(len=16) :: 'tie_area', 'tie_length', 'tie_modulus', &
+         & 'tie_strength', 'tie_preload', 'tie_strain', 'tie_anchor_force'])
+      call cut_beds(input, level, face)
+   end subroutine cut_wall
+
+   !> The storeys above a hinge
+   subroutine cut_sections(input, level, face)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Height of the hinge [m]
+      real(wp), intent(in) :: level
+      !> Depth of the outer face there behind that of the base [m]
+      real(wp), intent(out) :: face
+
+      real(wp), allocatable :: heights(:), base(:), top(:), offset(:)
+      logical, allocatable :: above(:)
+      real(wp) :: below
+      integer :: first
+
+      face = 0.0_wp
+      heights = input%list('section_height')
+      if (size(heights) == 0) then
+         call input%set('height', input%number('height') - level)
+         return
+      end if
+      below = 0.0_wp
+      do first = 1, size(heights) - 1
+         if (below + heights(first) > level + same*sum(heights)) exit
+         below = below + heights(first)
+      end do
+      above = spread(.true., 1, size(heights))
+      above(:first - 1) = .false.
+      ! They follow from the sections
+      call input%clear('height')
+      call input%clear('thickness')
+      offset = of_each(input%list('section_offset'), size(heights))
+      if (size(offset) > 0) then
+         face = offset(first)
+         call input%set('section_offset', pack(offset - face, above))
+      end if
+      base = of_each(input%list('section_base_width'), size(heights))
+      top = of_each(input%list('section_top_width'), size(heights))
+      if (level > below + same*sum(heights)) then
+         if (size(top) > 0) then
+            if (size(base) == 0) base = spread(1.0_wp, 1, size(heights))
+            base(first) = base(first) + (top(first) - base(first))*(level - below)/heights(first)
+         end if
+         heights(first) = below + heights(first) - level
+      end if
+      call input%set('section_height', pack(heights, above))
+      if (size(base) > 0) call input%set('section_base_width', pack(base, above))
+      if (size(top) > 0) call input%set('section_top_width', pack(top, above))
+      call choose(input, 'section_thickness', above)
+      call choose(input, 'section_fill', above)
+   end subroutine cut_sections
+
+   !> What acts above a hinge of things that have a depth and a height each
+   subroutine keep_above(input, level, face, list, what, others)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Height of the hinge, and depth of the outer face there [m]
+      real(wp), intent(in) :: level, face
+      !> Name of their list
+      character(len=*), intent(in) :: list
+      !> What the names of their depths and heights begin with
+      character(len=*), intent(in) :: what
+      !> Names of their other numbers
+      character(len=*), intent(in) :: others(:)
+
+      real(wp), allocatable :: heights(:), depths(:)
+      logical, allocatable :: above(:)
+      integer :: i, number
+
+      number = size(input%list(list))
+      if (number == 0) return
+      heights = of_each(input%list(what//'_height'), number)
+      ! At the hinge itself nothing has a lever
+      above = heights > level*(1.0_wp + same)
+      depths = input%list(what//'_depth')
+      if (size(depths) > 0) call input%set(what//'_depth', depths - face)
+      call choose(input, what//'_depth', above)
+      call input%set(what//'_height', heights - level)
+      call choose(input, what//'_height', above)
+      do i = 1, size(others)
+         call choose(input, trim(others(i)), above)
+      end do
+      call choose(input, list, above)
+      if (list == 'load') call choose_inertias(input, above)
+   end subroutine keep_above
+
+   !> Leave the words of the loads that stay
+   subroutine choose_inertias(input, above)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Which loads stay
+      logical, intent(in) :: above(:)
+
+      character(len=:), allocatable :: words
+      integer :: i
+
+      words = input%word('load_inertia')
+      if (.not. any(above)) call input%clear('load_inertia')
+      if (.not. any(above) .or. number_of_words(words) < 2) return
+      words = ''
+      do i = 1, size(above)
+         if (above(i)) words = words//','//trim(word_of(input%word('load_inertia'), i))
+      end do
+      call input%set('load_inertia', words(2:))
+   end subroutine choose_inertias
+
+   !> The parts of beds above a hinge
+   subroutine cut_beds(input, level, face)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Height of the hinge, and depth of the outer face there [m]
+      real(wp), intent(in) :: level, face
+
+      real(wp), allocatable :: bottom(:), top(:), depth(:)
+      logical, allocatable :: above(:)
+      integer :: number
+
+      number = size(input%list('bed'))
+      if (number == 0) return
+      bottom = of_each(input%list('bed_bottom'), number)
+      top = of_each(input%list('bed_top'), number)
+      depth = of_each(input%list('bed_depth'), number)
+      above = top > level*(1.0_wp + same)
+      call input%set('bed_bottom', max(bottom, level) - level)
+      call input%set('bed_top', top - level)
+      call input%set('bed_depth', depth - face)
+      call choose(input, 'bed_bottom', above)
+      call choose(input, 'bed_top', above)
+      call choose(input, 'bed_depth', above)
+      call choose(input, 'bed', above)
+   end subroutine cut_beds
+
+   !> Values of a list for each of several things: as given, or one for all
+   pure function of_each(given, number) result(values)
+      !> As many as things, one, or none
+      real(wp), intent(in) :: given(:)
+      !> Number of things
+      integer, intent(in) :: number
+      !> As many as things, or none
+      real(wp), allocatable :: values(:)
+
+      values = given
+      if (size(given) == 1) values = spread(given(1), 1, number)
+   end function of_each
+
+   !> Leave only some values of a list; one that stands for all stays unless nothing is left
+   subroutine choose(input, name, chosen)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> Which things stay
+      logical, intent(in) :: chosen(:)
+
+      real(wp), allocatable :: values(:)
+
+      if (.not. input%has(name)) return
+      values = input%list(name)
+      if (.not. any(chosen)) then
+         call input%clear(name)
+      else if (size(values) == size(chosen)) then
+         call input%set(name, pack(values, chosen))
+      end if
+   end subroutine choose
+
+end module dondolo_hinge_level
