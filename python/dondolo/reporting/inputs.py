@@ -166,7 +166,7 @@ def _walls_table(run: Run) -> Table:
 def has_vertical(run: Run) -> bool | None:
     """Whether vertical ground motion was applied; None where the results do not know."""
     if run.file is not None:
-        return run.file.setting("records", "vertical", "none") == "recorded"
+        return bool(run.file.setting("records", "vertical", "none") == "recorded")
     if run.records:
         return any(record.vertical is not None for record in run.records)
     return run.results.uplift is not None if isinstance(run.results, Stripes) else None
