@@ -58,7 +58,7 @@ contains
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
-               & 'kg/m', 'kg m2/m', 'Pa']), what//': its unit')
+               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
                call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
@@ -206,6 +206,10 @@ contains
          text = '.true.'
       case (is_list)
          text = '0.15, 0.25'
+         ! Of a tie: section, modulus, yield stress, and a strain beyond that at yield
+         if (property%name == 'tie_area') text = '5.0E-5, 6.0E-5'
+         if (property%name == 'tie_modulus') text = '2.1E+11, 2.2E+11'
+         if (property%name == 'tie_strength') text = '1.8E+8, 2.0E+8'
          ! Depths are measured from the lowest section
          if (property%name == 'section_offset') text = '0.0, 0.25'
          ! One for all limit states
@@ -374,6 +378,11 @@ contains
       case ('hinge_at')
          call input%set('section_height', [2.0_wp])
          call input%set('section_thickness', [0.4_wp])
+      case ('tie_height', 'tie_depth', 'tie_area', 'tie_length', 'tie_modulus', 'tie_strength', 'tie_preload', 'tie_strain', &
+         & 'tie_anchor_force')
+         if (what /= 'tie_height') call input%set('tie_height', [0.4_wp, 0.5_wp])
+         if (what /= 'tie_area') call input%set('tie_area', [5.0e-5_wp])
+         if (what /= 'tie_length') call input%set('tie_length', [8.0_wp])
       case ('load_lifted')
          call input%set('load_pushed', [0.5_wp, 0.5_wp])
       case ('load_pushed')

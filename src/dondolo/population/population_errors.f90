@@ -7,7 +7,9 @@
 !> of its mechanisms. Every stripe of a wall counts for one.
 module dondolo_population_errors
    use dondolo_clustered, only : cluster_errors, fewest_clusters, leave_out_type
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_population_counts, only : population_counts_type
    use dondolo_roster, only : number_of_group
    use dondolo_typology, only : typology_type
@@ -60,7 +62,7 @@ module dondolo_population_errors
 contains
 
    !> Take the curves
-   subroutine begin(self, typologies, population, part)
+   subroutine begin(self, typologies, population, part, error)
       class(population_errors_type), intent(out) :: self
       !> Curves (curve, state), those of a group one after the other
       type(typology_type), intent(in) :: typologies(:, :)
@@ -68,9 +70,14 @@ contains
       type(population_counts_type), intent(in) :: population
       !> Records of each cluster that run at each level, over all records (levels, clusters)
       real(wp), intent(in) :: part(:, :)
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
 
+      real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
       integer :: i, k, group
 
+      call check_room(bytes_of_number*real(size(typologies), wp)*real(size(part) + 10*size(part, 1), wp), error)
+      if (allocated(error)) return
       self%levels = population%levels
       self%part = part
       self%run = sum(part, dim=2)

@@ -106,7 +106,8 @@ contains
          end do
       end do
       associate (population => results%population)
-         call sums%begin(results%typologies, population, part)
+         call sums%begin(results%typologies, population, part, error)
+         if (allocated(error)) return
          wall = 1
          do k = 1, size(results%stores)
             do i = results%stores(k)%identity%first, results%stores(k)%identity%last
