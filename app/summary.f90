@@ -52,7 +52,7 @@ contains
          if (allocated(results%typologies)) then
             call print_curves(case, results)
             call print_typology(case, results)
-            if (allocated(results%unions)) call print_unions(case, results)
+            if (results%unions%count() > 0) call print_unions(case, results)
             if (allocated(case%check)) then
                write (output_unit, '(a)') ''
                call print_verdicts(results%verdicts, case%check)
@@ -68,7 +68,10 @@ contains
          & 'components, scaled as their records'//trim(factor_note(case))
       on_floors = allocated(case%wall%building)
       if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)
-      if (on_floors) then
+      if (allocated(case%survey%lengths)) on_floors = on_floors .or. any(case%survey%lengths > 0 .and. is_of_building)
+      if (on_floors .and. case%job%task == 'typology') then
+         write (output_unit, '(a)') 'note: records are of the ground; linear buildings move the walls that have one'
+      else if (on_floors) then
          write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &

@@ -27,18 +27,23 @@ contains
       !> Results with unions
       type(results_type), intent(in) :: results
 
+      type(union_type) :: union
       integer :: i, state, walls
 
       state = size(case%stripes%thresholds)
-      walls = count(results%unions%rows(1) > 0)
+      walls = size(results%unions%wall)
       write (output_unit, '(a)') ''
       if (walls == 1 .and. case%survey%walls == 1) then
-         call print_one(case, results%unions(1), state)
+         call results%unions%get(1, results%population, union)
+         call print_one(case, union, state)
          return
       end if
       write (output_unit, '(a)') 'in series, counted in the same histories and by the product of independent mechanisms:'
-      do i = 1, size(results%unions)
-         if (i <= shown_rows .or. results%unions(i)%rows(1) == 0) call print_line(case, results%unions(i), state)
+      do i = 1, results%unions%count()
+         if (i <= shown_rows .or. i > walls) then
+            call results%unions%get(i, results%population, union)
+            call print_line(case, union, state)
+         end if
          if (i == shown_rows .and. walls > shown_rows) write (output_unit, '(a)') '... and '// &
             & to_text(walls - shown_rows)//' more'
       end do
@@ -117,6 +122,7 @@ contains
       !> Its results, with verdicts
       type(results_type), intent(in) :: results
 
+      type(union_type) :: union
       integer :: i, k
 
       associate (verdicts => results%verdicts)
@@ -132,11 +138,11 @@ contains
          if (verdicts%checked > shown_verdicts) write (output_unit, '(a)') '... and '// &
             & to_text(verdicts%checked - shown_verdicts)//' more'
       end associate
-      if (.not. allocated(results%unions) .or. case%stripes%scaling%name /= 'pga') return
+      if (results%unions%count() == 0 .or. case%stripes%scaling%name /= 'pga') return
       associate (spectrum => case%check%spectrum(2))
-         do i = 1, min(size(results%unions), shown_rows)
-            if (results%unions(i)%rows(1) == 0) cycle
-            call print_chance(results%unions(i), spectrum%pga)
+         do i = 1, min(size(results%unions%wall), shown_rows)
+            call results%unions%get(i, results%population, union)
+            call print_chance(union, spectrum%pga)
          end do
       end associate
 

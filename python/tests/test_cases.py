@@ -15,8 +15,11 @@ CASES = {
     "parapet_on_building": ["walls", "histories", "stripes", "fragility"],
     "gable": ["walls", "histories", "stripes", "fragility"],
     "garden_wall": ["walls", "histories", "stripes", "fragility"],
+    "tied_facade": ["walls", "histories", "stripes", "fragility"],
     "history": ["history"],
     "population": ["walls", "stripes", "fragility", "typology"],
+    "facade_hinges": ["walls", "stripes", "fragility", "typology"],
+    "facades": ["walls", "stripes", "fragility", "typology"],
 }
 
 

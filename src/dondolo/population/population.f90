@@ -302,7 +302,7 @@ contains
          self%level = self%level + 1
          call input%clear('hinge_at')
          call input%set('hinge_level', [self%levels(self%level)])
-         call input%set('name', trim(input%word('name'))//' at '//to_text(self%levels(self%level))//' m')
+         call input%set('name', trim(input%word('name'))//' at '//to_text(anint(self%levels(self%level)*1.0e6_wp)/1.0e6_wp)//' m')
       end if
       member = self%own
       call member%wall%input%set('name', trim(input%word('name')))

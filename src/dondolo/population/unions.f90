@@ -9,6 +9,7 @@ module dondolo_unions
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : line_type
    use dondolo_population_counts, only : population_counts_type
    use dondolo_roster, only : number_of_group
    use dondolo_row_result, only : row_result_type, shape_type
@@ -17,7 +18,7 @@ module dondolo_unions
    implicit none
    private
 
-   public :: union_type, union_builder_type, wall_union, mean_unions
+   public :: union_type, unions_type, union_builder_type, wall_union, count_means, mean_unions
 
    !> Fractions of a wall with several mechanisms, or means over a population or a group
    type :: union_type
@@ -36,6 +37,30 @@ module dondolo_unions
       !> Lognormals of each state, fitted to both, divided by the saturation
       type(fragility_type), allocatable :: curve(:), product(:)
    end type union_type
+
+   !> The unions of a population. Of those of walls no more is kept than does not follow from the population: a large one
+   !> has many
+   type :: unions_type
+      !> Number of the wall of each
+      integer, allocatable :: wall(:)
+      !> Names of the walls or facades
+      type(line_type), allocatable :: name(:)
+      !> Parts of the histories in which a state is reached (levels, states, unions)
+      real(wp), allocatable :: fraction(:, :, :)
+      !> Lognormals of each state (states, unions)
+      type(fragility_type), allocatable :: curve(:, :)
+      !> Means over the population and its groups
+      type(union_type), allocatable :: mean(:)
+   contains
+      !> Make room for some
+      procedure :: reserve
+      !> Keep the union of a wall
+      procedure :: keep
+      !> How many there are, means included
+      procedure :: count => count_unions
+      !> Get one; the means stand behind the walls
+      procedure :: get
+   end type unions_type
 
    !> The mechanisms of a wall, one after the other
    type :: union_builder_type
@@ -73,9 +98,77 @@ contains
       end do
    end subroutine add
 
+   !> Make room for the unions of some walls
+   subroutine reserve(self, number, levels, states, means)
+      class(unions_type), intent(out) :: self
+      !> How many walls, levels, damage states and means
+      integer, intent(in) :: number, levels, states, means
+
+      allocate (self%wall(number), self%name(number), self%fraction(levels, states, number), self%curve(states, number))
+      allocate (self%mean(means))
+   end subroutine reserve
+
+   !> Keep the union of a wall
+   subroutine keep(self, place, wall, union)
+      class(unions_type), intent(inout) :: self
+      !> Its place, and the number of its wall
+      integer, intent(in) :: place, wall
+      type(union_type), intent(in) :: union
+
+      self%wall(place) = wall
+      self%fraction(:, :, place) = union%fraction
+      self%curve(:, place) = union%curve
+   end subroutine keep
+
+   !> How many unions there are, means included
+   pure integer function count_unions(self) result(number)
+      class(unions_type), intent(in) :: self
+
+      number = 0
+      if (allocated(self%wall)) number = size(self%wall) + size(self%mean)
+   end function count_unions
+
+   !> Get a union; the means stand behind the walls
+   subroutine get(self, place, population, union)
+      class(unions_type), intent(in) :: self
+      !> Its place
+      integer, intent(in) :: place
+      !> The population, fitted
+      type(population_counts_type), intent(in) :: population
+      type(union_type), intent(out) :: union
+
+      type(wall_curves_type) :: curves
+      real(wp), allocatable :: together(:, :)
+      integer :: k
+
+      if (place > size(self%wall)) then
+         union = self%mean(place - size(self%wall))
+         return
+      end if
+      associate (wall => self%wall(place))
+         union%rows = [population%first(wall), population%first(wall + 1) - 1]
+         union%name = self%name(place)%text
+         union%group = ''
+         associate (number => population%group(population%first(wall)))
+            if (number > 0) union%group = population%groups%line(number)%text
+         end associate
+         union%fraction = self%fraction(:, :, place)
+         union%curve = self%curve(:, place)
+         union%product = population%combined(:, wall)
+         union%histories = real(minval(population%histories(:, union%rows(1):union%rows(2)), dim=2), wp)
+         allocate (union%independent(size(union%fraction, 1), size(union%fraction, 2)))
+         do k = 1, size(union%curve)
+            curves = population%wall(wall, k)
+            union%saturation = curves%occurrence()
+            together = curves%fractions()
+            union%independent(:, k) = together(:, size(together, 2))
+         end do
+      end associate
+   end subroutine get
+
    !> Count and fit the union of the mechanisms of a wall
    subroutine wall_union(union, builder, population, wall, clusters, runs, error)
-      !> The union; its name and group are not set
+      !> The union: fractions and curves are set, what else it has follows from the population
       type(union_type), intent(out) :: union
       !> All mechanisms of the wall
       type(union_builder_type), intent(in) :: builder
@@ -92,15 +185,10 @@ contains
 
       type(wall_curves_type) :: curves
       real(wp), dimension(size(runs, 2), maxval(clusters)) :: counts, histories
-      real(wp) :: changes(2, maxval(clusters)), together(size(runs, 2), population%first(wall + 1) - population%first(wall) + 1)
+      real(wp) :: changes(2, maxval(clusters)), all(size(runs, 2)), occurrence
       integer :: i, j, k, record
 
-      union%rows = [population%first(wall), population%first(wall + 1) - 1]
-      associate (levels => size(runs, 2), states => size(builder%survival, 3))
-         allocate (union%histories(levels), union%fraction(levels, states), union%independent(levels, states))
-         allocate (union%curve(states))
-      end associate
-      union%product = population%combined(:, wall)
+      allocate (union%fraction(size(runs, 2), size(builder%survival, 3)), union%curve(size(builder%survival, 3)))
       do k = 1, size(union%curve)
          counts = 0.0_wp
          histories = 0.0_wp
@@ -114,25 +202,44 @@ contains
                end associate
             end do
          end do
-         union%histories = sum(histories, dim=2)
+         all = sum(histories, dim=2)
          curves = population%wall(wall, k)
-         union%saturation = curves%occurrence()
-         union%fraction(:, k) = sum(counts, dim=2)/union%histories
-         together = curves%fractions()
-         union%independent(:, k) = together(:, size(together, 2))
-         if (union%saturation > 0.0_wp) counts = counts/union%saturation
-         call fit_fragility(union%curve(k), population%levels, min(sum(counts, dim=2), union%histories), union%histories, error)
+         occurrence = curves%occurrence()
+         union%fraction(:, k) = sum(counts, dim=2)/all
+         if (occurrence > 0.0_wp) counts = counts/occurrence
+         call fit_fragility(union%curve(k), population%levels, min(sum(counts, dim=2), all), all, error)
          if (allocated(error)) return
          call cluster_errors(union%curve(k), population%levels, counts, histories, changes)
       end do
    end subroutine wall_union
 
+   !> How many means there are: of the population, and of its groups with walls of several mechanisms
+   pure integer function count_means(population, typologies) result(number)
+      !> The population
+      type(population_counts_type), intent(in) :: population
+      !> Its curves
+      type(typology_type), intent(in) :: typologies(:)
+
+      logical :: several(population%walls())
+      integer :: i, group
+
+      number = 0
+      if (population%walls() == 1) return
+      several = population%first(2:) - population%first(:population%walls()) > 1
+      do i = 1, size(typologies)
+         if (typologies(i)%mechanism /= 'all') cycle
+         group = number_of_group(population%groups, typologies(i)%group)
+         if (any(several .and. (group == 0 .or. population%group(population%first(:population%walls())) == group))) then
+            number = number + 1
+         end if
+      end do
+   end function count_means
+
    !> Weighted means of the unions of the walls of a population and of its groups
-   subroutine mean_unions(means, unions, population, typologies, error)
-      !> The means, with naive standard errors: of the population, then of the groups with walls of several mechanisms
-      type(union_type), allocatable, intent(out) :: means(:)
-      !> Unions of the walls with several mechanisms, in the order of walls
-      type(union_type), intent(in) :: unions(:)
+   subroutine mean_unions(unions, population, typologies, error)
+      !> Unions of the walls with several mechanisms, in the order of walls: their means, as many as count_means says, are
+      !> set, with naive standard errors
+      type(unions_type), intent(inout) :: unions
       !> The population, fitted
       type(population_counts_type), intent(in) :: population
       !> Curves of the population and of its groups (curves, states), 'all' among them where walls have several mechanisms
@@ -140,27 +247,26 @@ contains
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      type(union_type) :: union
       real(wp) :: sums(size(population%levels), size(typologies, 2), 0:population%groups%count)
       real(wp) :: weight(0:population%groups%count)
       logical :: has_union(0:population%groups%count)
-      integer :: i, number
+      integer :: i, k, number
 
       call sum_unions(unions, population, sums, weight, has_union)
-      allocate (means(0))
+      k = 0
       do i = 1, size(typologies, 1)
          number = number_of_group(population%groups, typologies(i, 1)%group)
          if (typologies(i, 1)%mechanism /= 'all' .or. .not. has_union(number)) cycle
-         call fit_mean(union, sums(:, :, number)/weight(number), typologies(i, :), population%levels, error)
+         k = k + 1
+         call fit_mean(unions%mean(k), sums(:, :, number)/weight(number), typologies(i, :), population%levels, error)
          if (allocated(error)) return
-         means = [means, union]
       end do
    end subroutine mean_unions
 
    !> Sums of weights and of weighted fractions over the walls of a population and of its groups
    subroutine sum_unions(unions, population, sums, weight, has_union)
       !> Unions of the walls with several mechanisms, in the order of walls
-      type(union_type), intent(in) :: unions(:)
+      type(unions_type), intent(in) :: unions
       !> The population, fitted
       type(population_counts_type), intent(in) :: population
       !> Sum of weight and fraction (levels, states, groups from 0, the population)
@@ -183,7 +289,7 @@ contains
       do i = 1, population%walls()
          several = population%first(i + 1) - population%first(i) > 1
          if (several) then
-            share = unions(next)%fraction
+            share = unions%fraction(:, :, next)
             next = next + 1
          else
             do k = 1, size(sums, 2)

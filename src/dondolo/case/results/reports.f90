@@ -16,6 +16,7 @@ module dondolo_reports
    use dondolo_tie_rows, only : make_tie_comment
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names
+   use dondolo_unions, only : union_type
    implicit none
    private
 
@@ -197,14 +198,16 @@ contains
       type(results_type), intent(in) :: results
       type(result_files_type), intent(inout) :: files
 
+      type(union_type) :: union
       character(len=:), allocatable :: line
       integer :: i, j, k
 
       call files%line(union_head)
-      do i = 1, size(results%unions)
+      do i = 1, results%unions%count()
+         call results%unions%get(i, results%population, union)
          do k = 1, size(case%stripes%thresholds)
             do j = 1, size(case%stripes%levels)
-               call make_union_row(results%unions(i), case%stripes%scaling%name, case%stripes%levels(j), j, k, &
+               call make_union_row(union, case%stripes%scaling%name, case%stripes%levels(j), j, k, &
                   & case%stripes%thresholds(k), case%job%spreadsheet_safe, line)
                call files%line(line)
             end do

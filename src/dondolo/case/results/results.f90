@@ -9,7 +9,7 @@ module dondolo_results
    use dondolo_store, only : store_type
    use dondolo_stripe_counts, only : stripe_counts_type
    use dondolo_typology, only : typology_type
-   use dondolo_unions, only : union_type
+   use dondolo_unions, only : unions_type
    use dondolo_warning, only : warnings_type
    use dondolo_work, only : work_type
    implicit none
@@ -50,7 +50,7 @@ module dondolo_results
       type(typology_type), allocatable :: typologies(:, :)
       !> Of the same histories: walls with several mechanisms, and behind them the means over the population and its groups:
       !> task 'typology'
-      type(union_type), allocatable :: unions(:)
+      type(unions_type) :: unions
       !> The first rows of the population: task 'typology'
       type(shown_row_type), allocatable :: shown(:)
       !> How many rows an earlier run had left: task 'typology'

@@ -8,7 +8,7 @@ module dondolo_unite_rows
    use dondolo_results, only : results_type
    use dondolo_row_result, only : row_result_type
    use dondolo_study, only : study_type
-   use dondolo_unions, only : mean_unions, union_builder_type, union_type, wall_union
+   use dondolo_unions, only : count_means, mean_unions, union_builder_type, union_type, unions_type, wall_union
    implicit none
    private
 
@@ -26,7 +26,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(union_builder_type) :: builder
-      type(union_type), allocatable :: means(:)
+      type(union_type) :: union
       type(row_result_type) :: row
       logical :: runs(size(study%suite%clusters), size(study%levels))
       integer :: i, k, wall, number
@@ -36,7 +36,8 @@ contains
          if (number == 0) return
          call check_room(real(number, wp)*real(size(study%levels)*16*(size(population%curve, 1) + 1), wp), error)
          if (allocated(error)) return
-         allocate (results%unions(number))
+         call results%unions%reserve(number, size(study%levels), size(population%curve, 1), &
+            & count_means(population, results%typologies(:, 1)))
          runs = runs_of(study)
          wall = 1
          number = 0
@@ -50,26 +51,28 @@ contains
                   call builder%add(row, population%p_occ(i), store%identity%shape)
                   if (i < population%first(wall + 1) - 1) cycle
                   number = number + 1
-                  call wall_union(results%unions(number), builder, population, wall, study%suite%clusters, runs, error)
+                  call wall_union(union, builder, population, wall, study%suite%clusters, runs, error)
                   if (allocated(error)) exit
+                  call results%unions%keep(number, wall, union)
                   deallocate (builder%survival)
                end do
                call store%close()
                if (allocated(error)) return
             end associate
          end do
-         call name_unions(case, results%unions, error)
+         call name_unions(case, results%unions, population%first, error)
          if (allocated(error) .or. population%walls() == 1) return
-         call mean_unions(means, results%unions, population, results%typologies, error)
-         if (.not. allocated(error)) results%unions = [results%unions, means]
+         call mean_unions(results%unions, population, results%typologies, error)
       end associate
    end subroutine unite_rows
 
    !> Name the unions after their facades, or after their walls
-   subroutine name_unions(case, unions, error)
+   subroutine name_unions(case, unions, first, error)
       type(case_type), intent(in) :: case
-      !> Unions of walls, in the order of rows: name and group are set
-      type(union_type), intent(inout) :: unions(:)
+      !> Unions of walls, in the order of rows: names are set
+      type(unions_type), intent(inout) :: unions
+      !> First row of each wall
+      integer, intent(in) :: first(:)
       !> The table has changed
       type(error_type), allocatable, intent(out) :: error
 
@@ -81,16 +84,15 @@ contains
       next = 1
       call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
          & facade=case%facade)
-      do i = 1, unions(size(unions))%rows(1)
+      do i = 1, first(unions%wall(size(unions%wall)))
          if (.not. allocated(error)) call reader%next(member, found, error)
          if (.not. allocated(error) .and. .not. found) then
             call raise_failure(error, case%population_path()//': has changed while it was read')
          end if
          if (allocated(error)) exit
-         if (unions(next)%rows(1) /= i) cycle
-         unions(next)%name = member%wall%name()
-         if (len(member%facade) > 0) unions(next)%name = member%facade
-         unions(next)%group = member%group
+         if (first(unions%wall(next)) /= i) cycle
+         unions%name(next)%text = member%wall%name()
+         if (len(member%facade) > 0) unions%name(next)%text = member%facade
          next = next + 1
       end do
       call reader%close()
