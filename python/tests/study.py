@@ -60,7 +60,7 @@ def same_but_rounding(mine, theirs):
     if len(mine) != len(theirs):
         return False
     names = next(csv.reader(mine))
-    tiny = {name: 0.0 for name in names}
+    tiny = dict.fromkeys(names, 0.0)
     for one, two in zip(csv.reader(mine), csv.reader(theirs), strict=True):
         row = dict(zip(names, one, strict=True))
         # Terms of a covariance may cancel: they are as large as the product of the standard errors.
