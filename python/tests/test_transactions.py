@@ -257,7 +257,14 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
     # The engine that steps one history after the other is still at it when the questions have been asked.
     text = CASE.format(name="a", height=1.5, root=root, count=1000)
     (folder / "a.nml").write_text(text + "&solver engine = 'rk45', rtol = 1e-13 /\n")
-    run = start(executable, folder, "a")
+    # Under nohup SIGHUP is ignored, and what a process ignores its children ignore.
+    before = signal.getsignal(number)
+    try:
+        if before == signal.SIG_IGN:
+            signal.signal(number, signal.SIG_DFL)
+        run = start(executable, folder, "a")
+    finally:
+        signal.signal(number, before)
     lock = folder / "out/x.lock"
     while run.poll() is None and not (lock.exists() and lock.stat().st_size):
         time.sleep(0.01)
