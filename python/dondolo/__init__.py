@@ -39,6 +39,7 @@ from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
+from dondolo.populations.uncertain_wall import UncertainWall, uncertain_wall
 from dondolo.records import pulses
 from dondolo.records.building import Building
 from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
@@ -113,6 +114,7 @@ __all__ = [
     "Triangular",
     "Typology",
     "TypologyBootstrap",
+    "UncertainWall",
     "Uniform",
     "Window",
     "Work",
@@ -150,6 +152,7 @@ __all__ = [
     "simulate",
     "synthetic_records",
     "typology",
+    "uncertain_wall",
     "write_nrml",
 ]
 # Names of walls stand where the walls do

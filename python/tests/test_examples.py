@@ -25,6 +25,7 @@ pytestmark = pytest.mark.slow
         ("code_check", ["code_check.png", "code_check.csv", "code_check.html"]),
         ("facade", ["facade.png"]),
         ("which_tie", ["which_tie.png"]),
+        ("how_sure", ["how_sure.png", "how_sure.csv"]),
         ("risk", ["incremental.png", "cloud.png", "risk.png", "parapet.xml"]),
     ],
 )

@@ -125,7 +125,7 @@ def sample_population(
     correlation = {} if correlation is None else _as_mapping("correlation", correlation, "numbers by pairs of names")
     _check_variables(variables)
     _check_properties(own, properties)
-    sampled = _draw(n, seed, _distributions(own, variables, properties), correlation)
+    sampled = draw(n, seed, _distributions(own, variables, properties), correlation)
 
     known = {what: sampled[what] for what in variables}
     common = _evaluate(properties, "", sampled, known, n)
@@ -134,7 +134,7 @@ def sample_population(
     walls, p_occ = [], []
     for mechanism, extra in own.items():
         values = common | _evaluate(extra, f"{mechanism}.", sampled, known | common, n)
-        walls.append(_walls(mechanism, names, values, gravity))
+        walls.append(make_walls(mechanism, names, values, gravity))
         p_occ.append(values.get("p_occ", np.ones(n)))
     return Population(
         tuple(wall for row in zip(*walls, strict=True) for wall in row),
@@ -208,7 +208,7 @@ def _distributions(
     return {what: value for what, value in named.items() if isinstance(value, Distribution)}
 
 
-def _draw(
+def draw(
     n: int, seed: int, distributions: Mapping[str, Distribution], correlation: Mapping[tuple[str, str], float]
 ) -> dict[str, FloatArray]:
     """Samples of all that is sampled."""
@@ -346,7 +346,7 @@ def _evaluate(
     return values
 
 
-def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
+def make_walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], gravity: float | None) -> list[Wall]:
     """Walls of one mechanism."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     n = len(names)
@@ -355,7 +355,7 @@ def _walls(mechanism: str, names: Sequence[str], values: Mapping[str, Any], grav
     return [wall_from(one) for one in data]
 
 
-def _in_words(value: Property) -> str:
+def in_words(value: Property) -> str:
     """A property; a frozen distribution of SciPy by its name and arguments, since its repr is an address."""
     dist = getattr(value, "dist", None)
     if dist is None:
@@ -380,6 +380,6 @@ def _origin(
             name = getattr(value, "__name__", "<lambda>")
             said.append(f"{what} computed" if name == "<lambda>" else f"{what} computed by {name}")
         else:
-            said.append(f"{what} = {_in_words(value)}")
+            said.append(f"{what} = {in_words(value)}")
     said += [f"correlation of {pair[0]} and {pair[1]} = {value!r}" for pair, value in correlation.items()]
     return tuple(textwrap.wrap("; ".join(said), 110, break_long_words=False, break_on_hyphens=False))

@@ -8,11 +8,28 @@ module dondolo_restitution
    private
 
    public :: restitution_type
-   public :: restitution_models
+   public :: restitution_models, published_factors, published_factor_type
 
    !> Names of the models
    character(len=choices_length), parameter :: restitution_models(*) = &
       & [character(len=choices_length) :: 'default', 'sorrentino', 'impulse', 'constant']
+
+   !> What tests gave for the measured speed ratio / that of the model
+   type :: published_factor_type
+      !> Name by which it is asked for
+      character(len=16) :: name
+      !> Smallest and largest value
+      real(wp) :: low, high
+      !> What was tested, and who did
+      character(len=160) :: source
+   end type published_factor_type
+
+   !> Ranges of restitution_factor that were measured, or that measured values lie in
+   type(published_factor_type), parameter :: published_factors(*) = [ &
+      & published_factor_type('graziotti_2016', 0.84_wp, 0.90_wp, 'two-block walls of brick, Graziotti, Tomassetti, '// &
+      &   'Penna and Magenes (2016): 0.84 to 0.90 of the predicted value'), &
+      & published_factor_type('elgawady_2010', 0.90_wp, 1.00_wp, 'blocks on concrete, ElGawady, Ma, Butterworth and '// &
+      &   'Ingham (2010): 0.95 and 0.97 of Housner''s value; the width is an assumption')]
 
    !> What the user asks of the impacts
    type :: restitution_type
@@ -20,8 +37,7 @@ module dondolo_restitution
       character(len=:), allocatable :: model
       !> Speed ratio of the model 'constant', 0 <= value < 1; not allocated: not given
       real(wp), allocatable :: value
-      !> Factor on the speed ratio of every model (experiments on two-block walls: 0.84 to 0.90,
-      !> Graziotti et al. 2016)
+      !> Factor on the speed ratio of every model
       real(wp) :: factor = 1.0_wp
    contains
       !> The speed ratio of an impact

@@ -1,0 +1,58 @@
+!> What the uncertainty of a model is made of.
+module uncertainty
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_boundary, only : check_room, report
+   use dondolo_error, only : error_type
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_restitution, only : published_factors
+   use dondolo_sensitivity, only : new_sensitivity, sensitivity_type
+   implicit none
+   private
+
+   public :: sensitivity, published
+
+contains
+
+   !> Sobol indices of k quantities from n samples: first-order index, its interval, total index, its interval, of each; and the
+   !> part that is not explained
+   subroutine sensitivity(values, outcome, n, k, indices, rest, stat, message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: n, k
+      real(c_double), intent(in) :: values(n, k), outcome(n)
+      real(c_double), intent(out) :: indices(6, k), rest
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(sensitivity_type) :: found
+      type(error_type), allocatable :: error
+
+      indices = 0
+      rest = 0
+      call check_room(error, reals=4.0_c_double*n*k*(k + 4))
+      if (.not. allocated(error)) call new_sensitivity(found, values, outcome, error)
+      call report(error, stat, message)
+      if (allocated(error)) return
+      indices(1, :) = found%first
+      indices(2:3, :) = found%first_interval
+      indices(4, :) = found%total
+      indices(5:6, :) = found%total_interval
+      rest = found%rest
+   end subroutine sensitivity
+
+   !> Published ranges of the factor on restitution: their limits as reals; name and source as lines
+   subroutine published(sent, stat, message)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i
+
+      do i = 1, size(published_factors)
+         call parcel%add([published_factors(i)%low, published_factors(i)%high])
+         call parcel%lines%add(trim(published_factors(i)%name))
+         call parcel%lines%add(trim(published_factors(i)%source))
+      end do
+      call send(parcel, error, sent, stat, message)
+   end subroutine published
+
+end module uncertainty

@@ -1,0 +1,50 @@
+"""What the uncertainty of a model is made of, as Fortran finds it."""
+
+from __future__ import annotations
+
+import functools
+from typing import NamedTuple
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _core
+from dondolo._fortran.library import check, receive
+
+
+class Sensitivity(NamedTuple):
+    """Sobol indices of each quantity, first-order and total, with 95 % intervals (quantities, 2); and the rest."""
+
+    first: FloatArray
+    first_interval: FloatArray
+    total: FloatArray
+    total_interval: FloatArray
+    rest: float
+
+
+class PublishedFactor(NamedTuple):
+    """A range of restitution_factor from tests."""
+
+    low: float
+    high: float
+    source: str
+
+
+def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
+    """Which of several independent quantities (samples, quantities) an outcome (samples,) owes its scatter to."""
+    indices, rest, stat, message = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
+    check(stat, message)
+    rows = indices.T.copy()
+    return Sensitivity(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], float(rest))
+
+
+@functools.cache
+def published_factors() -> dict[str, PublishedFactor]:
+    """Ranges of restitution_factor from tests, by their names."""
+    parcel = receive(*_core.uncertainty.published())
+    limits = parcel.reals.reshape(-1, 2).tolist()
+    lines = parcel.lines
+    return {
+        name: PublishedFactor(low, high, source)
+        for name, source, (low, high) in zip(lines[::2], lines[1::2], limits, strict=True)
+    }

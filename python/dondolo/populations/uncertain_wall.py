@@ -1,0 +1,400 @@
+"""How sure the curve of one wall is: its uncertain properties sampled, all variants under the same records."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_count, instance_of
+from dondolo._base.shown import Shown
+from dondolo._fortran.buildings import BUILDING_NAMES
+from dondolo._fortran.records import blank_unit
+from dondolo._fortran.uncertainty import published_factors, sensitivity
+from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
+from dondolo._storage import tables
+from dondolo._storage.saved import Saved
+from dondolo.analysis.request import Polarity
+from dondolo.analysis.solver import Solver
+from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripes import Stripes
+from dondolo.curves.fitting import fit_fragility
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloError, InputError, silent
+from dondolo.populations.curve import PopulationCurve
+from dondolo.populations.study import typology
+from dondolo.populations.typology import Typology
+from dondolo.records.record import Record
+from dondolo.walls.distributions import Distribution, Uniform
+from dondolo.walls.population import Population
+from dondolo.walls.sampling import draw, in_words, make_walls
+from dondolo.walls.wall import Wall
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from dondolo.figures.style import Panels
+
+# Shares at which one source alone is moved to its ends, and where it stays otherwise
+_ENDS = (0.05, 0.95)
+_MIDDLE = 0.5
+# An EDP in doubt: twice the estimated error reaches the limit, as src/dondolo/motion/common/response.f90 has it
+_SAFETY = 2.0
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class UncertainWall(Shown, Saved):
+    """A wall whose properties are not known for certain, and what that makes of its curve.
+
+    Attributes
+    ----------
+    sources : tuple of str
+        The uncertain properties.
+    distributions : tuple of str
+        The distribution of each, in words.
+    values : ndarray, shape (sources, 3)
+        Each at its fractiles 5, 50 and 95 %, in its own unit.
+    typology : Typology
+        All walls: the sample, and with a weight of 0, so that they take no part in the curve of the sample, the wall as
+        it was given, that with all sources at their medians, and those with one source at its lower and upper end.
+    first, total : ndarray, shape (sources,)
+        Sobol indices of ln theta: the part of its variance in the sample that is due to a source alone, and together
+        with the others.
+    first_interval, total_interval : ndarray, shape (sources, 2)
+        Their 95 % intervals.
+    rest : float
+        Part of that variance that no polynomial of the sources explains: theta as a count of a few records is rough.
+    numbers : (float, float)
+        Medians of the wall with its sources at their medians if all histories whose estimated error could change the
+        outcome collapse, and if none of them does.
+    """
+
+    sources: tuple[str, ...]
+    distributions: tuple[str, ...]
+    values: FloatArray
+    typology: Typology
+    first: FloatArray
+    first_interval: FloatArray
+    total: FloatArray
+    total_interval: FloatArray
+    rest: float
+    numbers: tuple[float, float]
+
+    @property
+    def im(self) -> str:
+        """Intensity measure of the curves."""
+        return self.typology.im
+
+    @property
+    def _samples(self) -> int:
+        """How many rows are the sample."""
+        return len(self.typology.walls) - 2 - 2 * len(self.sources)
+
+    @property
+    def sample(self) -> Population:
+        """The sampled walls."""
+        return self.typology.population[: self._samples]
+
+    @property
+    def curve(self) -> PopulationCurve:
+        """The mean curve of the sample, which takes in records and model: the probability of collapse to work with."""
+        return self.typology["all"]
+
+    @property
+    def as_given(self) -> Fragility:
+        """Curve of the wall as it was given."""
+        return self.typology.curves[self._samples]
+
+    @property
+    def at_medians(self) -> Fragility:
+        """Curve of the wall with all sources at their medians."""
+        return self.typology.curves[self._samples + 1]
+
+    @property
+    def ends(self) -> tuple[tuple[Fragility, Fragility], ...]:
+        """Curves with one source at its fractiles 5 and 95 % and all others at their medians, for each source."""
+        curves = self.typology.curves[self._samples + 2 :]
+        return tuple(zip(curves[::2], curves[1::2], strict=True))
+
+    @property
+    def thetas(self) -> FloatArray:
+        """Median of each sampled wall, shape (walls,); NaN for one without a curve."""
+        return np.array([curve.theta for curve in self.typology.curves[: self._samples]])
+
+    @property
+    def theta(self) -> float:
+        """Median of the curve with its uncertain model: the geometric mean of the medians in the sample."""
+        return float(np.exp(np.nanmean(np.log(self.thetas))))
+
+    @property
+    def beta_records(self) -> float:
+        """Aleatory dispersion, of the records: root mean square of beta in the sample."""
+        return self.curve.beta_records
+
+    @property
+    def beta_model(self) -> float:
+        """Epistemic dispersion, of the model: standard deviation of ln theta in the sample."""
+        return self.curve.beta_walls
+
+    @property
+    def beta_total(self) -> float:
+        """Both together."""
+        return math.hypot(self.beta_records, self.beta_model)
+
+    def plot(self, ax: Iterable[Any] | None = None) -> Panels:
+        """Draw the curves of the sample, and what moves the median: records, each source, numbers.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Probability of collapse against intensity; and a tornado diagram: the median's 95 % interval for other
+            records, its values with one source at its 5 and 95 % fractiles, and what the estimated error of the numbers
+            could change.
+        """
+        from dondolo.populations.plots_uncertain import draw_uncertain_wall
+
+        return draw_uncertain_wall(self, ax)
+
+    def to_frame(self) -> Any:
+        """A row for each source as a pandas DataFrame."""
+        return tables.frame(self._table())
+
+    def to_csv(self, path: Any, *, spreadsheet_safe: bool = False) -> None:
+        """Write a row for each source: its values, what it makes of the median, and its Sobol indices."""
+        comments = [f"unit of theta: {blank_unit(self.im).strip() or '1'}"]
+        comments += [f"{what}: {text}" for what, text in self._facts()]
+        tables.write_csv(path, self._table(), comments, spreadsheet_safe=spreadsheet_safe)
+
+    def _table(self) -> tables.Table:
+        low, high = zip(*self.ends, strict=True)
+        return {
+            "source": list(self.sources),
+            "distribution": list(self.distributions),
+            **dict(zip(("value_5", "value_50", "value_95"), self.values.T, strict=True)),
+            "theta_5": [curve.theta for curve in low],
+            "theta_95": [curve.theta for curve in high],
+            "first": self.first,
+            "first_low": self.first_interval[:, 0],
+            "first_high": self.first_interval[:, 1],
+            "total": self.total,
+            "total_low": self.total_interval[:, 0],
+            "total_high": self.total_interval[:, 1],
+        }
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = blank_unit(self.im)
+        low, high = self.curve.fractiles(self.theta, (0.16, 0.84)).ravel()
+        facts = [
+            ("theta", f"{self.theta:.4g}{unit}"),
+            ("beta of records", f"{self.beta_records:.3g}"),
+            ("beta of the model", f"{self.beta_model:.3g}"),
+            ("beta in all", f"{self.beta_total:.3g}"),
+            ("P(collapse) at theta, fractiles 16 and 84 %", f"{low:.2g} to {high:.2g}"),
+            ("as given", f"theta {self.as_given.theta:.4g}{unit}"),
+        ]
+        for name, first, total in zip(self.sources, self.first, self.total, strict=True):
+            facts.append(
+                (name, f"{100.0 * first:.0f} % of the model's variance, {100.0 * total:.0f} % with the others")
+            )
+        return facts
+
+
+def uncertain_wall(
+    wall: Wall,
+    sources: Mapping[str, Distribution | str],
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+    levels: ArrayLike,
+    *,
+    count: int = 200,
+    seed: int = 1,
+    im: str = "pga",
+    polarity: Polarity = "as_recorded",
+    solver: Solver | None = None,
+    threads: int = 0,
+    executor: Executor | None = None,
+    progress: bool = True,
+) -> UncertainWall:
+    """Sample the uncertain properties of a wall and tell what they make of its curve.
+
+    The sample is a Latin hypercube of independent properties. All its walls are shaken by the same records, so that the
+    scatter of their medians is that of the model alone.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall; what is no source stays as it is.
+    sources : mapping of str to distribution
+        Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...) and their distributions,
+        such as `Uniform`, `Triangular` or `Normal`. For restitution_factor the name of a published range:
+        'graziotti_2016', 0.84 to 0.90 for walls of two blocks, or 'elgawady_2010', 0.90 to 1.0 for blocks on a base
+        of concrete or stone; both stand for uniform distributions.
+    records, levels, im, polarity, solver, threads, executor, progress
+        As for `typology`.
+    count : int
+        Walls of the sample.
+    seed : int
+        Seed of the random numbers; the same seed gives the same walls.
+
+    Returns
+    -------
+    UncertainWall
+
+    Raises
+    ------
+    InputError
+        A source that is no number of the wall, a sampled wall that cannot be, too small a sample, and what `typology`
+        refuses.
+    DondoloError
+        Fewer walls with a curve than the indices need: the levels do not reach up or down to their medians.
+    Interrupted
+        Ctrl-C.
+
+    Notes
+    -----
+    docs/model_uncertainty.md. Indices come from the sample as it is, by regression on polynomials of the ranks; no
+    walls are run for them alone.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.Triangular(0.5, 0.6, 0.75)}
+    >>> found = dd.uncertain_wall(wall, sources, records, [0.5, 1.0, 1.5, 2.0, 3.0], count=40, progress=False)
+    >>> found.sources
+    ('restitution_factor', 'hinge')
+    >>> bool(found.beta_total > found.beta_records)
+    True
+    """
+    instance_of("wall", wall, Wall, "no wall")
+    known = _distributions(wall, sources)
+    n, seed = as_count("count", count, 1), as_count("seed", seed, 0)
+    values = np.array(
+        [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
+    )
+    people = _variants(wall, known, draw(n, seed, known, {}), values)
+    several = records if isinstance(records, Mapping) else list(_listed(records))
+    found = typology(
+        people,
+        several,
+        levels,
+        im=im,
+        polarity=polarity,
+        solver=solver,
+        threads=threads,
+        executor=executor,
+        progress=progress,
+    )
+    with silent():
+        middle = multiple_stripe(
+            people[n + 1],
+            several,
+            levels,
+            im=im,
+            polarity=polarity,
+            solver=solver,
+            estimate_error=True,
+            threads=threads,
+            progress=False,
+        )
+    return _result(known, values, found, _numbers(middle))
+
+
+def _listed(records: Record | Iterable[Record]) -> Iterable[Record]:
+    """Records one by one: they are needed twice."""
+    return (records,) if isinstance(records, Record) else records
+
+
+def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
+    """The distribution of each source."""
+    if not isinstance(sources, Mapping) or not sources:
+        raise InputError("sources: must be a mapping of properties of the wall to distributions, at least one")
+    own = [
+        what
+        for what in WALL_NUMBERS
+        if what in type(wall).__dataclass_fields__ and what not in WALL_LISTS and what not in BUILDING_NAMES
+    ]
+    found: dict[str, Distribution] = {}
+    for what, given in sources.items():
+        if what not in own:
+            raise InputError(f"sources: {what!r}: must be one of {', '.join(own)}")
+        if isinstance(given, str):
+            published = published_factors()
+            if what != "restitution_factor" or given not in published:
+                names = ", ".join(map(repr, published))
+                raise InputError(
+                    f"{what} = {given!r}: must be a distribution; names are for restitution_factor, {names}"
+                )
+            found[what] = Uniform(published[given].low, published[given].high)
+        elif isinstance(given, Distribution):
+            found[what] = given
+        else:
+            raise InputError(f"{what} = {given!r}: must be a distribution")
+    return found
+
+
+def _variants(
+    wall: Wall, known: Mapping[str, Distribution], sampled: Mapping[str, FloatArray], values: FloatArray
+) -> Population:
+    """All walls that are run, in the order that `UncertainWall` has them."""
+    own = {what: value for what, value in wall._properties().items() if value is not None}
+    name = own.pop("name")
+    mechanism = own.pop("mechanism")
+    n = len(next(iter(sampled.values())))
+    single = np.repeat(values[:, 1:2], 1 + 2 * len(values), axis=1)
+    for i, (low, _, high) in enumerate(values):
+        single[i, 1 + 2 * i : 3 + 2 * i] = low, high
+    columns = {what: np.append(sampled[what], row) for what, row in zip(known, single, strict=True)}
+    names = [f"{name} {i:0{max(4, len(str(n)))}d}" for i in range(1, n + 1)]
+    names += [f"{name}, medians"]
+    names += [f"{name}, {what} at {end:.0%}" for what in known for end in _ENDS]
+    walls = make_walls(mechanism, names, own | columns, wall.gravity)
+    origin = "; ".join(f"{what} = {in_words(one)}" for what, one in known.items())
+    return Population(
+        (*walls[:n], wall, *walls[n:]),
+        np.repeat([1.0, 0.0], [n, len(names) - n + 1]),
+        origin=(f"{n} variants of the wall '{name}', a Latin hypercube", origin),
+    )
+
+
+def _numbers(stripes: Stripes) -> tuple[float, float]:
+    """Medians if all histories in doubt collapse, and if none does."""
+    error = np.nan_to_num(np.asarray(stripes.edp_error))
+    doubtful = (error > 0.0) & (stripes.edp + _SAFETY * error >= stripes.edp_limit)
+    with silent():
+        low, high = (
+            fit_fragility(stripes.levels, (collapsed & stripes.ran).sum(axis=1), stripes.histories, im=stripes.im).theta
+            for collapsed in (stripes.collapsed | doubtful, stripes.collapsed & ~doubtful)
+        )
+    return low, high
+
+
+def _result(
+    known: Mapping[str, Distribution], values: FloatArray, found: Typology, numbers: tuple[float, float]
+) -> UncertainWall:
+    """Curves and indices of what was run."""
+    n = len(found.walls) - 2 - 2 * len(known)
+    thetas = np.array([curve.theta for curve in found.curves[:n]])
+    fitted = np.isfinite(thetas)
+    sampled = np.array([[getattr(wall, what) for what in known] for wall in found.walls[:n]])
+    try:
+        indices = sensitivity(sampled[fitted], np.log(thetas[fitted]))
+    except InputError as error:
+        raise DondoloError(f"{fitted.sum()} of {n} sampled walls have a curve: {error}") from None
+    return UncertainWall(
+        sources=tuple(known),
+        distributions=tuple(in_words(one) for one in known.values()),
+        values=values,
+        typology=found,
+        numbers=numbers,
+        **indices._asdict(),
+    )

@@ -1,0 +1,228 @@
+"""A wall whose model is uncertain: sample, dispersions, Sobol indices, ends, and what is refused."""
+
+import itertools
+
+import numpy as np
+import pytest
+from dondolo._fortran.uncertainty import published_factors, sensitivity
+from scipy import stats
+
+import dondolo as dd
+
+LEVELS = np.arange(0.2, 2.6, 0.2)
+SOURCES = {
+    "restitution_factor": "graziotti_2016",
+    "hinge": dd.Triangular(0.5, 0.6, 0.75),
+    "hinge_depth": dd.Uniform(0.005, 0.02),
+}
+
+
+@pytest.fixture(scope="module")
+def records():
+    return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+
+
+@pytest.fixture(scope="module")
+def wall():
+    return dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution_factor=0.87, name="strip")
+
+
+@pytest.fixture(scope="module")
+def found(wall, records):
+    return dd.uncertain_wall(wall, SOURCES, records, LEVELS, count=80, progress=False)
+
+
+def test_sample(found):
+    """A Latin hypercube within the distributions; what is no source stays."""
+    assert len(found.sample) == 80
+    factors = np.array([one.restitution_factor for one in found.sample])
+    hinges = np.array([one.hinge for one in found.sample])
+    parts = np.floor((factors - 0.84) / 0.06 * 80).astype(int)
+    assert sorted(parts) == list(range(80))
+    assert 0.5 <= hinges.min() < hinges.max() <= 0.75
+    assert abs(np.corrcoef(factors, hinges)[0, 1]) < 0.03
+    assert {(one.height, one.thickness, one.density, one.overburden) for one in found.sample} == {
+        (3.0, 0.25, 1800.0, 0.0)
+    }
+    assert found.sample[3].name == "strip 0004"
+
+
+def test_common_random_numbers(found, wall, records):
+    """The variants run under the same records, as each would alone."""
+    for i in (0, 41, 79):
+        own = dd.multiple_stripe(found.sample[i], records, LEVELS, progress=False)
+        assert np.array_equal(own.collapses, found.typology.collapses[:, i])
+        assert own.fit().theta == found.thetas[i]
+    assert found.as_given.theta == dd.multiple_stripe(wall, records, LEVELS, progress=False).fit().theta
+
+
+def test_dispersions(found):
+    thetas = np.array([curve.theta for curve in found.typology.curves[:80]])
+    betas = np.array([curve.beta for curve in found.typology.curves[:80]])
+    assert found.theta == pytest.approx(stats.gmean(thetas), rel=1e-12)
+    assert found.beta_model == pytest.approx(np.log(thetas).std(), rel=1e-12)
+    assert found.beta_records == pytest.approx(np.sqrt((betas**2).mean()), rel=1e-12)
+    assert found.beta_total == pytest.approx(np.hypot(found.beta_model, found.beta_records), rel=1e-15)
+    grid = np.array([0.5, 1.0])
+    assert found.curve.mean(grid) == pytest.approx([stats.norm.cdf(np.log(x / thetas) / betas).mean() for x in grid])
+
+
+def test_ends(found, wall, records):
+    """One source at its ends, the others at their medians."""
+    assert found.values[0] == pytest.approx([0.843, 0.87, 0.897], rel=1e-12)
+    hinge, depth = (SOURCES[what].ppf(np.array([0.05, 0.5, 0.95])) for what in ("hinge", "hinge_depth"))
+    assert np.array_equal(found.values[1:], [hinge, depth])
+    walls = [
+        dd.TwoBlockWall(3.0, 0.25, hinge=h, hinge_depth=d, restitution_factor=f)
+        for f, h, d in [(0.87, hinge[1], depth[1]), (0.87, hinge[0], depth[1]), (0.87, hinge[2], depth[1])]
+    ]
+    middle, low, high = (dd.multiple_stripe(one, records, LEVELS, progress=False).fit() for one in walls)
+    assert found.at_medians.theta == middle.theta
+    assert [curve.theta for curve in found.ends[1]] == [low.theta, high.theta]
+    # Lower restitution takes energy out, and a deeper hinge makes the wall more slender
+    assert found.ends[0][0].theta > found.ends[0][1].theta
+    assert found.ends[2][0].theta > found.ends[2][1].theta
+
+
+def test_numbers(found):
+    """Synthetic histories of this wall are not in doubt: the estimated error moves nothing."""
+    assert found.numbers == (found.at_medians.theta, found.at_medians.theta)
+
+
+def test_indices_sum_up(found):
+    """Hinge, restitution and depth act nearly one by one."""
+    assert found.first.sum() + found.rest == pytest.approx(1.0, abs=0.05)
+    assert (found.first <= found.total).all()
+    assert (found.first_interval[:, 0] <= found.first).all()
+    assert (found.first <= found.first_interval[:, 1]).all()
+
+
+def additive(x):
+    """A polynomial whose indices are known: variances 4/12, 1/12 and 1/180 of linear, linear and square terms."""
+    return 2.0 * x[:, 0] + x[:, 1] + (x[:, 2] ** 2 - x[:, 2])
+
+
+def test_indices_of_a_sum():
+    x = stats.qmc.LatinHypercube(3, seed=4).random(400)
+    found = sensitivity(x, additive(x))
+    parts = np.array([4 / 12, 1 / 12, 1 / 180])
+    assert found.first == pytest.approx(parts / parts.sum(), abs=0.01)
+    assert found.total == pytest.approx(found.first, abs=1e-12)
+    # Ranks are not quite the numbers
+    assert found.rest == pytest.approx(0.0, abs=1e-4)
+
+
+def test_indices_of_a_product():
+    """Y = x1 (1 + x2): each alone 27/12 and 3/12 of 4/12 12, the product 1 / 144."""
+    x = stats.qmc.LatinHypercube(2, seed=5).random(500)
+    found = sensitivity(x, x[:, 0] * (1.0 + x[:, 1]))
+    parts = np.array([1.5**2 / 12, 0.5**2 / 12, 1 / 144])
+    first, total = parts[:2] / parts.sum(), (parts[:2] + parts[2]) / parts.sum()
+    assert found.first == pytest.approx(first, abs=0.01)
+    assert found.total == pytest.approx(total, abs=0.01)
+
+
+def test_indices_do_not_ask_for_the_scale():
+    x = stats.qmc.LatinHypercube(3, seed=6).random(200)
+    noise = 0.1 * np.random.default_rng(1).standard_normal(200)
+    plain = sensitivity(x, additive(x) + noise)
+    scaled = sensitivity(np.exp(3.0 * x) * [1.0, 1e6, 1e-6], additive(x) + noise)
+    assert scaled == tuple(pytest.approx(part, rel=1e-10) for part in plain)
+
+
+def test_noise_is_no_source():
+    """A quantity without influence has an index whose interval holds zero, and the noise is what is left."""
+    inside = []
+    for seed in range(60):
+        x = stats.qmc.LatinHypercube(3, seed=seed).random(120)
+        noise = 0.5 * np.random.default_rng(seed).standard_normal(120)
+        found = sensitivity(x, x[:, 0] + noise)
+        share = (1 / 12) / (1 / 12 + 0.25)
+        inside.append(found.first_interval[0][0] <= share <= found.first_interval[0][1])
+        assert found.first[1] < 0.25
+    assert np.mean(inside) > 0.85
+
+
+def test_indices_of_few_values():
+    """A choice of two has one polynomial."""
+    x = np.array(list(itertools.product([0.0, 1.0], np.arange(40))), dtype=float)
+    found = sensitivity(x, 3.0 * x[:, 0] + x[:, 1] / 40.0)
+    variance = np.array([9.0 / 4.0, (40.0**2 - 1.0) / 12.0 / 40.0**2])
+    assert found.first == pytest.approx(variance / variance.sum(), rel=1e-10)
+
+
+def test_published():
+    """Values as published; every name is a range of factors."""
+    published = published_factors()
+    assert (published["graziotti_2016"].low, published["graziotti_2016"].high) == (0.84, 0.90)
+    assert (published["elgawady_2010"].low, published["elgawady_2010"].high) == (0.90, 1.00)
+    assert all(name.split("_")[1] in one.source for name, one in published.items())
+
+
+def test_one_sided_with_sections(records):
+    """What a wall has beside numbers goes on: storeys, loads, words, gravity."""
+    whole = dd.OneSidedWall(
+        section_height=[1.0, 0.8],
+        section_thickness=[0.4, 0.3],
+        load=[2e3, 1e3],
+        load_height=[1.0, 1.8],
+        load_depth=0.2,
+        load_inertia=["both", "none"],
+        gravity=9.8,
+        name="front",
+    )
+    found = dd.uncertain_wall(whole, {"density": dd.Uniform(1600.0, 2000.0)}, records, LEVELS, count=20, progress=False)
+    one = found.sample[7]
+    assert (one.section_height, one.load, one.load_inertia, one.gravity) == (
+        (1.0, 0.8),
+        (2e3, 1e3),
+        ("both", "none"),
+        9.8,
+    )
+    assert found.at_medians.theta == found.as_given.theta
+    assert found.first[0] + found.rest == pytest.approx(1.0, abs=0.05)
+
+
+def test_files(found, tmp_path):
+    found.save(tmp_path / "strip.npz")
+    again = dd.load(tmp_path / "strip.npz")
+    assert again.theta == found.theta
+    assert again.numbers == found.numbers
+    assert np.array_equal(again.total_interval, found.total_interval)
+    found.to_csv(tmp_path / "strip.csv")
+    text = (tmp_path / "strip.csv").read_text()
+    assert "\n# unit of theta: g\n# theta: " in text
+    assert '\nhinge,"Triangular(low=0.5, mode=0.6, high=0.75)",' in text
+    assert "restitution_factor" in repr(found)
+
+
+def test_plot(found):
+    left, right = found.plot()
+    assert left.get_ylabel() == "probability of collapse"
+    rows = [label.get_text().split("\n")[0] for label in right.get_yticklabels()]
+    assert set(rows) == {*SOURCES, "records", "numbers"}
+    assert "[g]" in right.get_xlabel()
+    with pytest.raises(dd.InputError, match="ax: must be 2 Axes"):
+        found.plot([left])
+
+
+@pytest.mark.parametrize(
+    ("sources", "message"),
+    [
+        ({}, "sources: must be a mapping"),
+        ([("hinge", dd.Uniform(0.4, 0.6))], "sources: must be a mapping"),
+        ({"name": dd.Uniform(0.4, 0.6)}, "'name': must be one of height, thickness, density"),
+        ({"tie_area": dd.Uniform(0.4, 0.6)}, "'tie_area': must be one of"),
+        ({"hinge": 0.5}, "hinge = 0.5: must be a distribution"),
+        (
+            {"hinge": "graziotti_2016"},
+            "hinge = 'graziotti_2016': must be a distribution; names are for",
+        ),
+        ({"restitution_factor": "nobody"}, "'nobody': must be a distribution; .*'graziotti_2016', 'elgawady_2010'"),
+        ({"hinge": dd.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
+        ({"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)}, "must be at least 16 for indices of 2"),
+    ],
+)
+def test_refused(wall, records, sources, message):
+    with pytest.raises(dd.DondoloError, match=message):
+        dd.uncertain_wall(wall, sources, records, LEVELS, count=12, progress=False)
