@@ -91,8 +91,8 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
         def means(x: FloatArray, curves: list[PopulationCurve] = of_states) -> FloatArray:
             return np.array([one.mean(x) for one in curves])
 
-        levels, raw = _lines(means, typology.levels)
-        ordered = _ordered(raw)
+        levels, raw = straight_lines(means, typology.levels)
+        ordered = in_order(raw)
         rising = np.maximum.accumulate(ordered, axis=1)
         functions[name] = {
             state: DiscreteFragility(levels, p, im=typology.im) for state, p in zip(states, rising, strict=True)
@@ -121,12 +121,12 @@ def _state_name(edp: float) -> str:
     return f"edp_{edp!r}".removesuffix(".0").replace(".", "p").replace("+", "")
 
 
-def _ordered(probabilities: FloatArray) -> FloatArray:
+def in_order(probabilities: FloatArray) -> FloatArray:
     """Curves (states, levels), each raised to those of the more severe states."""
     return np.maximum.accumulate(probabilities[::-1], axis=0)[::-1]
 
 
-def _lines(means: Curves, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
+def straight_lines(means: Curves, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Levels that straight lines between them are close enough to the curves, and the curves (states, levels) there."""
     below = np.geomspace(_LOWEST * levels[0], levels[0], 300)[:-1]
     seldom = np.flatnonzero(means(below).max(axis=0) <= _BEGIN)
@@ -138,8 +138,8 @@ def _lines(means: Curves, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
     p = means(x)
     while True:
         middle = np.sqrt(x[:-1] * x[1:])
-        between, ends = means(middle), _ordered(p)
-        curve = _ordered(between)
+        between, ends = means(middle), in_order(p)
+        curve = in_order(between)
         line = ends[:, :-1] + (middle - x[:-1]) / np.diff(x) * np.diff(ends, axis=1)
         far = (np.abs(line - curve) > np.maximum(_SHARE * curve, _LEAST)).any(axis=0)
         if not far.any():

@@ -32,8 +32,9 @@ Discrete
     at levels that reach far enough down and stand close enough.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
-    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where curves cross, if they
-    do so at less than 0.1 % or more than 99.9 %; elsewhere crossing curves are refused.
+    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where two curves cross, if
+    all states have less than 0.1 % there or more than 99.9 %. Where another state has a probability to lose, the function
+    is written as discrete, and the lighter of the two raised to the heavier. Curves that cross in between are refused.
 Units
     PGA and SA(T) in g, as here (OpenQuake's g is the standard 9.80665 m/s2, that of dondolo's levels is the wall's
     gravity, 9.81 unless given: 0.03 %). PGV in cm/s: levels are multiplied by 100. Other measures are refused.
@@ -57,6 +58,7 @@ from dondolo._base.files import check_replaced
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError
 from dondolo.exchange.fragility_model import MARK, Curve, DiscreteFragility, FragilityModel, Limits
+from dondolo.exchange.mean_functions import in_order, straight_lines
 from dondolo.risk.openquake import imt_of
 
 #: Losses that a model is for
@@ -133,9 +135,13 @@ def write_nrml(
         if value is not None and not 0.0 < as_number(what, value) < np.inf:
             raise InputError(f"{what} = {value:g}: must be positive")
     states = _states(functions)
-    of_functions = {}
-    for taxonomy, curves in functions.items():
-        _check_curves(taxonomy, curves)
+    of_functions: dict[str, Limits] = {}
+    written: dict[str, dict[str, Curve]] = {}
+    for taxonomy, given in functions.items():
+        _check_curves(taxonomy, given)
+        curves = dict(given)
+        if isinstance(given[states[0]], Fragility) and min_iml is None and max_iml is None:
+            curves = _uncut(curves)  # type: ignore[arg-type]
         try:
             imt_of(curves[states[0]].im)
         except InputError as error:
@@ -145,8 +151,9 @@ def write_nrml(
         else:
             found = _discrete(taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
         of_functions[taxonomy] = found
+        written[taxonomy] = curves
     FragilityModel(
-        functions={taxonomy: dict(curves) for taxonomy, curves in functions.items()},
+        functions=written,
         limits=of_functions,
         id=id,
         description=description,
@@ -229,14 +236,43 @@ def _range(curves: list[Fragility], min_iml: float | None, max_iml: float | None
     """What is given, or where the curves begin and end."""
     low = min(curve.theta * np.exp(-_REACH_DOWN * curve.beta) for curve in curves)
     high = max(curve.theta * np.exp(_REACH_UP * curve.beta) for curve in curves)
+    for cross, is_below in _unseen_crossings(curves):
+        if is_below:
+            low = max(low, cross)
+        else:
+            high = min(high, cross)
+    return float(low if min_iml is None else min_iml), float(high if max_iml is None else max_iml)
+
+
+def _unseen_crossings(curves: list[Fragility]) -> list[tuple[float, bool]]:
+    """Where states that follow each other cross at a probability that nobody sees, and whether below what is seen."""
+    found = []
     for lighter, heavier in pairwise(curves):
         cross = _crossing(lighter, heavier)
         # The heavier curve is the higher one below the crossing if it is the flatter, above if it is the steeper.
         if lighter.beta < heavier.beta and lighter(cross) <= _RARE:
-            low = max(low, cross)
+            found.append((cross, True))
         if lighter.beta > heavier.beta and lighter(cross) >= 1.0 - _RARE:
-            high = min(high, cross)
-    return float(low if min_iml is None else min_iml), float(high if max_iml is None else max_iml)
+            found.append((cross, False))
+    return found
+
+
+def _uncut(functions: dict[str, Fragility]) -> dict[str, Curve]:
+    """The same curves; where the crossing of two would cut something of another, all of them at levels, raised."""
+    curves = list(functions.values())
+    harmless = all(
+        curves[0](cross) <= _RARE if is_below else curves[-1](cross) >= 1.0 - _RARE
+        for cross, is_below in _unseen_crossings(curves)
+    )
+    low, high = _range(curves, None, None)
+    if harmless or not low < high:
+        return dict(functions)
+    fitted = np.unique(np.concatenate([curve.levels for curve in curves] + [[curve.theta for curve in curves]]))
+    levels, raw = straight_lines(lambda x: np.array([curve(x) for curve in curves]), fitted)
+    return {
+        state: DiscreteFragility(levels, p, im=curve.im)
+        for (state, curve), p in zip(functions.items(), in_order(raw), strict=True)
+    }
 
 
 def _crossing(first: Fragility, second: Fragility) -> float:
