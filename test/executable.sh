@@ -584,7 +584,7 @@ s/'records.records.csv'/''/|bad.nml: &records: catalogue = '': must name a CSV t
 s/^ *catalogue.*//|bad.nml: &records: catalogue: must be given
 s/'both'/'backwards'/|bad.nml: &records: polarity = 'backwards': must be one of 'as_recorded', 'reversed', 'both'
 s/'records.records.csv'/'good.nml'/|good.nml: 
-s/'pga'/'pgx'/|bad.nml: &stripes: im = 'pgx': must be one of 'pga', 'pgv', 'pgd', 'arias', 'cav', 'hi', 'sa(T)', 'saavg(T1:T2)', 'pga/a0', 'p*pgv/a0'; T in s
+s/'pga'/'pgx'/|bad.nml: &stripes: im = 'pgx': must be one of 'pga', 'pgv', 'pgd', 'arias', 'cav', 'arias-trapz', 'cav-trapz', 'hi', 'sa(T)', 'saavg(T1:T2)', 'pga/a0', 'p*pgv/a0'; T in s
 s/'pga'/'sa(0,5)'/|bad.nml: &stripes: im = 'sa(0,5)': must be one of 'pga'
 s/'pga'/'sa(30)'/|bad.nml: &stripes: im = 'sa(30)': must be one of 'pga'
 s/'pga'/'d5-95'/|bad.nml: &stripes: im = 'd5-95': a duration stays as it is when a record is scaled

@@ -23,8 +23,8 @@ program test_intensity
    real(wp), parameter :: g = 9.81_wp
 
    !> One name of every kind
-   character(len=12), parameter :: names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', &
-      & 'd5-95', 'hi', 'sa(0.3)', 'saavg(0.2:2)']
+   character(len=12), parameter :: names(12) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'arias-trapz', &
+      & 'cav-trapz', 'd5-75', 'd5-95', 'hi', 'sa(0.3)', 'saavg(0.2:2)']
 
    call test_shapes()
    call test_oscillators()
@@ -81,6 +81,11 @@ contains
       call check_close(measured(record, 'pgv'), 1.5_wp, exact, 'PGV of a triangle')
       call check_close(measured(record, 'cav'), 1.5_wp, exact, 'CAV of a triangle')
       call check_close(measured(record, 'arias'), pi/(2.0_wp*g)*3.0_wp, exact, 'Arias intensity of a triangle')
+      ! The trapezoidal rule draws a straight line where a**2 is a parabola, and misses where the acceleration passes zero
+      call check_close(measured(record, 'cav-trapz'), 1.5_wp, exact, 'CAV of a triangle by the trapezoidal rule')
+      call check_close(measured(record, 'arias-trapz'), pi/(2.0_wp*g)*4.5_wp, exact, 'Arias intensity by the rule')
+      call check_close(measured(record_of([1.0_wp, -1.0_wp], 0.5_wp), 'cav-trapz'), 0.5_wp, exact, 'CAV by the rule, past zero')
+      call check_close(measured(record_of([1.0_wp, -1.0_wp], 0.5_wp), 'cav'), 0.25_wp, exact, 'CAV past zero')
       ! The energy of the ramp grows with the cube of time, of the falling side with 2 minus a cube
       call check_close(measured(record, 'd5-95'), 1.0_wp - 2.0_wp*0.5_wp*0.1_wp**(1.0_wp/3.0_wp), exact, &
          & 'duration of a triangle')
@@ -302,7 +307,7 @@ contains
       call check_error(error, '''p*pgv/a0''', 'a list with the measures of a wall')
       call new_measure(measure, 'pga/a0', error)
       call check_error(error, 'im = ''pga/a0''', 'a measure of a wall for a record alone')
-      call check(size(scaling_names) == 10, 'scaling names')
+      call check(size(scaling_names) == 12, 'scaling names')
    end subroutine test_names
 
    !> A record scaled to a level has that level, whatever the measure

@@ -48,6 +48,11 @@ def test_energies(record, lines):
     time, a = lines
     energy = quadrature(np.square, record)
     assert record.intensity("arias") == pytest.approx(0.5 * np.pi / GRAVITY * energy, rel=1e-12)
+    by_rule = np.trapezoid(record.acceleration**2, dx=record.dt)
+    assert record.intensity("arias-trapz") == pytest.approx(0.5 * np.pi / GRAVITY * by_rule, rel=1e-12)
+    assert record.intensity("cav-trapz") == pytest.approx(
+        np.trapezoid(np.abs(record.acceleration), dx=record.dt), rel=1e-12
+    )
     assert record.intensity("arias", gravity=9.0) == pytest.approx(0.5 * np.pi / 9.0 * energy, rel=1e-12)
     assert record.intensity("cav") == pytest.approx(quadrature(np.abs, record), rel=1e-4)
     growth = integrate.cumulative_simpson(a**2, x=time, initial=0.0) / energy
@@ -160,7 +165,7 @@ def test_table(few):
         dd.intensity_table(few, 3)
 
 
-@pytest.mark.parametrize("im", ["pgv", "pgd", "arias", "cav", "hi", "sa(0.5)", "saavg(0.2:2)"])
+@pytest.mark.parametrize("im", ["pgv", "pgd", "arias", "cav", "arias-trapz", "cav-trapz", "hi", "sa(0.5)", "saavg(0.2:2)"])
 def test_stripes_reach_their_levels(few, im):
     wall = dd.OneSidedWall(height=1.5, thickness=0.25)
     stripes = dd.multiple_stripe(wall, few, [0.05, 0.1], im=im, progress=False)

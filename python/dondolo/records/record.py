@@ -223,7 +223,8 @@ class Record:
         ----------
         im : str
             'pga', 'sa(T)' or 'saavg(T1:T2)' [g], 'pgv', 'arias' or 'cav' [m/s], 'pgd' or 'hi' [m], 'd5-75' or
-            'd5-95' [s]; T, T1 and T2 are periods [s], as in 'sa(0.5)'.
+            'd5-95' [s]; T, T1 and T2 are periods [s], as in 'sa(0.5)'. 'arias-trapz' and 'cav-trapz' [m/s] are by the
+            trapezoidal rule, as other programs have them.
         gravity : float, optional
             What g is [m/s2]; 9.81 if left out.
 

@@ -18,8 +18,8 @@ module dondolo_scaling
    character(len=8), parameter :: wall_names(2) = [character(len=8) :: 'pga/a0', 'p*pgv/a0']
 
    !> What a record can be scaled by: all measures but durations, and those that need a wall
-   character(len=12), parameter :: scaling_names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', &
-      & 'hi', 'sa(T)', 'saavg(T1:T2)', wall_names]
+   character(len=12), parameter :: scaling_names(12) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', &
+      & 'arias-trapz', 'cav-trapz', 'hi', 'sa(T)', 'saavg(T1:T2)', wall_names]
 
    !> What records are scaled by
    type :: scaling_type

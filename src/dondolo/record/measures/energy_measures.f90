@@ -5,7 +5,7 @@ module dondolo_energy_measures
    implicit none
    private
 
-   public :: acceleration_energy, cumulative_absolute_velocity, significant_duration, significant_times
+   public :: acceleration_energy, cumulative_absolute_velocity, significant_duration, significant_times, trapezoid
 
 contains
 
@@ -37,6 +37,19 @@ contains
          end do
       end associate
    end function cumulative_absolute_velocity
+
+   !> Integral over time by the trapezoidal rule, as other programs take it of a**2 and |a|: too large, since both are convex
+   !> where the acceleration is a straight line
+   pure function trapezoid(values, dt) result(integral)
+      !> Values at the samples
+      real(wp), intent(in) :: values(:)
+      !> Time step [s]
+      real(wp), intent(in) :: dt
+      !> The integral
+      real(wp) :: integral
+
+      integral = dt*(sum(values) - 0.5_wp*(values(1) + values(size(values))))
+   end function trapezoid
 
    !> Significant duration: the time in which the integral of a**2 grows from one share of its end value to another [s]
    !> (Trifunac and Brady 1975)

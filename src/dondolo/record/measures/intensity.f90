@@ -4,7 +4,7 @@
 !> stands in the size of a level and not in the value: the value of 'arias' is pi/2 times the integral of a**2, and a
 !> level of 1 m/s is g of it.
 module dondolo_intensity
-   use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration
+   use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration, trapezoid
    use dondolo_error, only : error_type, raise_input
    use dondolo_ground_motion, only : peak_displacement, peak_velocity
    use dondolo_kinds, only : pi, wp
@@ -19,15 +19,18 @@ module dondolo_intensity
    public :: im_names, im_help
 
    !> Names of the intensity measures; T, T1 and T2 stand for periods [s]
-   character(len=12), parameter :: im_names(10) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', &
-      & 'd5-95', 'hi', 'sa(T)', 'saavg(T1:T2)']
+   character(len=12), parameter :: im_names(12) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'arias-trapz', &
+      & 'cav-trapz', 'd5-75', 'd5-95', 'hi', 'sa(T)', 'saavg(T1:T2)']
 
    !> The names without periods, the units of levels, and words
-   character(len=5), parameter :: kinds(10) = [character(len=5) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'd5-75', 'd5-95', &
-      & 'hi', 'sa', 'saavg']
-   character(len=3), parameter :: units(10) = [character(len=3) :: 'g', 'm/s', 'm', 'm/s', 'm/s', 's', 's', 'm', 'g', 'g']
-   character(len=29), parameter :: titles(10) = [character(len=29) :: 'peak ground acceleration', 'peak ground velocity', &
-      & 'peak ground displacement', 'Arias intensity', 'cumulative absolute velocity', 'significant duration 5-75 %', &
+   character(len=11), parameter :: kinds(12) = [character(len=11) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'arias-trapz', &
+      & 'cav-trapz', 'd5-75', 'd5-95', 'hi', 'sa', 'saavg']
+   character(len=3), parameter :: units(12) = [character(len=3) :: 'g', 'm/s', 'm', 'm/s', 'm/s', 'm/s', 'm/s', 's', 's', &
+      & 'm', 'g', 'g']
+   character(len=41), parameter :: titles(12) = [character(len=41) :: 'peak ground acceleration', 'peak ground velocity', &
+      & 'peak ground displacement', 'Arias intensity', 'cumulative absolute velocity', &
+      & 'Arias intensity, trapezoidal', 'cumulative absolute velocity, trapezoidal', &
+      & 'significant duration 5-75 %', &
       & 'significant duration 5-95 %', 'Housner intensity', 'spectral acceleration', 'average spectral acceleration']
 
    !> What a message adds to the names
@@ -47,7 +50,7 @@ module dondolo_intensity
       !> Its name, with periods as short as they can be written
       character(len=:), allocatable :: name
       !> Its name without periods
-      character(len=5) :: kind = 'pga'
+      character(len=11) :: kind = 'pga'
       !> Periods of the oscillators it needs [s]
       real(wp), allocatable :: periods(:)
    contains
@@ -167,6 +170,10 @@ contains
          value = 0.5_wp*pi*acceleration_energy(record)
       case ('cav')
          value = cumulative_absolute_velocity(record)
+      case ('arias-trapz')
+         value = 0.5_wp*pi*trapezoid(record%acceleration**2, record%dt)
+      case ('cav-trapz')
+         value = trapezoid(abs(record%acceleration), record%dt)
       case ('d5-75')
          value = significant_duration(record, 0.05_wp, 0.75_wp)
       case ('d5-95')
@@ -192,7 +199,7 @@ contains
 
       level_size = 1.0_wp
       select case (self%kind)
-      case ('pga', 'sa', 'saavg', 'arias')
+      case ('pga', 'sa', 'saavg', 'arias', 'arias-trapz')
          level_size = gravity
       end select
    end function level_size
@@ -246,7 +253,7 @@ contains
       class(measure_type), intent(in) :: self
 
       power = 1
-      if (self%kind == 'arias') power = 2
+      if (self%kind(1:5) == 'arias') power = 2
       if (self%kind(1:2) == 'd5') power = 0
    end function power
 
