@@ -8,6 +8,7 @@ module dondolo_summary
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
    use dondolo_results, only : results_type
+   use dondolo_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
@@ -58,6 +59,7 @@ contains
                call print_verdicts(results%verdicts, case%check)
                call print_verdict_rows(case, results)
             end if
+            if (allocated(case%uncertainty)) call print_sources(case, results)
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
                & to_text(case%survey%rows)//' are complete; when all are, take them together:', &
@@ -83,6 +85,23 @@ contains
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
    end subroutine print_summary
+
+   !> Print what the medians of the variants of a wall are owed to
+   subroutine print_sources(case, results)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      call make_model_sentence(case, results, line)
+      write (output_unit, '(a)') '', line
+      do i = 1, size(case%facade%sources)
+         call make_source_sentence(case, results, i, line)
+         write (output_unit, '(a)') line
+      end do
+      if (allocated(results%no_sensitivity)) write (output_unit, '(a)') 'no indices: '//results%no_sensitivity
+   end subroutine print_sources
 
    !> The factor on vertical components, where it is not 1
    function factor_note(case) result(text)

@@ -16,6 +16,7 @@ module dondolo_population
    use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
    use dondolo_text, only : join, lower, to_text
+   use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
@@ -81,8 +82,8 @@ module dondolo_population
       character(len=:), allocatable :: name, mechanisms
       !> Can a row become several?
       logical :: has_hinges = .false.
-      !> What is read instead of a table; not allocated: the table
-      type(wall_input_type), allocatable :: facade
+      !> What is read instead of a table: a facade, or a wall with variants; not allocated: the table
+      type(stated_wall_type), allocatable :: facade
       !> Path of what is read, for messages
       character(len=:), allocatable :: file
       !> What the row says, hinges that it has, and the number of the last that was given out
@@ -117,8 +118,8 @@ contains
       real(wp), intent(in), optional :: gravity
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
-      !> The facade that is the whole population; absent: the table
-      type(wall_input_type), intent(in), optional :: facade
+      !> The facade, or the wall with variants, that is the whole population; absent: the table
+      type(stated_wall_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
@@ -162,8 +163,8 @@ contains
       real(wp), intent(in), optional :: gravity
       !> Is the table as a whole to be checked? Yes if absent
       logical, intent(in), optional :: is_checked
-      !> The facade that is the whole population; absent: there is a table
-      type(wall_input_type), intent(in), optional :: facade
+      !> The facade, or the wall with variants, that is the whole population; absent: there is a table
+      type(stated_wall_type), intent(in), optional :: facade
 
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
@@ -257,12 +258,16 @@ contains
          self%wall%has_name = self%name == member%wall%name() .or. &
             & (len(member%facade) > 0 .and. self%wall%facade == member%facade)
       end if
-      if (.not. allocated(self%facade)) call add_place(error, self%place())
+      if (.not. allocated(self%facade)) then
+         call add_place(error, self%place())
+      else if (self%facade%is_uncertain()) then
+         call add_place(error, self%file//': wall '''//trim(self%input%word('name'))//'''')
+      end if
       self%is_right = self%is_right .and. .not. allocated(error)
       self%has_weight = self%has_weight .or. member%weight > 0.0_wp
    end subroutine next
 
-   !> Read the next row of the table, or the facade once
+   !> Read the next row of the table, or the facade once, or the next variant
    subroutine read_next(self, found, error)
       class(population_reader_type), intent(inout) :: self
       !> Was there one?
@@ -276,7 +281,7 @@ contains
          call self%table%next(found, error)
          return
       end if
-      found = self%row == 0
+      found = self%row < self%facade%rows()
    end subroutine read_next
 
    !> Make the next member: that of the row, or of the next hinge of the row before
@@ -398,7 +403,8 @@ contains
       self%input = wall_input_type()
       self%own%has_name = .true.
       if (allocated(self%facade)) then
-         self%input = self%facade
+         self%input = self%facade%wall_input_type
+         if (self%facade%is_uncertain()) call self%facade%vary(self%row, self%input)
          return
       end if
       call self%input%set('name', 'wall '//to_text(self%row))
@@ -423,6 +429,7 @@ contains
       call own%check(problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
       self%own%weight = abs(own%number('weight'))
+      if (allocated(self%facade)) self%own%weight = self%facade%weight(self%row)
       self%own%p_occ = abs(own%number('p_occ'))
       self%own%group = own%word('group')
       self%own%facade = trim(own%word('facade'))

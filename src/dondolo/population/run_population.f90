@@ -12,7 +12,7 @@ module dondolo_run_population
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_threads, only : team_of
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_variants, only : stated_wall_type
    implicit none
    private
 
@@ -42,8 +42,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
-      !> The facade that is the whole population; absent: the table
-      type(wall_input_type), intent(in), optional :: facade
+      !> The facade, or the wall with variants, that is the whole population; absent: the table
+      type(stated_wall_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type), allocatable :: members(:)

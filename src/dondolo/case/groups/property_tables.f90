@@ -10,6 +10,7 @@ module dondolo_property_tables
    use dondolo_records_group, only : records_properties
    use dondolo_solver, only : solver_properties
    use dondolo_stripes_group, only : stripes_properties
+   use dondolo_uncertainty_group, only : uncertainty_properties
    use dondolo_wall_properties, only : own_properties, wall_properties
    implicit none
    private
@@ -18,11 +19,11 @@ module dondolo_property_tables
    public :: group_names, table_names
 
    !> Groups of a namelist
-   character(len=10), parameter :: group_names(*) = [character(len=10) :: 'job', 'wall', 'building', &
-      & 'population', 'records', 'stripes', 'solver', 'history', 'check']
+   character(len=11), parameter :: group_names(*) = [character(len=11) :: 'job', 'wall', 'building', &
+      & 'uncertainty', 'population', 'records', 'stripes', 'solver', 'history', 'check']
 
    !> The same, and what rows of a population have besides the properties of a wall
-   character(len=10), parameter :: table_names(*) = [character(len=10) :: group_names, 'member']
+   character(len=11), parameter :: table_names(*) = [character(len=11) :: group_names, 'member']
 
 contains
 
@@ -40,6 +41,8 @@ contains
          table = wall_properties(:own_properties)
       case ('building')
          table = building_properties
+      case ('uncertainty')
+         table = uncertainty_properties
       case ('population')
          table = population_properties
       case ('records')

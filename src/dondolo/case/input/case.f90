@@ -17,8 +17,9 @@ module dondolo_case
    use dondolo_study, only : new_study, study_type
    use dondolo_suite, only : suite_type
    use dondolo_survey, only : survey_type
+   use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : is_of_building, own_properties, wall_input_type, wall_properties
+   use dondolo_wall_properties, only : is_of_building, own_properties, wall_properties
    implicit none
    private
 
@@ -32,8 +33,10 @@ module dondolo_case
       type(job_type) :: job
       !> Path of the population as it was given; not allocated: the case has one wall, or one facade
       character(len=:), allocatable :: population_file
-      !> The facade that is the population; not allocated: there is a table, or one wall
-      type(wall_input_type), allocatable :: facade
+      !> The facade, or the wall with variants, that is the population; not allocated: there is a table, or one wall
+      type(stated_wall_type), allocatable :: facade
+      !> What is said of its variants; not allocated: it has none
+      type(group_settings_type), allocatable :: uncertainty
       !> The wall, unless the task is 'typology'
       type(wall_type) :: wall
       !> What there is in the population, if the task is 'typology'
@@ -152,6 +155,7 @@ contains
             & rows=wall_properties(:own_properties))
          if (self%facade%gives(is_of_building)) call echo_settings('building', self%facade, echoed, &
             & rows=building_properties)
+         if (allocated(self%uncertainty)) call echo_settings('uncertainty', self%uncertainty, echoed)
       else
          call echo_settings('wall', self%wall%input, echoed, last='restitution_factor', &
             & rows=wall_properties(:own_properties))

@@ -29,6 +29,7 @@ module dondolo_read_case
    use dondolo_survey, only : survey_population
    use dondolo_system, only : is_folder
    use dondolo_text, only : brief, to_text
+   use dondolo_uncertainty_group, only : read_uncertainty_group
    use dondolo_wall, only : new_wall
    use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
    implicit none
@@ -145,7 +146,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=10) :: needed, other
-      type(group_type) :: group
+      type(group_type) :: group, variants
       logical :: has_facade
 
       needed = 'wall'
@@ -155,7 +156,15 @@ contains
          other = 'wall'
       end if
       group = namelist%group('wall')
-      has_facade = task == 'typology' .and. (group%has('hinge_level') .or. group%has('hinge_at'))
+      variants = namelist%group('uncertainty')
+      if (variants%line > 0 .and. task /= 'typology') then
+         call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): only for task = ''typology''')
+         return
+      else if (variants%line > 0 .and. (group%has('hinge_level') .or. group%has('hinge_at'))) then
+         call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): not with hinge_level or hinge_at')
+         return
+      end if
+      has_facade = task == 'typology' .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
       group = namelist%group(trim(needed))
       if (group%line == 0 .and. .not. has_facade) then
          group = namelist%group('job')
@@ -186,8 +195,8 @@ contains
 
       group = namelist%group('wall')
       if (case%job%task == 'typology' .and. group%line > 0) then
-         call make_facade(input, case, error)
-         call group%locate(error)
+         call make_facade(input, namelist%group('uncertainty'), case, error)
+         if (.not. allocated(case%uncertainty)) call group%locate(error)
          return
       else if (case%job%task == 'typology') then
          group = namelist%group('population')
@@ -207,11 +216,13 @@ contains
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall
 
-   !> Take a facade, and make all of its walls to check them
-   subroutine make_facade(input, case, error)
+   !> Take a facade, or a wall with variants, and make all of its walls to check them
+   subroutine make_facade(input, variants, case, error)
       !> What is said of it
       type(wall_input_type), intent(in) :: input
-      !> The case: its facade is set
+      !> The group of its variants, if there is one
+      type(group_type), intent(in) :: variants
+      !> The case: its facade, or its wall with variants, is set
       type(case_type), intent(inout) :: case
       !> What is wrong with it or one of its walls
       type(error_type), allocatable, intent(out) :: error
@@ -220,8 +231,14 @@ contains
       type(member_type) :: member
       logical :: found
 
-      case%facade = input
-      if (.not. case%facade%has('name')) call case%facade%set('name', 'facade')
+      allocate (case%facade)
+      case%facade%wall_input_type = input
+      if (.not. case%facade%has('name')) call case%facade%set('name', trim(merge('wall  ', 'facade', variants%line > 0)))
+      if (variants%line > 0) then
+         allocate (case%uncertainty)
+         call read_uncertainty_group(variants, case%facade, case%uncertainty, error)
+         if (allocated(error)) return
+      end if
       call reader%open(case%file, error, case%solver%gravity, facade=case%facade)
       found = .not. allocated(error)
       do while (found .and. .not. allocated(error))

@@ -17,7 +17,8 @@ module dondolo_survey
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
-   use dondolo_wall_properties, only : wall_input_type, wall_properties
+   use dondolo_variants, only : stated_wall_type
+   use dondolo_wall_properties, only : wall_properties
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private
@@ -71,8 +72,8 @@ contains
       integer, intent(in) :: rows(2)
       !> Everything that is wrong with the table, or the first level that asks too much
       type(error_type), allocatable, intent(out) :: error
-      !> The facade that is the whole population; absent: the table
-      type(wall_input_type), intent(in), optional :: facade
+      !> The facade, or the wall with variants, that is the whole population; absent: the table
+      type(stated_wall_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type) :: member

@@ -12,6 +12,7 @@ module dondolo_reports
    use dondolo_row_reports, only : write_one_row, write_rows
    use dondolo_run_file, only : shape_names, shape_of, write_run
    use dondolo_echo, only : echo_type
+   use dondolo_source_rows, only : make_source_row, source_head
    use dondolo_text, only : to_table, to_text
    use dondolo_tie_rows, only : make_tie_comment
    use dondolo_warning_sentence, only : warning_sentences
@@ -60,6 +61,7 @@ contains
          if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
             & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
+         if (allocated(case%uncertainty)) names = [names(:size(names) - 1), [character(len=15) :: '_sources.csv', run_suffix]]
       end select
    end function suffixes
 
@@ -107,6 +109,8 @@ contains
          call write_typology(case, results, files)
       else if (name == '_unions.csv') then
          call write_unions(case, results, files)
+      else if (name == '_sources.csv') then
+         call write_sources(case, results, files)
       else if (name == '_check.csv') then
          call write_check(results, files)
       else if (name == '_history.csv') then
@@ -214,6 +218,22 @@ contains
          end do
       end do
    end subroutine write_unions
+
+   !> The uncertain properties of a wall with variants
+   subroutine write_sources(case, results, files)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      call files%line(source_head)
+      do i = 1, size(case%facade%sources)
+         call make_source_row(case, results, i, line)
+         call files%line(line)
+      end do
+   end subroutine write_sources
 
    !> The sheet of the check
    subroutine write_check(results, files)

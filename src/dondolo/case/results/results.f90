@@ -6,6 +6,7 @@ module dondolo_results
    use dondolo_fragility, only : fragility_type
    use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
+   use dondolo_sensitivity, only : sensitivity_type
    use dondolo_store, only : store_type
    use dondolo_stripe_counts, only : stripe_counts_type
    use dondolo_typology, only : typology_type
@@ -51,6 +52,9 @@ module dondolo_results
       !> Of the same histories: walls with several mechanisms, and behind them the means over the population and its groups:
       !> task 'typology'
       type(unions_type) :: unions
+      !> Sobol indices of a wall with variants, or why there are none; neither where there are no variants
+      type(sensitivity_type), allocatable :: sensitivity
+      character(len=:), allocatable :: no_sensitivity
       !> The first rows of the population: task 'typology'
       type(shown_row_type), allocatable :: shown(:)
       !> How many rows an earlier run had left: task 'typology'

@@ -9,6 +9,7 @@ module dondolo_combine_rows
    use dondolo_population_errors, only : population_errors_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
+   use dondolo_sensitivity, only : new_sensitivity
    use dondolo_study, only : study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_unite_rows, only : unite_rows
@@ -49,11 +50,34 @@ contains
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (.not. allocated(error)) call unite_rows(case, results, study, error)
       if (allocated(error)) return
+      if (allocated(case%uncertainty)) call find_sensitivity(case, results)
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, states), results%warnings)
    end subroutine combine_rows
+
+   !> What the scatter of the medians of a wall with variants is owed to
+   subroutine find_sensitivity(case, results)
+      type(case_type), intent(in) :: case
+      !> Its results: the curves are there; the indices are set
+      type(results_type), intent(inout) :: results
+
+      type(error_type), allocatable :: error
+      logical, allocatable :: fitted(:)
+      integer :: n, k, i
+
+      n = case%facade%samples
+      associate (curves => results%population%curve(size(case%stripes%thresholds), :n), values => case%facade%values)
+         fitted = [(curves(i)%has_fit(), i=1, n)]
+         allocate (results%sensitivity)
+         call new_sensitivity(results%sensitivity, reshape([(pack(values(k, :n), fitted), k=1, size(values, 1))], &
+            & [count(fitted), size(values, 1)]), log(pack(curves%theta, fitted)), error)
+      end associate
+      if (.not. allocated(error)) return
+      deallocate (results%sensitivity)
+      results%no_sensitivity = error%message
+   end subroutine find_sensitivity
 
    !> Counts of all rows
    subroutine gather(results, share, error)

@@ -1,0 +1,85 @@
+!> The group &uncertainty: what is not known for certain of the one wall of a case.
+module dondolo_uncertainty_group
+   use dondolo_distribution, only : distribution_type, new_distribution
+   use dondolo_error, only : error_type, problems_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_namelist_group, only : group_type
+   use dondolo_property, only : is_integer, is_text, name_length, property_type
+   use dondolo_sensitivity, only : smallest_sample
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_group, only : read_settings
+   use dondolo_text, only : to_text
+   use dondolo_variants, only : sample_variants, stated_wall_type
+   implicit none
+   private
+
+   public :: read_uncertainty_group
+   public :: uncertainty_properties
+
+   !> Variables of the group; behind the first two properties of walls, by their names
+   type(property_type), target, protected :: uncertainty_properties(11) = [ &
+      & property_type('count', is_integer, default=200.0_wp, smallest=1.0_wp, largest=10000.0_wp, &
+      &   meaning='walls of the sample'), &
+      & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
+      &   meaning='seed of the random numbers; the same seed gives the same walls'), &
+      & property_type('restitution_factor', is_text, optional=.true., example='graziotti_2016', meaning='distribution of '// &
+      &   'it, or a published range: ''graziotti_2016'' (two-block), ''elgawady_2010'' (on concrete)'), &
+      & property_type('hinge', is_text, optional=.true., example='triangular(0.5, 0.6, 0.75)', meaning='distribution of it'), &
+      & property_type('hinge_depth', is_text, optional=.true., example='lognormal(0.01, 0.4)', &
+      &   meaning='distribution of it, m'), &
+      & property_type('compressive_strength', is_text, optional=.true., example='lognormal(2.0e6, 0.3)', &
+      &   meaning='distribution of it, Pa'), &
+      & property_type('density', is_text, optional=.true., example='normal(1800.0, 90.0)', &
+      &   meaning='distribution of it, kg/m3'), &
+      & property_type('height', is_text, optional=.true., example='uniform(2.9, 3.1)', meaning='distribution of it, m'), &
+      & property_type('thickness', is_text, optional=.true., example='normal(0.25, 0.01)', meaning='distribution of it, m'), &
+      & property_type('overburden', is_text, optional=.true., example='uniform(4.0e3, 8.0e3)', &
+      &   meaning='distribution of it, N/m'), &
+      & property_type('eccentricity', is_text, optional=.true., example='uniform(-0.05, 0.05)', &
+      &   meaning='distribution of it, m')]
+
+contains
+
+   !> Read the group, and make the variants of the wall
+   subroutine read_uncertainty_group(group, wall, settings, error)
+      !> The group as it stands in the file
+      type(group_type), intent(in) :: group
+      !> The wall: its variants are set
+      type(stated_wall_type), intent(inout) :: wall
+      !> What the group says
+      type(group_settings_type), intent(out) :: settings
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      type(distribution_type), allocatable :: distributions(:)
+      type(distribution_type) :: one
+      type(problems_type) :: problems
+      character(len=name_length), allocatable :: sources(:)
+      integer :: i
+
+      call new_settings(settings, uncertainty_properties)
+      call read_settings(group, settings, error)
+      if (allocated(error)) return
+      allocate (distributions(0), sources(0))
+      do i = 3, size(uncertainty_properties)
+         associate (name => uncertainty_properties(i)%name)
+            if (.not. settings%has(trim(name))) cycle
+            call new_distribution(one, trim(name), settings%word(trim(name)), error)
+            call problems%take(error)
+            sources = [sources, name]
+            distributions = [distributions, one]
+         end associate
+      end do
+      call problems%raise(error)
+      if (.not. allocated(error) .and. size(sources) == 0) call raise_input(error, 'a property must have a distribution, '// &
+         & 'such as hinge = ''triangular(0.5, 0.6, 0.75)''')
+      associate (count => nint(settings%number('count')))
+         if (.not. allocated(error) .and. count < smallest_sample(size(sources))) call raise_input(error, 'count = '// &
+            & to_text(count)//': must be at least '//to_text(smallest_sample(size(sources)))//' for the indices of '// &
+            & to_text(size(sources))//' properties')
+         if (.not. allocated(error)) call sample_variants(wall, sources, distributions, count, nint(settings%number('seed')))
+      end associate
+      call group%locate(error)
+   end subroutine read_uncertainty_group
+
+end module dondolo_uncertainty_group

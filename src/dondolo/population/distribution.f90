@@ -1,0 +1,172 @@
+!> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
+module dondolo_distribution
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_real
+   use dondolo_restitution, only : published_factors
+   use dondolo_text, only : join, lower
+   implicit none
+   private
+
+   public :: distribution_type, new_distribution
+
+   !> Names of the distributions
+   character(len=10), parameter :: kinds(*) = [character(len=10) :: 'uniform', 'triangular', 'normal', 'lognormal']
+
+   !> How they are called, for messages
+   character(len=*), parameter :: help = 'must be ''uniform(low, high)'', ''triangular(low, mode, high)'', '// &
+      & '''normal(mean, sd)'' or ''lognormal(theta, beta)'', the last two also with low, high where they are cut off'
+
+   !> A distribution
+   type :: distribution_type
+      !> Its name, one of kinds
+      character(len=10) :: kind = 'uniform'
+      !> Its parameters in the order of its call
+      real(wp), allocatable :: parameters(:)
+   contains
+      !> The value that is not exceeded with a probability
+      procedure :: quantile
+   end type distribution_type
+
+contains
+
+   !> Make a distribution of its text
+   subroutine new_distribution(found, property, text, error)
+      type(distribution_type), intent(out) :: found
+      !> The property that is distributed so
+      character(len=*), intent(in) :: property
+      !> Name and parameters; for restitution_factor also the name of a published range
+      character(len=*), intent(in) :: text
+      !> It is none
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=len(text)) :: plain
+      integer :: open, close, i
+      logical :: ok
+
+      plain = lower(adjustl(text))
+      allocate (found%parameters(0))
+      i = findloc(published_factors%name == plain, .true., dim=1)
+      if (i > 0 .and. property == 'restitution_factor') then
+         found%parameters = [published_factors(i)%low, published_factors(i)%high]
+         return
+      end if
+      open = index(plain, '(')
+      close = len_trim(plain)
+      ok = open > 1
+      if (ok) ok = any(kinds == plain(:open - 1)) .and. plain(close:close) == ')'
+      if (ok) then
+         found%kind = plain(:open - 1)
+         call take_numbers(plain(open + 1:close - 1), found%parameters, ok)
+      end if
+      if (ok) ok = are_right(found%kind, found%parameters)
+      if (ok) return
+      call raise_input(error, property//' = '''//text//''': '//help)
+      if (property == 'restitution_factor') error%message = error%message//'; or a published range: '// &
+         & join(published_factors%name)
+   end subroutine new_distribution
+
+   !> Numbers with commas between them
+   subroutine take_numbers(text, numbers, ok)
+      character(len=*), intent(in) :: text
+      real(wp), allocatable, intent(out) :: numbers(:)
+      !> Are all of them numbers?
+      logical, intent(out) :: ok
+
+      real(wp) :: number
+      integer :: first, last
+
+      allocate (numbers(0))
+      first = 1
+      do
+         last = index(text(first:)//',', ',') + first - 2
+         call parse_real(text(first:last), number, ok)
+         if (.not. ok) return
+         numbers = [numbers, number]
+         if (last >= len(text)) return
+         first = last + 2
+      end do
+   end subroutine take_numbers
+
+   !> Do parameters make a distribution?
+   pure logical function are_right(kind, p)
+      character(len=*), intent(in) :: kind
+      !> The parameters
+      real(wp), intent(in) :: p(:)
+
+      are_right = .false.
+      select case (kind)
+      case ('uniform')
+         if (size(p) == 2) are_right = p(1) < p(2)
+      case ('triangular')
+         if (size(p) == 3) are_right = p(1) < p(3) .and. p(1) <= p(2) .and. p(2) <= p(3)
+      case default
+         if (size(p) == 2 .or. size(p) == 4) are_right = p(2) > 0.0_wp .and. (kind == 'normal' .or. all(p > 0.0_wp))
+         if (are_right .and. size(p) == 4) are_right = p(3) < p(4)
+      end select
+   end function are_right
+
+   !> The value that is not exceeded with a probability
+   pure real(wp) function quantile(self, probability) result(value)
+      class(distribution_type), intent(in) :: self
+      !> The probability, between 0 and 1
+      real(wp), intent(in) :: probability
+
+      real(wp) :: ends(2), share
+
+      associate (p => self%parameters)
+         select case (self%kind)
+         case ('uniform')
+            value = p(1) + (p(2) - p(1))*probability
+         case ('triangular')
+            share = (p(2) - p(1))/(p(3) - p(1))
+            if (probability < share) then
+               value = p(1) + sqrt(probability*(p(3) - p(1))*(p(2) - p(1)))
+            else
+               value = p(3) - sqrt((1.0_wp - probability)*(p(3) - p(1))*(p(3) - p(2)))
+            end if
+         case default
+            ends = [0.0_wp, 1.0_wp]
+            if (size(p) == 4 .and. self%kind == 'normal') ends = normal_cdf((p(3:4) - p(1))/p(2))
+            if (size(p) == 4 .and. self%kind == 'lognormal') ends = normal_cdf(log(p(3:4)/p(1))/p(2))
+            value = normal_quantile(ends(1) + (ends(2) - ends(1))*probability)
+            if (self%kind == 'normal') value = p(1) + p(2)*value
+            if (self%kind == 'lognormal') value = p(1)*exp(p(2)*value)
+            if (size(p) == 4) value = min(p(4), max(p(3), value))
+         end select
+      end associate
+   end function quantile
+
+   !> Distribution function of the standard normal distribution
+   elemental real(wp) function normal_cdf(x)
+      real(wp), intent(in) :: x
+
+      normal_cdf = 0.5_wp*erfc(-x/sqrt(2.0_wp))
+   end function normal_cdf
+
+   !> Quantile of the standard normal distribution, by halving: to rounding of the distribution function
+   pure real(wp) function normal_quantile(p) result(x)
+      !> Probability, between 0 and 1
+      real(wp), intent(in) :: p
+
+      !> Beyond which there is nothing in double precision
+      real(wp), parameter :: furthest = 40.0_wp
+      real(wp) :: below, above, tail
+
+      ! The smaller tail keeps its digits
+      tail = min(p, 1.0_wp - p)
+      below = -furthest
+      above = 0.0_wp
+      do
+         x = 0.5_wp*(below + above)
+         if (x <= below .or. x >= above) exit
+         if (normal_cdf(x) < tail) then
+            below = x
+         else
+            above = x
+         end if
+      end do
+      if (p > 0.5_wp) x = -x
+   end function normal_quantile
+
+end module dondolo_distribution
