@@ -7,6 +7,7 @@ module dondolo_summary
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
+   use dondolo_restitution, only : published_factors
    use dondolo_results, only : results_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_text, only : counted, right, rounded, to_text
@@ -66,6 +67,7 @@ contains
                & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
          end if
       end select
+      if (case%job%task /= 'typology') call print_restitution(case)
       if (case%suite%has_vertical()) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
       on_floors = allocated(case%wall%building)
@@ -85,6 +87,18 @@ contains
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
    end subroutine print_summary
+
+   !> Print what the restitution of a wall of two blocks assumes: no other choice moves its curve as much
+   subroutine print_restitution(case)
+      type(case_type), intent(in) :: case
+
+      associate (input => case%wall%input, tests => published_factors(1))
+         if (case%wall%mechanism_name() /= 'two_block' .or. input%word('restitution') == 'constant') return
+         write (output_unit, '(a)') 'note: restitution is '//to_text(input%number('restitution_factor'))//' times that of '// &
+            & 'the model; tests on two-block walls gave '//to_text(tests%low)//' to '//to_text(tests%high)// &
+            & ' times it, and &uncertainty says what that makes of theta'
+      end associate
+   end subroutine print_restitution
 
    !> Print what the medians of the variants of a wall are owed to
    subroutine print_sources(case, results)

@@ -61,7 +61,7 @@ contains
          do i = 1, size(table)
             if (.not. suits(table(i), task)) cycle
             call make_assignment(table(i), task, assignment)
-            if (len(before) > 0) assignment = before//'   '//assignment(6:)
+            if (len(before) > 0) assignment = before//'   '//assignment(verify(assignment, ' !'):)
             if (pass == 1) margin = max(margin, len(assignment) + 2)
             if (pass == 1) cycle
             call make_comment(table(i), comment)
@@ -157,6 +157,8 @@ contains
       end do
       call print_line('! Rows with one name are mechanisms of one wall. A row with hinge_at, or hinge1_level, hinge2_level ...,')
       call print_line('! is a facade: a wall for each hinge, in series. One facade alone: &wall with either, not &population.')
+      call print_line('! One wall that is not known for certain: &wall, not &population, and')
+      call print_group('uncertainty', 'typology', is_commented=.true.)
    end subroutine print_columns
 
    !> Print a line with a comment, which goes on in the lines below where it is long

@@ -8,6 +8,9 @@ TITLES = {
     "job": "What is to be done",
     "wall": "One wall, for the tasks 'stripes' and 'history'; in the columns of a population, its walls",
     "building": "What the wall stands on, where that is not the ground; in the columns of a population, of each wall",
+    "uncertainty": "What is not known for certain of the one wall of a case, for the task 'typology' with `&wall`; each"
+    " property as a distribution: 'uniform(low, high)', 'triangular(low, mode, high)', 'normal(mean, sd)' or"
+    " 'lognormal(theta, beta)', the last two also with low, high where they are cut off",
     "member": "Further columns of a population",
     "population": "A population of walls, for the task 'typology'",
     "records": "The accelerograms",

@@ -40,6 +40,7 @@ from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall, uncertain_wall
+from dondolo.populations.weakest_hinge import HingeSearch, weakest_hinge
 from dondolo.records import pulses
 from dondolo.records.building import Building
 from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
@@ -84,6 +85,7 @@ __all__ = [
     "FragilityModel",
     "Group",
     "HazardCurve",
+    "HingeSearch",
     "Incremental",
     "InputError",
     "IntensityComparison",
@@ -153,6 +155,7 @@ __all__ = [
     "synthetic_records",
     "typology",
     "uncertain_wall",
+    "weakest_hinge",
     "write_nrml",
 ]
 # Names of walls stand where the walls do

@@ -165,7 +165,9 @@ def test_table(few):
         dd.intensity_table(few, 3)
 
 
-@pytest.mark.parametrize("im", ["pgv", "pgd", "arias", "cav", "arias-trapz", "cav-trapz", "hi", "sa(0.5)", "saavg(0.2:2)"])
+@pytest.mark.parametrize(
+    "im", ["pgv", "pgd", "arias", "cav", "arias-trapz", "cav-trapz", "hi", "sa(0.5)", "saavg(0.2:2)"]
+)
 def test_stripes_reach_their_levels(few, im):
     wall = dd.OneSidedWall(height=1.5, thickness=0.25)
     stripes = dd.multiple_stripe(wall, few, [0.05, 0.1], im=im, progress=False)

@@ -238,7 +238,11 @@ def test_a_range_ends_where_curves_cross_unseen(path):
         check(path)
         imls = ElementTree.parse(path).getroot().find(f".//{SPACE}imls")
         # Three dispersions above the medians are below the upper crossing.
-        ends = {"minIML": cross} if seldom < 0.5 else {"maxIML": max(0.3 * np.exp(3.0 * betas[0]), second * np.exp(3.0 * betas[1]))}
+        ends = (
+            {"minIML": cross}
+            if seldom < 0.5
+            else {"maxIML": max(0.3 * np.exp(3.0 * betas[0]), second * np.exp(3.0 * betas[1]))}
+        )
         for what, end in ends.items():
             assert float(imls.get(what)) == pytest.approx(end, rel=1e-6)
         with pytest.raises(dd.InputError, match="cross"):
@@ -251,17 +255,16 @@ def test_an_unseen_crossing_cuts_nothing_of_other_states(path):
         cross = 0.3 * np.exp(betas[0] * stats.norm.ppf(seldom))
         second = cross * np.exp(-betas[1] * stats.norm.ppf(seldom))
         curves = {"b": lognormal(0.3, betas[0]), "c": lognormal(second, betas[1])}
-        if seldom < 0.5:
-            curves = {"a": lognormal(0.15, 0.3), **curves}
-        else:
-            curves = {**curves, "d": lognormal(1.0, betas[1])}
+        curves = {"a": lognormal(0.15, 0.3), **curves} if seldom < 0.5 else {**curves, "d": lognormal(1.0, betas[1])}
         dd.write_nrml(path, {"walls": curves})
         check(path)
         found = dd.read_nrml(path).functions["walls"]
         x = np.geomspace(0.05, 3.0, 400)
         for state, curve in curves.items():
             assert isinstance(found[state], DiscreteFragility)
-            lift = np.interp(x, np.append(0.0, found[state].levels), np.append(0.0, found[state].probability)) - curve(x)
+            lift = np.interp(x, np.append(0.0, found[state].levels), np.append(0.0, found[state].probability)) - curve(
+                x
+            )
             assert np.abs(lift).max() < 0.005
             assert (lift > -0.005 * curve(x) - 2e-9).all()
 

@@ -16,6 +16,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
+from dondolo._fortran.uncertainty import published_factors
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripe_sets import cut, join, span
@@ -382,10 +383,16 @@ class Stripes(Shown, Saved):
         tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
-        return [
+        facts = [
             ("wall", self.wall.name),
             ("levels", levels_in_words(self.levels, self.im)),
             ("histories of a stripe", span(self.histories)),
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
         ]
+        if self.wall.mechanism == "two_block" and self.wall.restitution != "constant":
+            tests = published_factors()["graziotti_2016"]
+            # No other choice moves the curve of such a wall as much
+            text = f"{self.wall.restitution_factor:g} times that of the model (tests: {tests.low:g} to {tests.high:g})"
+            facts.insert(1, ("restitution", text))
+        return facts

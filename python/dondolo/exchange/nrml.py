@@ -32,9 +32,10 @@ Discrete
     at levels that reach far enough down and stand close enough.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
-    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where two curves cross, if
-    all states have less than 0.1 % there or more than 99.9 %. Where another state has a probability to lose, the function
-    is written as discrete, and the lighter of the two raised to the heavier. Curves that cross in between are refused.
+    cross somewhere; between minIML and maxIML they must not. A range that is not given ends where two curves cross,
+    if all states have less than 0.1 % there or more than 99.9 %. Where another state has a probability to lose, the
+    function is written as discrete, and the lighter of the two raised to the heavier. Curves that cross in between
+    are refused.
 Units
     PGA and SA(T) in g, as here (OpenQuake's g is the standard 9.80665 m/s2, that of dondolo's levels is the wall's
     gravity, 9.81 unless given: 0.03 %). PGV in cm/s: levels are multiplied by 100. Other measures are refused.

@@ -1,4 +1,4 @@
-"""Figure of a wall whose model is uncertain."""
+"""Figures of walls that are not known for certain."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.figures import curves, style
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from dondolo.populations.uncertain_wall import UncertainWall
+    from dondolo.populations.weakest_hinge import HingeSearch
 
 # Most curves that are drawn one by one
 _THIN = 200
@@ -90,3 +93,26 @@ def _draw_tornado(found: UncertainWall, ax: Any) -> None:
     ax.set_xlim(min(reach) - 0.05 * wide, max(reach) + 0.15 * wide)
     unit = blank_unit(found.im).strip()
     ax.set_xlabel(f"median θ [{unit or '-'}]; % of the model's variance (total Sobol index)")
+
+
+def draw_hinges(found: HingeSearch, ax: Axes | None) -> Axes:
+    """Draw medians and trigger accelerations against the height of the hinge, each relative to its lowest."""
+    ax = style.axes(ax, (6.0, 4.4))
+    lowest = float(np.nanmin(found.thetas))
+    fitted = [i for i, curve in enumerate(found.curves) if curve.has_errors]
+    bounds = np.array([found.curves[i].parameter_interval()["theta"] for i in fitted]).reshape(-1, 2) / lowest
+    ax.fill_between(
+        found.hinges[fitted], *bounds.T, color=style.BLUE, alpha=0.2, linewidth=0.0, label="95 % interval of the median"
+    )
+    unit = blank_unit(found.typology.im)
+    ax.plot(found.hinges, found.thetas / lowest, "o-", color=style.BLUE, markersize=4, label=f"θ / {lowest:.3g}{unit}")
+    trigger = float(found.triggers.min())
+    ax.plot(found.hinges, found.triggers / trigger, "--", color=style.BLACK, label=f"trigger / {trigger:.3g} g")
+    ax.plot(found.hinge, 1.0, "v", color=style.RED, markersize=9, label=f"collapses first: {found.hinge:g}")
+    ax.plot(
+        found.first_to_rock, 1.0, "^", color=style.BLACK, markersize=7, label=f"rocks first: {found.first_to_rock:g}"
+    )
+    ax.set_xlabel("height of the hinge / height of the wall")
+    ax.set_ylabel("relative to the lowest [-]")
+    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+    return ax

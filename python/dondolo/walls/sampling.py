@@ -89,15 +89,16 @@ def sample_population(
 
     Notes
     -----
-    A correlation is that of the normal scores (the Gaussian copula): of the values of two normal distributions, of the
-    logarithms of two lognormal ones. The rank correlation is 6/pi asin(rho/2). The correlation of the sample's scores
-    is the one asked for, and zero where none is, but for what the order of n numbers cannot give: of eight properties
-    the worst pair is off by some hundredths with 30 walls, by some thousandths with 300. That of the values scatters more,
-    since each lies somewhere in its part of the range. Of four properties of which one pair was asked for 0.5, 200 seeds
-    each, that pair was off by 0.02 (median; 0.08 at most) with 30 walls, 0.007 (0.04) with 100 and 0.002 (0.01) with 300,
-    and the worst of the six pairs by 0.06 (0.19), 0.02 (0.05) and 0.014 (0.04). Against a `Choice` the correlation of the
-    values is smaller than that of the scores, however many walls there are: 0.45 instead of 0.5 for three values. Where there are no more walls
-    than properties and variables that are sampled, these are paired at random.
+    A correlation is that of the normal scores (the Gaussian copula): of the values of two normal distributions, of
+    the logarithms of two lognormal ones. The rank correlation is 6/pi asin(rho/2). The correlation of the sample's
+    scores is the one asked for, and zero where none is, but for what the order of n numbers cannot give: of eight
+    properties the worst pair is off by some hundredths with 30 walls, by some thousandths with 300. That of the
+    values scatters more, since each lies somewhere in its part of the range. Of four properties of which one pair was
+    asked for 0.5, 200 seeds each, that pair was off by 0.02 (median; 0.08 at most) with 30 walls, 0.007 (0.04) with
+    100 and 0.002 (0.01) with 300, and the worst of the six pairs by 0.06 (0.19), 0.02 (0.05) and 0.014 (0.04).
+    Against a `Choice` the correlation of the values is smaller than that of the scores, however many walls there are:
+    0.45 instead of 0.5 for three values. Where there are no more walls than properties and variables that are
+    sampled, these are paired at random.
 
     References
     ----------
