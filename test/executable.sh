@@ -512,7 +512,7 @@ done <<'TABLE'
 s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &building, &population
 s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
 s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
-s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'spreadsheet_safe', 'threads'
+s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'spreadsheet_safe', 'threads'; did you mean 'task'?
 s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are 'engine', 'rtol'
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'

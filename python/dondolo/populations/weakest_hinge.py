@@ -195,7 +195,7 @@ def weakest_hinge(
     for height, curve in zip(heights.tolist(), found.curves, strict=True):
         if not curve.has_fit and curve.bracket[0] < np.nanmin(result.thetas):
             raise DondoloError(
-                f"hinge at {height:g}: may be weaker than all others, but has no curve (status '{curve.status}'): choose"
-                " other levels"
+                f"hinge at {height:g}: may be weaker than all others, but has no curve (status '{curve.status}'):"
+                " choose other levels"
             )
     return result

@@ -15,6 +15,7 @@ module dondolo_population
    use dondolo_name_index, only : name_index_type
    use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
+   use dondolo_spelling, only : meant
    use dondolo_text, only : join, lower, to_text
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_type
@@ -194,7 +195,7 @@ contains
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
             if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == member_properties%name)) cycle
             call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(shown)//', '//join(member_properties%name))
+               & join(shown)//', '//join(member_properties%name)//trim(meant(lower(column), shown)))
          end associate
          call self%close()
          return
@@ -202,6 +203,11 @@ contains
       call sort_items(self%items)
       self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
       self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      call find_missing(self, error)
+      if (allocated(error)) then
+         call self%close()
+         return
+      end if
       self%has_hinges = self%wall_columns(find_property(wall_properties, 'hinge_at')) > 0 &
          & .or. any(self%items(1, :) == find_property(wall_properties, 'hinge_level'))
       call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
@@ -209,6 +215,27 @@ contains
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
 
    end subroutine open_population
+
+   !> Find a column that every wall needs and the table does not have: said once, not of each row
+   subroutine find_missing(self, error)
+      !> The reader, its columns known
+      type(population_reader_type), intent(in) :: self
+      !> There is one
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(wall_properties)
+         associate (property => wall_properties(i))
+            if (.not. property%required .or. self%wall_columns(i) > 0) cycle
+            if (len_trim(property%instead) > 0) then
+               if (any(self%items(1, :) == find_property(wall_properties, trim(property%instead)))) cycle
+            end if
+            call raise_input(error, self%file//': column '''//trim(property%name)//''': must be given')
+            return
+         end associate
+      end do
+   end subroutine find_missing
 
    !> Put columns of lists in the order of the lists and of the values of each, by insertion: they are few
    pure subroutine sort_items(items)

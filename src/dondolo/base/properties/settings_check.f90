@@ -3,6 +3,7 @@ submodule(dondolo_settings) dondolo_settings_check
    use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
       & name_length, number_of_choices, number_of_words
+   use dondolo_spelling, only : meant
    use dondolo_text, only : join, to_text
    implicit none
 
@@ -18,7 +19,7 @@ contains
       call self%get_table(table)
       if (allocated(self%unknown)) then
          names = table%name
-         call problems%note(self%unknown//': no such variable; there are '//join(names))
+         call problems%note(self%unknown//': no such variable; there are '//join(names)//trim(meant(self%unknown, names)))
       end if
       do i = 1, size(table)
          associate (property => table(i))

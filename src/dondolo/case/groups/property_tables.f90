@@ -20,7 +20,7 @@ module dondolo_property_tables
 
    !> Groups of a namelist
    character(len=11), parameter :: group_names(*) = [character(len=11) :: 'job', 'wall', 'building', &
-      & 'uncertainty', 'population', 'records', 'stripes', 'solver', 'history', 'check']
+      & 'population', 'records', 'stripes', 'solver', 'history', 'check', 'uncertainty']
 
    !> The same, and what rows of a population have besides the properties of a wall
    character(len=11), parameter :: table_names(*) = [character(len=11) :: group_names, 'member']

@@ -7,6 +7,7 @@ module dondolo_namelist_group
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_plain, only : name_problem, shown
+   use dondolo_spelling, only : meant
    use dondolo_text, only : first_word, join, lower, to_text
    implicit none
    private
@@ -207,7 +208,8 @@ contains
       do i = 1, size(self%variables)
          if (any(self%variables(i)%name == names)) cycle
          call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
-            & to_text(self%variables(i)%line)//'): no such variable; there are '//join(names))
+            & to_text(self%variables(i)%line)//'): no such variable; there are '//join(names)// &
+            & trim(meant(self%variables(i)%name, names)))
          return
       end do
    end subroutine check_names
