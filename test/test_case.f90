@@ -104,8 +104,8 @@ contains
       call check_error(error, '&job: number (line 3): no such variable; there are ''text'', ''more''', &
          & 'unknown variable')
       call check(index(error%message, 'did you mean') == 0, 'a name like no other')
-      call group%check_names([character(len=7) :: 'text', 'numbre', 'nmbr'], error)
-      call check_error(error, '''nmbr''; did you mean ''numbre''?', 'two letters that were swapped')
+      call group%check_names([character(len=7) :: 'text', 'more', 'list', 'whole', 'numbre'], error)
+      call check_error(error, '''numbre''; did you mean ''numbre''?', 'two letters that were swapped')
       call namelist%check_groups([character(len=3) :: 'job'], error)
       call check_error(error, '&other (line 6): no such group; there are &job', 'unknown group')
    end subroutine test_values

@@ -6,6 +6,7 @@ program test_facade
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type, read_population
+   use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 
@@ -392,7 +393,7 @@ contains
    !> A facade without a table
    subroutine test_given_facade()
 
-      type(wall_input_type) :: input
+      type(stated_wall_type) :: input
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(error_type), allocatable :: error
@@ -400,7 +401,7 @@ contains
       integer :: rows
 
       call suite('a facade alone')
-      input = facade('both')
+      input%wall_input_type = facade('both')
       call input%set('name', 'F')
       call input%set('hinge_at', 'storeys')
       call reader%open('case.nml', error, facade=input)

@@ -22,6 +22,8 @@ program test_properties
    use dondolo_solver_group, only : read_solver_group, solver_input_type
    use dondolo_stripes_group, only : check_states, read_stripes_group, stripes_input_type
    use dondolo_text, only : to_text
+   use dondolo_uncertainty_group, only : read_uncertainty_group
+   use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : mechanism_names, new_wall, wall_type
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
    implicit none
@@ -171,6 +173,8 @@ contains
          if (property%name /= 'count') write (unit, '(a)') 'count = 3'
       else if (name == 'stripes' .and. property%name /= 'levels') then
          write (unit, '(a)') 'levels = 0.1, 0.2'
+      else if (name == 'uncertainty' .and. property%kind == is_integer) then
+         write (unit, '(a)') 'hinge = ''uniform(0.5, 0.6)'''
       else if (property%name == 'vertical_factor') then
          write (unit, '(a)') 'vertical = ''recorded'''
       end if
@@ -217,6 +221,8 @@ contains
          if (property%name == 'f0') text = '2.5'
       case (is_integer, is_number_or_name)
          text = '3'
+         ! As many as the indices of one property need
+         if (property%name == 'samples') text = '60'
       case default
          text = to_text(0.9_wp*property%default + 0.1_wp*min(property%largest, 2.0_wp*property%default + 1.0_wp))
          if (property%required .or. property%optional) text = '0.2'
@@ -248,6 +254,7 @@ contains
          ! They become levels
          if (any(what == [character(len=8) :: 'first', 'last', 'count'])) cycle
          call make_value(table(i), text)
+         if (name == 'uncertainty' .and. table(i)%kind == is_text) text = ''''//trim(table(i)%example)//''''
          call write_group(name, table, table(i), text)
          call get_group(name, group, error)
          if (.not. allocated(error)) call through(name, group, settings, error)
@@ -278,6 +285,7 @@ contains
       type(solver_input_type) :: solver
       type(history_input_type) :: history
       type(check_input_type), allocatable :: check_by_code
+      type(stated_wall_type) :: wall
       character(len=:), allocatable :: file
 
       select case (name)
@@ -300,6 +308,8 @@ contains
       case ('history')
          call read_history_group(group, history, error)
          if (.not. allocated(error)) call history%put(settings)
+      case ('uncertainty')
+         call read_uncertainty_group(group, wall, settings, error)
       case ('check')
          call read_check_group(group, check_by_code, error)
          if (allocated(error)) return

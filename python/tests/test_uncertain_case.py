@@ -11,7 +11,7 @@ import dondolo as dd
 
 CASE = """&job task = 'typology', output = 'out' /
 &wall name = 'strip', mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /
-&uncertainty count = 60, seed = 3, {sources} /
+&uncertainty samples = 60, seed = 3, {sources} /
 &records catalogue = '{catalogue}' /
 &stripes first = 0.2, last = 3.0, count = 15 /
 """
@@ -111,6 +111,28 @@ def test_same_bytes(ran, executable, root, tmp_path):
     assert bodies(tmp_path)[1].split("\nsource,")[1] != sources.split("\nsource,")[1]
 
 
+def test_parts(ran, executable, root, tmp_path):
+    """Parts of the sample taken together give the tables of one run, indices included."""
+    text = CASE.format(catalogue=root / "data/records/synthetic44.csv", sources=SOURCES)
+    (tmp_path / "case.nml").write_text(text)
+    for rows in ("1:33", "34:70"):
+        part = subprocess.run([executable, "--walls", rows, "case.nml"], cwd=tmp_path, capture_output=True, check=False)
+        assert part.returncode == 0
+    parts = sorted(path.name for path in tmp_path.glob("out_walls_*.counts"))
+    assert len(parts) == 2
+    done = subprocess.run([executable, "--merge", "case.nml", *parts], cwd=tmp_path, capture_output=True, check=False)
+    assert done.returncode == 0
+    assert table(tmp_path / "out_sources.csv") == table(ran[0] / "out_sources.csv")
+
+
+def test_levels_without_medians(executable, root, tmp_path):
+    """Where too few variants have a curve there are no indices, and the summary says why."""
+    done = run(executable, root, tmp_path, SOURCES, lambda text: text.replace("0.2, last = 3.0", "0.01, last = 0.1"))
+    assert done.returncode == 0, done.stderr
+    assert "no indices: 0 samples with a curve: must be at least 38 for indices of 4 quantities" in done.stdout
+    assert {row["first"] for row in table(tmp_path / "out_sources.csv")} == {""}
+
+
 @pytest.mark.parametrize(
     ("sources", "change", "message"),
     [
@@ -125,7 +147,7 @@ def test_same_bytes(ran, executable, root, tmp_path):
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),
         ("hinge = 'uniform(0.9, 1.2)'", None, "wall 'strip 00"),
         ("thick = 'uniform(0.9, 1.2)'", None, "thick"),
-        (SOURCES, lambda text: text.replace("count = 60", "count = 20"), "count = 20: must be at least 38"),
+        (SOURCES, lambda text: text.replace("samples = 60", "samples = 20"), "samples = 20: must be at least 38"),
         (
             SOURCES,
             lambda text: text.replace("'typology'", "'stripes'"),

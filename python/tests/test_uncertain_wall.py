@@ -1,10 +1,12 @@
 """A wall whose model is uncertain: sample, dispersions, Sobol indices, ends, and what is refused."""
 
+import dataclasses
 import itertools
 
 import numpy as np
 import pytest
 from dondolo._fortran.uncertainty import published_factors, sensitivity
+from dondolo.populations.uncertain_wall import _numbers
 from scipy import stats
 
 import dondolo as dd
@@ -87,6 +89,29 @@ def test_ends(found, wall, records):
 def test_numbers(found):
     """Synthetic histories of this wall are not in doubt: the estimated error moves nothing."""
     assert found.numbers == (found.at_medians.theta, found.at_medians.theta)
+
+
+def test_histories_in_doubt(wall, records):
+    """Twice the estimated error up to the limit: a history that may collapse, or a collapse that may be none."""
+    levels = [0.6, 0.8, 1.0, 1.2]
+    stripes = dd.multiple_stripe(wall, records, levels, estimate_error=True, progress=False)
+    error = np.zeros_like(stripes.edp)
+    stays = int(np.flatnonzero(~stripes.collapsed[1])[0])
+    falls = int(np.flatnonzero(stripes.collapsed[2])[0])
+    error[1, stays] = 0.51 * (1.0 - stripes.edp[1, stays])
+    error[2, falls] = 1e-9
+    low, high = _numbers(dataclasses.replace(stripes, edp_error=error))
+    most, least = stripes.collapses.copy(), stripes.collapses.copy()
+    most[1] += 1
+    least[2] -= 1
+    assert low == dd.fit_fragility(levels, most, 20).theta
+    assert high == dd.fit_fragility(levels, least, 20).theta
+    assert low < stripes.fit().theta < high
+    # A small error far below the limit is no doubt, a large one is, wherever the EDP is
+    for given, expected in ((0.009, stripes.fit().theta), (0.011, low)):
+        calm = np.zeros_like(stripes.edp)
+        calm[1, int(np.argmin(stripes.edp[1]))] = given
+        assert _numbers(dataclasses.replace(stripes, edp_error=calm))[0] == expected
 
 
 def test_indices_sum_up(found):

@@ -42,8 +42,9 @@ if TYPE_CHECKING:
 # Shares at which one source alone is moved to its ends, and where it stays otherwise
 _ENDS = (0.05, 0.95)
 _MIDDLE = 0.5
-# An EDP in doubt: twice the estimated error reaches the limit, as src/dondolo/motion/common/response.f90 has it
-_SAFETY = 2.0
+# An outcome in doubt: twice the estimated error reaches the limit, or the error is such a share of it that the estimate
+# itself is lost, as src/dondolo/motion/common/response.f90 has it
+_SAFETY, _SATURATED = 2.0, 1e-2
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -369,7 +370,8 @@ def _variants(
 def _numbers(stripes: Stripes) -> tuple[float, float]:
     """Medians if all histories in doubt collapse, and if none does."""
     error = np.nan_to_num(np.asarray(stripes.edp_error))
-    doubtful = (error > 0.0) & (stripes.edp + _SAFETY * error >= stripes.edp_limit)
+    reaches = stripes.edp + _SAFETY * error >= stripes.edp_limit
+    doubtful = (error > 0.0) & (reaches | (error > _SATURATED * stripes.edp_limit))
     with silent():
         low, high = (
             fit_fragility(stripes.levels, (collapsed & stripes.ran).sum(axis=1), stripes.histories, im=stripes.im).theta

@@ -18,7 +18,7 @@ module dondolo_uncertainty_group
 
    !> Variables of the group; behind the first two properties of walls, by their names
    type(property_type), target, protected :: uncertainty_properties(11) = [ &
-      & property_type('count', is_integer, default=200.0_wp, smallest=1.0_wp, largest=10000.0_wp, &
+      & property_type('samples', is_integer, default=200.0_wp, smallest=1.0_wp, largest=10000.0_wp, &
       &   meaning='walls of the sample'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
       &   meaning='seed of the random numbers; the same seed gives the same walls'), &
@@ -73,11 +73,11 @@ contains
       call problems%raise(error)
       if (.not. allocated(error) .and. size(sources) == 0) call raise_input(error, 'a property must have a distribution, '// &
          & 'such as hinge = ''triangular(0.5, 0.6, 0.75)''')
-      associate (count => nint(settings%number('count')))
-         if (.not. allocated(error) .and. count < smallest_sample(size(sources))) call raise_input(error, 'count = '// &
-            & to_text(count)//': must be at least '//to_text(smallest_sample(size(sources)))//' for the indices of '// &
+      associate (samples => nint(settings%number('samples')))
+         if (.not. allocated(error) .and. samples < smallest_sample(size(sources))) call raise_input(error, 'samples = '// &
+            & to_text(samples)//': must be at least '//to_text(smallest_sample(size(sources)))//' for the indices of '// &
             & to_text(size(sources))//' properties')
-         if (.not. allocated(error)) call sample_variants(wall, sources, distributions, count, nint(settings%number('seed')))
+         if (.not. allocated(error)) call sample_variants(wall, sources, distributions, samples, nint(settings%number('seed')))
       end associate
       call group%locate(error)
    end subroutine read_uncertainty_group
