@@ -24,6 +24,7 @@ ASKED = {
     "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/record_parcel",
     "python/dondolo/_fortran/stores.f90": r"python/dondolo/_fortran/stores",
     "python/dondolo/_fortran/stripes.f90": r"python/dondolo/_fortran/stripes",
+    "python/dondolo/_fortran/uncertainty.f90": r"src/dondolo/population/sensitivity",
     "python/dondolo/_fortran/wall_parcel.f90": r"python/dondolo/_fortran/wall_parcel",
 }
 
@@ -38,6 +39,7 @@ SMALL = {
     "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
     "src/dondolo/base/system/(line_reader|number_table)": "a line, or so many numbers as the reader allows",
     "src/dondolo/population/store_format": "a head, or a row, whose length is limited",
+    "src/dondolo/population/variants": "some numbers for each sample, whose number is limited",
     "python/dondolo/_fortran/handles": "places of what was uploaded, a chunk at a time",
 }
 

@@ -219,7 +219,7 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum", "ground_velocity",
         "significant_times", "simulate", "run_block", "run_rows", "run_scaled", "fit_curves", "probability",
-        "in_series", "cluster_curves", "floor_motion",
+        "in_series", "cluster_curves", "floor_motion", "sensitivity",
     }  # fmt: skip
 
 

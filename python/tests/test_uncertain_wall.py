@@ -18,6 +18,8 @@ SOURCES = {
     "hinge_depth": dd.Uniform(0.005, 0.02),
 }
 
+SOFT = {"density": dd.Uniform(1600.0, 2000.0)}
+
 
 @pytest.fixture(scope="module")
 def records():
@@ -31,7 +33,7 @@ def wall():
 
 @pytest.fixture(scope="module")
 def found(wall, records):
-    return dd.uncertain_wall(wall, SOURCES, records, LEVELS, count=80, progress=False)
+    return dd.uncertain_wall(wall, records, LEVELS, sources=SOURCES, count=80, progress=False)
 
 
 def test_sample(found):
@@ -196,7 +198,7 @@ def test_one_sided_with_sections(records):
         gravity=9.8,
         name="front",
     )
-    found = dd.uncertain_wall(whole, {"density": dd.Uniform(1600.0, 2000.0)}, records, LEVELS, count=20, progress=False)
+    found = dd.uncertain_wall(whole, records, LEVELS, sources=SOFT, count=20, progress=False)
     one = found.sample[7]
     assert (one.section_height, one.load, one.load_inertia, one.gravity) == (
         (1.0, 0.8),
@@ -250,4 +252,4 @@ def test_plot(found):
 )
 def test_refused(wall, records, sources, message):
     with pytest.raises(dd.DondoloError, match=message):
-        dd.uncertain_wall(wall, sources, records, LEVELS, count=12, progress=False)
+        dd.uncertain_wall(wall, records, LEVELS, sources=sources, count=12, progress=False)

@@ -42,6 +42,8 @@ if TYPE_CHECKING:
 # Shares at which one source alone is moved to its ends, and where it stays otherwise
 _ENDS = (0.05, 0.95)
 _MIDDLE = 0.5
+# Walls of a sample at most, as in a case
+_MOST = 10000
 # An outcome in doubt: twice the estimated error reaches the limit, or the error is such a share of it that the estimate
 # itself is lost, as src/dondolo/motion/common/response.f90 has it
 _SAFETY, _SATURATED = 2.0, 1e-2
@@ -211,10 +213,10 @@ class UncertainWall(Shown, Saved):
 
 def uncertain_wall(
     wall: Wall,
-    sources: Mapping[str, Distribution | str],
     records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
     levels: ArrayLike,
     *,
+    sources: Mapping[str, Distribution | str],
     count: int = 200,
     seed: int = 1,
     im: str = "pga",
@@ -233,15 +235,15 @@ def uncertain_wall(
     ----------
     wall : Wall
         The wall; what is no source stays as it is.
+    records, levels, im, polarity, solver, threads, executor, progress
+        As for `typology`.
     sources : mapping of str to distribution
         Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...) and their distributions,
         such as `Uniform`, `Triangular` or `Normal`. For restitution_factor the name of a published range:
         'graziotti_2016', 0.84 to 0.90 for walls of two blocks, or 'elgawady_2010', 0.90 to 1.0 for blocks on a base
         of concrete or stone; both stand for uniform distributions.
-    records, levels, im, polarity, solver, threads, executor, progress
-        As for `typology`.
     count : int
-        Walls of the sample.
+        Walls of the sample, at most 10 000.
     seed : int
         Seed of the random numbers; the same seed gives the same walls.
 
@@ -270,7 +272,7 @@ def uncertain_wall(
     >>> wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
     >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
     >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.Triangular(0.5, 0.6, 0.75)}
-    >>> found = dd.uncertain_wall(wall, sources, records, [0.5, 1.0, 1.5, 2.0, 3.0], count=40, progress=False)
+    >>> found = dd.uncertain_wall(wall, records, [0.5, 1.0, 1.5, 2.0, 3.0], sources=sources, count=40, progress=False)
     >>> found.sources
     ('restitution_factor', 'hinge')
     >>> bool(found.beta_total > found.beta_records)
@@ -278,7 +280,7 @@ def uncertain_wall(
     """
     instance_of("wall", wall, Wall, "no wall")
     known = _distributions(wall, sources)
-    n, seed = as_count("count", count, 1), as_count("seed", seed, 0)
+    n, seed = as_count("count", count, 1, _MOST), as_count("seed", seed, 0)
     values = np.array(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )

@@ -41,7 +41,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=len(text)) :: plain
-      integer :: open, close, i
+      integer :: opening, closing, i
       logical :: ok
 
       plain = lower(adjustl(text))
@@ -51,13 +51,13 @@ contains
          found%parameters = [published_factors(i)%low, published_factors(i)%high]
          return
       end if
-      open = index(plain, '(')
-      close = len_trim(plain)
-      ok = open > 1
-      if (ok) ok = any(kinds == plain(:open - 1)) .and. plain(close:close) == ')'
+      opening = index(plain, '(')
+      closing = len_trim(plain)
+      ok = opening > 1
+      if (ok) ok = any(kinds == plain(:opening - 1)) .and. plain(closing:closing) == ')'
       if (ok) then
-         found%kind = plain(:open - 1)
-         call take_numbers(plain(open + 1:close - 1), found%parameters, ok)
+         found%kind = plain(:opening - 1)
+         call take_numbers(plain(opening + 1:closing - 1), found%parameters, ok)
       end if
       if (ok) ok = are_right(found%kind, found%parameters)
       if (ok) return
