@@ -170,11 +170,13 @@ contains
       real(wp), intent(in), optional :: vertical(:)
       type(record_type) :: record
       real(wp) :: opening
+      integer :: stopper
 
       opening = -2.0_wp*rest%moment/rest%lever
       record = accelerogram([a, opening, opening], dt)
       if (present(vertical)) record%vertical = [vertical, 0.0_wp, 0.0_wp]
-      finds_rest = rest%chain_ends(record, 1.0_wp, 1, 0.0_wp, 1.0_wp, speed, huge(dt))
+      stopper = 0
+      call rest%chain_ends(record, 1.0_wp, 1, 0.0_wp, 1.0_wp, speed, huge(dt), stopper, finds_rest)
    end function finds_rest
 
    !> Random accelerograms that keep all moments positive: where the rule finds rest, with not a bit of time to

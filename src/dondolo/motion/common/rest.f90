@@ -44,8 +44,6 @@ module dondolo_rest
       procedure :: inward_moment
       !> Does a chain of bounces end at rest, whatever happens in between?
       procedure :: chain_ends
-      !> Lower bounds of the inward moments within the height of a chain
-      procedure, private :: least_moments
    end type rest_type
 
    !> Largest relative change of the terms within the height of a chain
@@ -59,7 +57,7 @@ module dondolo_rest
    real(wp), parameter :: tiny_height = 1.0e-12_wp
 
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
-   real(wp), parameter :: speed_per_look = 3.0e-3_wp, most_bounces = 1.0e3_wp
+   real(wp), parameter :: speed_per_look = 0.1_wp, most_bounces = 1.0e3_wp
 
 contains
 
@@ -233,7 +231,10 @@ contains
    !>
    !> with a_1, a_2 the least inward decelerations of the side now active and of the other (the same one for a
    !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
-   pure function chain_ends(self, record, scale, interval, time, side, speed, peak) result(ends)
+   !>
+   !> A sample at which a moment is not positive stops any chain, whatever its side and speed. It is kept, since most
+   !> looks at a chain fail at the same sample: the next one need not go there again.
+   pure subroutine chain_ends(self, record, scale, interval, time, side, speed, peak, stopper, ends)
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample
       type(record_type), intent(in) :: record
@@ -249,8 +250,10 @@ contains
       real(wp), intent(in) :: speed
       !> Largest rotation so far, which the chain must not exceed [rad]
       real(wp), intent(in) :: peak
+      !> The sample that stopped the last look at a chain of this history; no later one is known if it has passed
+      integer, intent(inout) :: stopper
       !> True only if it is certain
-      logical :: ends
+      logical, intent(out) :: ends
 
       real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
       integer :: i
@@ -264,7 +267,12 @@ contains
          push = 0.0_wp
          if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
          weight = self%vertical_lever*abs(scale)*record%vertical_at(interval, time)
-         call self%least_moments(push, weight, here, other)
+         call least_moments(self, push, weight, here, other)
+         ! Would it be over before the sample that stops it, if its moments were no less than now?
+         if (stopper > interval) then
+            if (8.0_wp*energy*self%inertia*(other + e*here)**2 &
+               & > (((real(stopper - 1 - interval, wp)*dt - time)*(1.0_wp - e**2))*here*other)**2) return
+         end if
          least_here = here
          least_other = other
          do i = min(interval, n), n
@@ -272,7 +280,8 @@ contains
             if (i < n) push = side*scale*self%lever*a(i + 1)
             weight = 0.0_wp
             if (i < n .and. allocated(record%vertical)) weight = self%vertical_lever*abs(scale)*record%vertical(i + 1)
-            call self%least_moments(push, weight, here_next, other_next)
+            call least_moments(self, push, weight, here_next, other_next)
+            if (.not. min(here_next, other_next) > 0.0_wp) stopper = i + 1
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
             if (.not. min(least_here, least_other) > 0.0_wp) return
@@ -288,11 +297,11 @@ contains
          end do
          ends = .true.
       end associate
-   end function chain_ends
+   end subroutine chain_ends
 
    !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
    pure subroutine least_moments(self, push, weight, here, other)
-      class(rest_type), intent(in) :: self
+      type(rest_type), intent(in) :: self
       !> Inward moment of the ground on the side now active [N m]
       real(wp), intent(in) :: push
       !> Inward moment of vertical ground acceleration on either side [N m]
