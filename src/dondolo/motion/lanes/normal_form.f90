@@ -174,9 +174,9 @@ contains
       integer :: k, n
 
       associate (w => form%unit)
-         call find_amplitudes(w*z, a, form%even(1), form%odd(1), form%fifth_a, are_harmonic(1))
-         call find_amplitudes(w*z, b, form%even(2), form%odd(2), form%fifth_b, are_harmonic(2))
-         call find_amplitudes(w*z, d, form%even(3), form%odd(3), form%fifth_d, are_harmonic(3))
+         call find_amplitudes(w*z, a, form%even(1), form%odd(1), are_harmonic(1))
+         call find_amplitudes(w*z, b, form%even(2), form%odd(2), are_harmonic(2))
+         call find_amplitudes(w*z, d, form%even(3), form%odd(3), are_harmonic(3))
          do k = size(harmonic_degrees), 1, -1
             n = harmonic_degrees(k)
             if (last_term(w, n) > rounding) exit
@@ -185,13 +185,23 @@ contains
          form%is_harmonic = all(are_harmonic) .and. form%degree > 0
          if (.not. form%is_harmonic) return
          form%exists = .true.
-         if (.not. form%is_shaken) form%fifth_d = 0.0_wp
+         form%fifth_a = hypot(form%even(1), form%odd(1))*w**5/120.0_wp
+         form%fifth_b = hypot(form%even(2), form%odd(2))*w**5/120.0_wp
+         if (form%is_shaken) form%fifth_d = hypot(form%even(3), form%odd(3))*w**5/120.0_wp
          form%cosine(0) = 1.0_wp
          form%sine(0) = w
          do k = 1, form%degree/2
             form%cosine(k) = -form%cosine(k - 1)*w**2/real((2*k - 1)*2*k, wp)
             if (k < form%degree/2) form%sine(k) = -form%sine(k - 1)*w**2/real(2*k*(2*k + 1), wp)
          end do
+         n = form%degree
+         form%a(0:n:2) = form%even(1)*form%cosine(:n/2)
+         form%a(1:n - 1:2) = form%odd(1)*form%sine(:n/2 - 1)
+         form%b(0:n:2) = form%even(2)*form%cosine(:n/2)
+         form%b(1:n - 1:2) = form%odd(2)*form%sine(:n/2 - 1)
+         if (.not. form%is_shaken) return
+         form%d(0:n:2) = form%even(3)*form%cosine(:n/2)
+         form%d(1:n - 1:2) = form%odd(3)*form%sine(:n/2 - 1)
       end associate
    end subroutine find_harmonic_form
 
@@ -211,19 +221,16 @@ contains
    end function last_term
 
    !> Amplitudes of a harmonic function: at nodes that lie evenly about zero its two parts are orthogonal
-   pure subroutine find_amplitudes(angles, values, even, odd, fifth, is_harmonic)
+   pure subroutine find_amplitudes(angles, values, even, odd, is_harmonic)
       !> Angles w z [rad], and the function there
       real(wp), intent(in) :: angles(:), values(:)
       !> Amplitudes of the cosine and of the sine
       real(wp), intent(out) :: even, odd
-      !> Bound of its fifth derivative by z, divided by 5!
-      real(wp), intent(out) :: fifth
       !> Is it harmonic?
       logical, intent(out) :: is_harmonic
 
       even = sum(values*cos(angles))/sum(cos(angles)**2)
       odd = sum(values*sin(angles))/sum(sin(angles)**2)
-      fifth = hypot(even, odd)*maxval(abs(angles))**5/120.0_wp
       is_harmonic = all(abs(even*cos(angles) + odd*sin(angles) - values) <= noise*maxval(abs(values)))
    end subroutine find_amplitudes
 
