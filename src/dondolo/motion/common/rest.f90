@@ -6,6 +6,7 @@ module dondolo_rest
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
    implicit none
    private
 
@@ -40,6 +41,8 @@ module dondolo_rest
       procedure :: trigger
       !> When rocking begins
       procedure :: next_start
+      !> Does it never begin under a record?
+      procedure :: stays
       !> Moment that pushes the wall back to rest
       procedure :: inward_moment
       !> Does a chain of bounces end at rest, whatever happens in between?
@@ -220,6 +223,35 @@ contains
       end function moments
 
    end subroutine next_start_of_both
+
+   !> Does a wall at rest stay so under a whole record? Blocks of samples that cannot move it are passed over
+   pure logical function stays(self, record, set, number, scale)
+      class(rest_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Records joined, and the number of this one among them
+      type(record_set_type), intent(in) :: set
+      integer, intent(in) :: number
+      !> Factor on it
+      real(wp), intent(in) :: scale
+
+      real(wp) :: threshold, time, side
+      integer :: sample
+      logical :: found
+
+      threshold = self%trigger()
+      if (allocated(record%vertical)) then
+         sample = set%next_outside_of_both(number, 1, scale, threshold, self%vertical_lever/self%lever, self%two_sided)
+         stays = sample > set%length(number)
+         if (stays) return
+         sample = max(1, sample - 1)
+         time = 0.0_wp
+         call self%next_start(record, scale, sample, time, side, found)
+         stays = .not. found
+      else
+         stays = set%next_outside(number, 1, scale, -threshold, merge(threshold, huge(threshold), self%two_sided)) &
+            & > set%length(number)
+      end if
+   end function stays
 
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>
