@@ -317,8 +317,8 @@ contains
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
             if (.not. min(least_here, least_other) > 0.0_wp) return
-            if (here_next > here) growth = growth*max(here_next/here, other_next/other)
-            if (here_next <= here .and. other_next > other) growth = growth*(other_next/other)
+            ! Without a branch, which no processor could foresee
+            growth = growth*max(1.0_wp, here_next/here, other_next/other)
             if (energy*growth > highest*min(least_here, least_other) .or. growth > largest_growth) return
             elapsed = elapsed + dt
             ! The square of duration <= elapsed, without a quotient
