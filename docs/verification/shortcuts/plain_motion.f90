@@ -11,7 +11,7 @@ module plain_motion
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_rest, only : bounce_type, new_rest, rest_type
    use dondolo_solver, only : solver_type
    use dondolo_step_limits, only : shortest_motion
    use dondolo_tail, only : free_motion, tail_type
@@ -327,8 +327,8 @@ contains
             if (moment > 0.0_wp .and. .not. motion%resting) then
                motion%resting = 2.0_wp*motion%v*rest%inertia/moment <= shortest_motion*scene%record%dt
                stopper = 0
-               if (.not. motion%resting) call rest%chain_ends(scene%record, 1.0_wp, motion%interval, motion%time, &
-                  & motion%side, motion%v, motion%peak, stopper, motion%resting)
+               if (.not. motion%resting) call rest%chain_ends(scene%record, 1.0_wp, &
+                  & bounce_type(motion%interval, motion%time, motion%side, motion%v, motion%peak), stopper, motion%resting)
             end if
          end if
       end associate

@@ -114,6 +114,7 @@ contains
       type(suite_type), pointer :: motions
       type(rest_type) :: rest
       integer :: i, j, place
+      logical :: stays
 
       call take_motions(study, wall, study%threads, own, floors, place, motions)
       rest = new_rest(wall%mechanism)
@@ -123,8 +124,8 @@ contains
             associate (record => stripes%record(i), set => motions%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
-               if (rest%stays(motions%records(record), set, record, real(stripes%polarity(i), wp)*stripes%scale(i, j))) &
-                  & work%still = work%still + 1
+               stays = rest%stays(motions%records(record), set, record, real(stripes%polarity(i), wp)*stripes%scale(i, j))
+               if (stays) work%still = work%still + 1
             end associate
          end do
       end do

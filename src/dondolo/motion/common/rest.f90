@@ -10,7 +10,18 @@ module dondolo_rest
    implicit none
    private
 
-   public :: rest_type, new_rest
+   public :: bounce_type, rest_type, new_rest
+
+   !> A wall just after an impact
+   type :: bounce_type
+      !> Sample interval, which may lie beyond the record, and time since its first sample [s]
+      integer :: interval
+      real(wp) :: time
+      !> Side of the wall, and its speed [rad/s]
+      real(wp) :: side, speed
+      !> Largest rotation so far, which a chain of bounces must not exceed [rad]
+      real(wp) :: peak
+   end type bounce_type
 
    !> A wall near q = 0
    type :: rest_type
@@ -266,22 +277,14 @@ contains
    !>
    !> A sample at which a moment is not positive stops any chain, whatever its side and speed. It is kept, since most
    !> looks at a chain fail at the same sample: the next one need not go there again.
-   pure subroutine chain_ends(self, record, scale, interval, time, side, speed, peak, stopper, ends)
+   pure subroutine chain_ends(self, record, scale, bounce, stopper, ends)
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample
       type(record_type), intent(in) :: record
       !> Factor on it
       real(wp), intent(in) :: scale
-      !> Sample interval of the impact; may lie beyond the record
-      integer, intent(in) :: interval
-      !> Its time since the first sample of the interval [s]
-      real(wp), intent(in) :: time
-      !> Side after the impact
-      real(wp), intent(in) :: side
-      !> Speed w after the impact [rad/s]
-      real(wp), intent(in) :: speed
-      !> Largest rotation so far, which the chain must not exceed [rad]
-      real(wp), intent(in) :: peak
+      !> The impact that begins the chain
+      type(bounce_type), intent(in) :: bounce
       !> The sample that stopped the last look at a chain of this history; no later one is known if it has passed
       integer, intent(inout) :: stopper
       !> True only if it is certain
@@ -291,11 +294,12 @@ contains
       integer :: i
 
       ends = .false.
-      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution)
+      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution, &
+         & interval => bounce%interval, time => bounce%time, side => bounce%side)
          growth = 1.0_wp
          elapsed = -time
-         energy = 0.5_wp*margin*self%inertia*speed**2
-         highest = min(self%height, peak)
+         energy = 0.5_wp*margin*self%inertia*bounce%speed**2
+         highest = min(self%height, bounce%peak)
          push = 0.0_wp
          if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
          weight = self%vertical_lever*abs(scale)*record%vertical_at(interval, time)
