@@ -42,6 +42,7 @@ from dondolo.populations.typology import Typology
 from dondolo.records import pulses
 from dondolo.records.building import Building
 from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
+from dondolo.records.examples import example_records
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
 from dondolo.records.record import Record
@@ -125,6 +126,7 @@ __all__ = [
     "compare_designs",
     "compare_intensities",
     "ec8_spectrum",
+    "example_records",
     "facade",
     "fit_fragility",
     "incremental",

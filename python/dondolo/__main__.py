@@ -49,7 +49,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m dondolo",
+        # The executable hands its commands over by -c.
+        prog="dondolo" if sys.argv[0] == "-c" else "python -m dondolo",
         description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
         "Analyses are run by the executable, dondolo --help, or in Python.",
     )
