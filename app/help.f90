@@ -25,7 +25,8 @@ module dondolo_help
       & '', &
       & 'Commands of the Python package, where it is installed (dondolo plot --help says more of each):', &
       & '   dondolo plot PREFIX          draw the figures of a run from its result files', &
-      & '   dondolo report PREFIX        write a report of a run: one HTML file, or PDF', &
+      & '   dondolo report PREFIX        write a report of a run: one HTML file; with --pdf, PDF', &
+      & '   dondolo xlsx PREFIX          write its tables into a workbook of Excel or LibreOffice', &
       & '   dondolo nrml PREFIX          write its curves for OpenQuake', &
       & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
       & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &

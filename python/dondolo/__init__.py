@@ -35,6 +35,7 @@ from dondolo.exchange.fragility_model import DiscreteFragility, FragilityModel, 
 from dondolo.exchange.mean_functions import nrml_functions
 from dondolo.exchange.nrml import write_nrml
 from dondolo.exchange.results import StoredResults, read_results
+from dondolo.exchange.workbook import write_workbook
 from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
@@ -153,6 +154,7 @@ __all__ = [
     "synthetic_records",
     "typology",
     "write_nrml",
+    "write_workbook",
 ]
 # Names of walls stand where the walls do
 __all__ += _walls
